@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What the README and docs/results.md tell a newcomer is so: the scene, the commands, the tables of arrays,
+"""What the README, docs/commands.md and docs/results.md tell a newcomer is so: the scene, the commands, the tables of arrays,
 the lines of Python, the list of folders."""
 import os
 import re
@@ -17,6 +17,7 @@ SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents
 PROGRAM = Path(os.environ.get("AMONTONS_BIN", SOURCE / "build/bin")) / "amontons"
 README = (SOURCE / "README.md").read_text()
 RESULTS = (SOURCE / "docs/results.md").read_text()
+COMMANDS = (SOURCE / "docs/commands.md").read_text()
 SCENE = SOURCE / "validation/paper/fig1.yaml"
 SCRIPTS = {   # words of the launcher that are no commands of the program
     "reproduce": [sys.executable, SOURCE / "validation/paper/reproduce.py"],
@@ -79,8 +80,8 @@ class Text(unittest.TestCase):
 
 class Program(unittest.TestCase):
     def test_commands_exist(self):
-        """Each command of the table answers --help, and knows the options the README gives it."""
-        rows = re.findall(r"^\| `\./amontons (\w+)([^`]*)`", README, re.M)
+        """Each command of the table answers --help, and knows the options the table gives it."""
+        rows = re.findall(r"^\| `\./amontons (\w+)([^`]*)`", COMMANDS, re.M)
         self.assertGreaterEqual(len(rows), 3)
         for command, usage in rows:
             if command in LAUNCHER and command not in SCRIPTS:
@@ -97,7 +98,7 @@ class Program(unittest.TestCase):
         said = subprocess.run([PROGRAM, "--help"], capture_output=True, text=True).stdout
         commands = set(re.findall(r"^  (\w+)  ", said, re.M))
         self.assertGreaterEqual(commands, {"run", "static", "info"})
-        rows = "".join(re.findall(r"^\| `\./amontons .*", README, re.M))
+        rows = "".join(re.findall(r"^\| `\./amontons .*", COMMANDS, re.M))
         self.assertEqual(set(re.findall(r"`\./amontons (\w+)", rows)), commands | LAUNCHER)
 
     def test_exit_status_of_wrong_input(self):

@@ -20,7 +20,7 @@ PICTURES_MAX = 3_000_000   # bytes in all, a film among them: pages are read on 
 class Shown(unittest.TestCase):
     def test_numbers(self):
         """Pages show the mu that their commands print, with and without an error bar, in blocks and in sentences."""
-        checked = [SOURCE / name for name in ("README.md", "CHANGELOG.md", "docs/accuracy.md", "docs/tutorial.md", "docs/cookbook.md", "docs/meshes.md")]
+        checked = [SOURCE / name for name in ("README.md", "CHANGELOG.md", "docs/accuracy.md", "docs/commands.md", "docs/tutorial.md", "docs/cookbook.md", "docs/meshes.md")]
         self.assertEqual([page.name for page in SOURCE.glob("docs/*.md")
                           if page not in checked and re.search(r"^ +mu_\w+ +[\d.]+", page.read_text(), re.M)], [])
         done = subprocess.run([SOURCE / "docs/examples/shown.py", "--check", *checked], capture_output=True, text=True,

@@ -190,7 +190,7 @@ NOT_A_CHOICE = {
     "fem/element.h": {"ELEMENT_DOFS_MAX": "of each node as many as the dimension"},
     "fem/mesh_build.c": {"AREA_TOLERANCE": ROUNDING},
     "fem/element_group.h": {"GROUP_ELEMENTS_MAX": "a pair of T3 and one at each of its edges"},
-    "fem/material.c": {"AREA_RESISTS": "docs/method.md, where elements lock"},
+    "fem/material.c": {"AREA_RESISTS": "docs/meshes.md, where elements lock"},
     "fem/material.h": {"MATERIALS_MAX": SIZE, "SHEAR_AXES": "all pairs", "STRAINS_MAX": "of the largest dimension"},
     "fem/mesh.h": {"MESH_PATH_SIZE": SIZE, "PLACE_TEXT_SIZE": SIZE},
     "fem/mesh_contact.c": {"PLACE_TOLERANCE": ROUNDING, "UPRIGHT": "a face that is a side of the block"},

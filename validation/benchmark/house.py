@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What the source looks like and what runs cost, of one version beside another.
 
-    validation/benchmark/house.py BEFORE AFTER [--turns 3] [--cases CASE ...] [--page validation/benchmark/house.md]
+    validation/benchmark/house.py BEFORE AFTER [--turns 3] [--cases CASE ...]
 
 BEFORE and AFTER are checkouts, each with its build/bin. Lines and files by folder are those of the checkouts. Runs take
 turns, each a process by itself on one processor; of several turns the least processor time stands in the table, so that
@@ -10,7 +10,6 @@ a busy machine changes little. Cold: without a cache, to t = 1, which leaves mes
 U = 0.006. `reproduce --quick` is the launcher's, by each checkout."""
 import argparse
 import os
-import re
 import resource
 import subprocess
 import sys
@@ -93,7 +92,6 @@ def main():
     parser.add_argument("--turns", type=int, default=3, help="at most so many of each case")
     parser.add_argument("--cases", nargs="*", default=list(CASES))
     parser.add_argument("--reproduce", action="store_true", help="and `reproduce --quick`")
-    parser.add_argument("--page", type=Path, help="replace the two tables of this page")
     given = parser.parse_args()
     rows = []
     for name in given.cases:
@@ -108,13 +106,7 @@ def main():
     tables = (table(["folder", ".c files, before", "lines", ".h files", "lines", ".c files, after", "lines", ".h files", "lines"],
                     line_rows(given.roots)),
               table(["processor time, s", "cold, before", "after", "ratio", "warm, before", "after", "ratio"], rows))
-    if not given.page:
-        print("\n".join(tables))
-        return
-    page = given.page.read_text()
-    for mark, text in zip(("lines", "times"), tables):
-        page = re.sub(rf"(<!-- {mark} -->\n).*?(?=<!-- end -->)", lambda begin: begin[1] + text, page, flags=re.DOTALL)
-    given.page.write_text(page)
+    print("\n".join(tables))
 
 
 if __name__ == "__main__":

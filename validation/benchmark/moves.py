@@ -4,7 +4,7 @@
 
     validation/benchmark/moves.py [--turns 3] [--size 0.003125] [--equal] PROGRAM ...
 
-Programs take turns; each turn begins with an empty cache. Of each design the least of all turns (moves.md): seconds of the
+Programs take turns; each turn begins with an empty cache. Of each design the least of all turns (cold.md): seconds of the
 reduction by the clock, and processor seconds of the whole run, of which gmsh takes 0.4.
 """
 import argparse

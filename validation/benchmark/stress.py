@@ -21,7 +21,6 @@ import stress_cases
 from measured_run import ROOT, commit, markdown_table, run
 
 SCENE = Path(__file__).resolve().parent / "stress.yaml"
-MOVED = SCENE.with_name("stress_moved.in")      # by hand: which versions moved rows, and why
 FINER = ["time.tolerance=1e-4", "time.wave_step=0.05"]
 # Largest violations allowed; of energy the scene says. Contact is measured against the mean nodal
 # force and against V.
@@ -141,7 +140,7 @@ def write(folder, rows):
     wrong = sum("**WRONG**" in line[-1] for line in rows)
     text = (f"## Stress matrix\n\nVersion {commit()}: {len(rows)} runs, {wrong} wrong. Errors are "
             f"the largest over a run, relative; a twin is the same scene at finer steps unless the case says otherwise.\n\n")
-    (folder / "stress.md").write_text(text + markdown_table(HEAD, rows) + "\n\n" + MOVED.read_text())
+    (folder / "stress.md").write_text(text + markdown_table(HEAD, rows) + "\n")
     with open(folder / "stress.csv", "w", newline="") as file:
         csv.writer(file).writerows([HEAD, *rows])
 
