@@ -17,7 +17,7 @@ from pathlib import Path
 SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents[2]))
 MODULES = Path(os.environ.get("AMONTONS_MODULES", SOURCE / "build/bin"))
 
-LAYERS = ["base", "io", "algebra", "fem", "friction", "contact", "reduction", "stepping", "record", "scene", "model", "run", "study", "page", "cli"]
+LAYERS = ["base", "io", "algebra", "fem", "friction", "contact", "reduction", "stepping", "record", "answers", "scene", "model", "run", "study", "page", "cli"]
 BELOW_SCENE = LAYERS[:LAYERS.index("scene")]
 PUBLIC = ("amontons.h", "amontons_cache.h", "amontons_model1d.h", "amontons_optimise.h", "amontons_pictures.h", "amontons_simulation.h",
           "amontons_stability.h")
@@ -221,6 +221,8 @@ class Layers(unittest.TestCase):
             "src/cli/a.c": "scene/scene.h",
             "src/study/line/a.c": "study/sweep/sweep.h",
             "src/record/a.c": "scene/scene.h",
+            "src/record/b.c": "answers/answers.h",
+            "src/answers/a.c": "scene/scene.h",
             "src/io/fields/a.cc": "render/render.h",
             "src/scene/a.c": "render/quantities.h",
             "src/run/c.c": "render/view/block.h",
@@ -243,6 +245,7 @@ class Layers(unittest.TestCase):
             "src/contact/good.c": ["contact/rod.h", "fem/mesh.h"],
             "src/reduction/good.c": ["reduction/machine.h", "fem/mesh.h"],
             "src/stepping/good.c": ["contact/rod.h", "reduction/machine.h"],
+            "src/answers/good.c": ["record/drops.h", "answers/regime.h"],
             "src/study/line/good.c": ["study/line/model1d.h", "run/simulation_state.h"],
             "src/run/good.c": ["amontons.h", "scene/scene.h", "stepping/state.h", "render/render.h"],
             "src/cli/good.c": ["amontons.h", "cli/options.h"],

@@ -9,7 +9,7 @@ from pathlib import Path
 
 SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents[2]))
 # Where there are nodes. base/, cli/, page/, scene/ and the rest of io/ know none.
-FOLDERS = ["src/fem", "src/friction", "src/contact", "src/reduction", "src/stepping", "src/record", "src/model", "src/run", "src/study",
+FOLDERS = ["src/fem", "src/friction", "src/contact", "src/reduction", "src/stepping", "src/record", "src/answers", "src/model", "src/run", "src/study",
            "src/io/mesh", "src/io/fields", "render"]
 COUNTED = r"(?:\(int64_t\))?\(?[\w>.-]*\b(?:nodes?|node_count|contact_count|contacts|neighbour\w*)\b"
 IDIOMS = [
