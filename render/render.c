@@ -3,88 +3,15 @@
 #include "render/render.h"
 
 #include "io/files/folder.h"
-#include "io/text/picture_options.h"
-#include "render/canvas/foot.h"
 #include "render/figure_data.h"
-#include "render/figures/figures.h"
-#include "render/panels.h"
+#include "render/figures/picture.h"
+#include "render/picture_options.h"
 
 #include <errno.h>
 #include <limits.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
-
-enum { NAMES_SIZE = 240 };
-
-static const double FORCE_PLAIN = 0.62;   // of force without an inset: height over width
-
-typedef enum FigureId {
-#define X(symbol, name, title) symbol,
-    RENDER_FIGURES(X) FIGURE_COUNT
-#undef X
-} FigureId;
-
-// Height over width is that of a column.
-static const struct FigureShape {
-    double height_over_width;
-    FigureFunction draw;
-    bool own_axes;   // no U along x: it cannot be a panel, and is drawn for who asks
-    WholeFigureFunction draw_whole;   // in its place: begins the page itself, and needs fields
-} SHAPES[FIGURE_COUNT] = {[FIGURE_FORCE] = {0.85, .draw = figure_force},
-                          [FIGURE_SLIP_MAP] = {0.62, .draw = figure_slip_map},
-                          [FIGURE_CONTACT_DENSITY] = {0.62, .draw = figure_contact_density},
-                          [FIGURE_STATE_MAP] = {0.62, .draw = figure_state_map},
-                          [FIGURE_CONTACT_PLANE] = {.draw_whole = figure_contact_plane},
-                          [FIGURE_PRECURSORS] = {0.62, figure_precursors, .own_axes = true},
-                          [FIGURE_FRONT_SPEED] = {0.62, figure_front_speed, .own_axes = true},
-                          [FIGURE_FIELD] = {.draw_whole = figure_field},
-                          [FIGURE_STRIP] = {.draw_whole = figure_strip}};
-
-typedef struct Figure {
-    FigureId id;
-    const char *name, *title;
-    const struct FigureShape *shape;
-} Figure;
-
-static const Figure FIGURES[FIGURE_COUNT] = {
-#define X(symbol, name, title) {symbol, name, title, &SHAPES[symbol]},
-    RENDER_FIGURES(X)
-#undef X
-};
-
-// Height over width on a column.
-static double figure_shape(const Figure *figure, const ResultView *view, const PictureStyle *style)
-{
-    bool plain = figure->id == FIGURE_FORCE && !figure_force_enlarges(view, style);
-    return plain ? FORCE_PLAIN : figure->shape->height_over_width;
-}
-
-// The figure called `name`, or ERROR_INPUT with the names there are.
-static bool figure_find(const char *name, const Figure **figure, Error *err)
-{
-    char names[NAMES_SIZE] = "";
-    for (int32_t k = 0; k < FIGURE_COUNT; ++k) {
-        *figure = &FIGURES[k];
-        if (strcmp(FIGURES[k].name, name) == 0) return true;
-        size_t used = strlen(names);
-        snprintf(names + used, sizeof names - used, "%s%s", k > 0 ? ", " : "", FIGURES[k].name);
-    }
-    return REFUSE(err, "there is no figure called \"%s\"; known are: %s", name, names);
-}
-
-// One picture: a figure, or several as panels.
-typedef struct Picture {
-    const Figure *figure;   // NULL: panels
-    int32_t count;
-    PanelFigure parts[PANELS_MAX];   // [count]
-} Picture;
-
-static void add_part(Picture *picture, const Figure *figure)
-{
-    picture->parts[picture->count++] =
-        (PanelFigure){.name = figure->name, .figure = (int32_t)figure->id};
-}
 
 // The figures that `names` has, separated by commas.
 static bool find_panels(const char *names, Picture *picture, Error *err)
@@ -96,8 +23,7 @@ static bool find_panels(const char *names, Picture *picture, Error *err)
         if (!figure_find(name, &figure, err)) return false;
         if (!figure->shape->draw || figure->shape->own_axes)
             return REFUSE(err, "panels are figures over U: %s cannot be one", name);
-        if (picture->count == PANELS_MAX) return REFUSE(err, "a page takes %d panels", PANELS_MAX);
-        add_part(picture, figure);
+        if (!picture_add(picture, figure, err)) return false;
     }
     return picture->count > 0 || REFUSE(err, "no panel is named");
 }
@@ -107,11 +33,10 @@ static bool find_picture(const PictureRequest *request, int32_t k, Picture *pict
 {
     *picture = (Picture){0};
     if (request->panels) return find_panels(request->panels, picture, err);
-    picture->figure = &FIGURES[k % FIGURE_COUNT];
+    picture->figure = figure_get((FigureId)(k % FIGURE_COUNT));
     if (request->figure_count > 0 && !figure_find(request->figures[k], &picture->figure, err))
         return false;
-    add_part(picture, picture->figure);
-    return true;
+    return picture_add(picture, picture->figure, err);
 }
 
 static int32_t picture_count(const PictureRequest *request)
@@ -132,55 +57,6 @@ static bool picture_path(const char *folder, const PictureRequest *request, cons
            REFUSE(err, "the result folder's path is too long");
 }
 
-// Makes a panel for each of several states, and sets the shapes of all panels.
-static bool spread_states(const ResultView *view, const PictureStyle *style, Picture *picture,
-                          Error *err)
-{
-    int32_t more = view->states - 1;
-    PanelFigure *parts = picture->parts;
-    for (int32_t k = picture->count - 1; k >= 0; --k) {
-        const Figure *figure = &FIGURES[parts[k].figure];
-        parts[k].draw = figure->shape->draw;
-        parts[k].shape = figure_shape(figure, view, style);
-        if (figure->id != FIGURE_STATE_MAP || more < 1) continue;
-        if (picture->count + more > PANELS_MAX)
-            return REFUSE(err, "a page takes %d panels", PANELS_MAX);
-        memmove(parts + k + 1 + more, parts + k + 1,
-                (size_t)(picture->count - k - 1) * sizeof *parts);
-        for (int32_t i = 1; i <= more; ++i) parts[k + i] = parts[k];
-        for (int32_t i = 1; i <= more; ++i) parts[k + i].state = i;
-        picture->count += more;
-    }
-    return true;
-}
-
-// On a fresh page, to be finished.
-static bool draw(const char *folder, const PictureRequest *request, const Picture *asked,
-                 ResultView *view, Page *page, Error *err)
-{
-    const PictureStyle *style = &request->style;
-    const Figure *figure = asked->figure;
-    bool warns = !style->warnings || strcmp(style->warnings, "none") != 0;
-    Foot foot = foot_wrap(warns ? view->warnings : "", page_width(style));
-    Picture picture = *asked;
-    PageDef def = {
-        .style = style, .title = page_title(style, view->title, false), .foot = foot_height(&foot)};
-    FigureInput input = {view, folder, &request->field, def};
-    TRY(spread_states(view, style, &picture, err));
-    if (!figure || picture.count > 1) {
-        TRY(panels_draw(page, &def, picture.parts, picture.count, view, err));
-    } else if (figure->shape->draw_whole) {
-        TRY(figure->shape->draw_whole(page, &input, err));
-    } else {
-        def.height = page_shape(style, picture.parts[0].shape);
-        TRY(page_begin(page, &def, err) && figure->shape->draw(page, view, err));
-    }
-    foot_draw(page, &foot);
-cleanup:
-    error_context(err, "figure %s", figure ? figure->name : "panels");
-    return error_is_clean(err);
-}
-
 // One picture from nothing to its file. Whatever fails, all that was made for it is freed.
 static bool make_picture(const char *folder, const PictureRequest *request, const Picture *picture,
                          ResultView *view, Error *err)
@@ -189,22 +65,13 @@ static bool make_picture(const char *folder, const PictureRequest *request, cons
     char path[PATH_MAX];
     const Figure *figure = picture->figure;
     TRY(picture_path(folder, request, figure, path, err));
-    TRY(draw(folder, request, picture, view, &page, err));
+    TRY(picture_draw(picture, folder, request, view, &page, err));
     TRY(page_finish(&page, path, figure ? figure->title : view->title, err));
     for (int32_t k = 0; k < picture->count; ++k)
         TRY(figure_data_write(folder, picture->parts[k].name, view, request->style.compare, err));
 cleanup:
     page_destroy(&page);
     return error_is_clean(err);
-}
-
-bool figure_draw(const char *name, ResultView *view, const PictureStyle *style, Page *page,
-                 Error *err)
-{
-    Picture picture;
-    const PictureRequest request = {.style = *style, .figures = &name, .figure_count = 1};
-    return find_picture(&request, 0, &picture, err) &&
-           draw("", &request, &picture, view, page, err);
 }
 
 static bool make_figures_folder(const char *result, Error *err)
@@ -232,13 +99,6 @@ static bool request_check(const char *folder, const PictureRequest *request, Err
     if (stat(folder, &about) != 0)
         return REFUSE(err, "cannot find the result folder %s: %s", folder, strerror(errno));
     return S_ISDIR(about.st_mode) || REFUSE(err, "%s is not a folder", folder);
-}
-
-bool figure_is_there(const char *name, const ResultView *view)
-{
-    if (strcmp(name, FIGURES[FIGURE_STATE_MAP].name) == 0) return view->states > 0;
-    return strcmp(name, FIGURES[FIGURE_CONTACT_PLANE].name) != 0 ||
-           (view->line && view->rapid_count > 0 && result_file_has_faces(view->file));
 }
 
 // Who asks for all figures gets those that there are, and of fields those that have what is asked
@@ -274,10 +134,10 @@ static bool check_compare(const PictureRequest *request, ResultView *view, Error
                 return false;
     }
     for (int32_t k = 0; k < FIGURE_COUNT && !shows; ++k) {
-        if (!figure_data_measured(FIGURES[k].name, compare, view, &shows, err)) return false;
+        const char *name = figure_get((FigureId)k)->name;
+        if (!figure_data_measured(name, compare, view, &shows, err)) return false;
         if (shows)
-            return REFUSE(err, "measurements %s: the figure that shows them is %s", compare,
-                          FIGURES[k].name);
+            return REFUSE(err, "measurements %s: the figure that shows them is %s", compare, name);
     }
     return true;
 }

@@ -12,46 +12,6 @@
 #include "io/mesh/mesh_file.h"
 #include "io/text/html_writer.h"
 
-// Quantities that `field` may show: X(symbol, name, words, unit in SI, unit in normalised scenes).
-// Stresses hold the viscous part.
-#define BLOCK_QUANTITIES(X)                                                                        \
-    X(BLOCK_VON_MISES, "von_mises", "von Mises stress", "Pa", "~{E}")                              \
-    X(BLOCK_STRESS_XX, "stress_xx", "stress ~{\u03c3}_{xx}", "Pa", "~{E}")                         \
-    X(BLOCK_STRESS_YY, "stress_yy", "stress ~{\u03c3}_{yy}", "Pa", "~{E}")                         \
-    X(BLOCK_STRESS_ZZ, "stress_zz", "stress ~{\u03c3}_{zz}", "Pa", "~{E}")                         \
-    X(BLOCK_STRESS_XZ, "stress_xz", "stress ~{\u03c3}_{xz}", "Pa", "~{E}")                         \
-    X(BLOCK_STRESS_XY, "stress_xy", "stress ~{\u03c3}_{xy}", "Pa", "~{E}")                         \
-    X(BLOCK_STRESS_YZ, "stress_yz", "stress ~{\u03c3}_{yz}", "Pa", "~{E}")                         \
-    X(BLOCK_PRESSURE, "pressure", "pressure \u2212(~{\u03c3}_{xx} + ~{\u03c3}_{zz})/2", "Pa",      \
-      "~{E}")                                                                                      \
-    X(BLOCK_VELOCITY, "velocity", "velocity |~{v}|", "m/s", "(~{L}_{0} / ~{t}_{0})")               \
-    X(BLOCK_DISPLACEMENT, "displacement", "displacement |~{u}|", "m", "~{L}_{0}")                  \
-    X(BLOCK_ENERGY, "strain_energy", "strain energy density", "J/m^{3}", "~{E}")                   \
-    X(BLOCK_DISSIPATION, "dissipation", "dissipation rate", "W/m^{3}", "(~{E} / ~{t}_{0})")
-
-// Quantities that `contact-plane` may show, in the same way; a state also by its own name.
-#define CONTACT_QUANTITIES(X)                                                                      \
-    X(CONTACT_SLIP_RATE, "slip_rate", "slip rate", "m/s", "(~{L}_{0} / ~{t}_{0})")                 \
-    X(CONTACT_DENSITY, "contact_density", "contact density ~{\u03c6}", "", "")                     \
-    X(CONTACT_PRESSURE, "pressure", "pressure ~{p}", "Pa", "~{E}")                                 \
-    X(CONTACT_SHEAR, "shear", "shear stress |~{\u03c4}|", "Pa", "~{E}")                            \
-    X(CONTACT_RATIO, "shear_over_pressure", "|~{\u03c4}| / ~{p}", "", "")                          \
-    X(CONTACT_SLIP, "slip", "slip since (a)", "m", "~{L}_{0}")                                     \
-    X(CONTACT_STATE, "state", "", "", "")                                                          \
-    X(CONTACT_ARRIVAL, "arrival", "arrival of rapid slip", "s", "~{t}_{0}")
-
-// X(symbol, name, title)
-#define RENDER_FIGURES(X)                                                                          \
-    X(FIGURE_FORCE, "force", "F_T/F_N against U, with an inset of the precursors")                 \
-    X(FIGURE_SLIP_MAP, "slip-map", "log10 of slip rate over V, against U and x")                   \
-    X(FIGURE_CONTACT_DENSITY, "contact-density", "contact density before sliding, zoomed in U")    \
-    X(FIGURE_STATE_MAP, "state-map", "what friction remembers, against U and x")                   \
-    X(FIGURE_CONTACT_PLANE, "contact-plane", "the contact of a block in space at chosen moments")  \
-    X(FIGURE_PRECURSORS, "precursors", "how long slip is against F_T/F_N")                         \
-    X(FIGURE_FRONT_SPEED, "front-speed", "how fast the front of a sliding runs, against x")        \
-    X(FIGURE_FIELD, "field", "a field of the block at one time")                                   \
-    X(FIGURE_STRIP, "field-strip", "a field of the block in frames of one sliding")
-
 typedef bool (*RenderFunction)(const char *folder, const PictureRequest *request, Error *err);
 
 // The module's entry: amontons_render_result. An unknown name is ERROR_INPUT and lists those that

@@ -97,7 +97,7 @@ typedef struct RunWarnings {   // what makes an answer doubtful, a sentence each
 
 // Results of a run, for the closing lines; run.json holds more.
 typedef struct RunSummary {
-    // Answers, as record/answers.h defines them: macroscopic static friction coefficient, holding
+    // Answers, as answers/answers.h defines them: macroscopic static friction coefficient, holding
     // coefficient, the largest mu. NaN: the block did not slide; the load did not drop.
     double mu_M, mu_hold, mu_max, mu_steady;   // mu_steady: at which it slides at the end; NaN
     double mu_M_error, mu_hold_error;   // bars of 95 %, of the parts that are known; NaN: none is

@@ -13,6 +13,18 @@
 extern "C" {
 #endif
 
+// Figures of a result: X(symbol, name, title). Names are those of `output.figures`.
+#define PICTURE_FIGURES(X)                                                                         \
+    X(FIGURE_FORCE, "force", "F_T/F_N against U, with an inset of the precursors")                 \
+    X(FIGURE_SLIP_MAP, "slip-map", "log10 of slip rate over V, against U and x")                   \
+    X(FIGURE_CONTACT_DENSITY, "contact-density", "contact density before sliding, zoomed in U")    \
+    X(FIGURE_STATE_MAP, "state-map", "what friction remembers, against U and x")                   \
+    X(FIGURE_CONTACT_PLANE, "contact-plane", "the contact of a block in space at chosen moments")  \
+    X(FIGURE_PRECURSORS, "precursors", "how long slip is against F_T/F_N")                         \
+    X(FIGURE_FRONT_SPEED, "front-speed", "how fast the front of a sliding runs, against x")        \
+    X(FIGURE_FIELD, "field", "a field of the block at one time")                                   \
+    X(FIGURE_STRIP, "field-strip", "a field of the block in frames of one sliding")
+
 // How a picture is drawn, in ONE table: the options of `amontons render`, the keys of `page` in a
 // plot file, what Python's functions take, and the members of PictureStyle.
 // X(name, kind, least, most, figures that take it ("": all; "plot": a plot file), words that are

@@ -3,7 +3,7 @@
 
 #include "base/memory.h"
 #include "base/order.h"
-#include "io/text/picture_options.h"
+#include "render/picture_options.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -8,7 +8,7 @@
 #include "render/figures/contact_map.h"
 #include "render/view/contact_moments.h"
 #include "render/figures/color_scale.h"
-#include "render/render.h"
+#include "render/quantities.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The figures: three after figure 1(b), (c) and (d) of the paper, drawn on a page of known height,
-// and the block, whose height its page takes. Called by render.c.
+// and the block, whose height its page takes. Called by picture.c.
 #ifndef AMONTONS_RENDER_FIGURES_FIGURES_H
 #define AMONTONS_RENDER_FIGURES_FIGURES_H
 
@@ -12,6 +12,12 @@
     "the result has no critical velocity, which the contact density is defined by"
 static const Color FIGURE_CURVE = {0.05f, 0.27f, 0.55f, 1};
 static const Color FIGURE_LEVEL = {0.45f, 0.45f, 0.47f, 1};   // of what a curve is measured by
+
+typedef enum FigureId {
+#define X(symbol, name, title) symbol,
+    PICTURE_FIGURES(X) FIGURE_COUNT
+#undef X
+} FigureId;
 
 // The view may read more of the result, hence not const.
 typedef bool (*FigureFunction)(const Page *page, ResultView *view, Error *err);
@@ -52,12 +58,6 @@ bool figure_contact_density(const Page *page, ResultView *view, Error *err);
 bool figure_precursors(const Page *page, ResultView *view, Error *err);
 // How fast the front of the sliding that is enlarged ran, over x.
 bool figure_front_speed(const Page *page, ResultView *view, Error *err);
-
-// Whether a result has what a figure of that name shows. In render.c, like the next.
-bool figure_is_there(const char *name, const ResultView *view);
-// The figure called `name`, one of the history alone, on a fresh page.
-bool figure_draw(const char *name, ResultView *view, const PictureStyle *style, Page *page,
-                 Error *err);
 
 // Axes of force curves of [count] results, in a frame that is known; y: headroom times their range,
 // 0 included.

@@ -5,7 +5,7 @@
 
 #include "base/memory.h"
 #include "render/canvas/svg_chart.h"
-#include "render/figures/figures.h"
+#include "render/figures/picture.h"
 #include "render/plot/figure_curves.h"
 #include "render/plot/plot_file.h"
 

@@ -5,7 +5,7 @@
 
 #include "base/memory.h"
 #include "base/order.h"
-#include "io/text/picture_options.h"
+#include "render/picture_options.h"
 #include "render/plot/legend.h"
 #include "render/plot/panel.h"
 #include "render/plot/plot_compare.h"

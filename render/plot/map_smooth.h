@@ -5,7 +5,7 @@
 #ifndef AMONTONS_RENDER_PLOT_MAP_SMOOTH_H
 #define AMONTONS_RENDER_PLOT_MAP_SMOOTH_H
 
-#include "io/text/picture_options.h"
+#include "render/picture_options.h"
 #include "render/canvas/canvas.h"
 #include "render/plot/map_cells.h"
 

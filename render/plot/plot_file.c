@@ -4,7 +4,7 @@
 #include "render/plot/plot_file.h"
 
 #include "base/memory.h"
-#include "io/text/picture_options.h"
+#include "render/picture_options.h"
 #include "render/plot/plot_fit.h"
 #include "render/plot/plot_reader.h"
 

@@ -8,7 +8,7 @@
 #include "io/fields/field_read.h"
 #include "render/view/camera.h"
 #include "render/view/result_view.h"
-#include "render/render.h"
+#include "render/quantities.h"
 
 typedef enum BlockQuantity {
 #define X(symbol, name, words, si, normalised) symbol,

@@ -19,7 +19,7 @@ enum { FIRST_ROOM = 16 };
 static const Drop NOTHING_SEEN = {
     .mu = -INFINITY, .mu_after = INFINITY, .front_uncertified = NAN, .front_growth = NAN};
 
-static int32_t state_size(const Drops *drops)
+int32_t drops_state_size(const Drops *drops)
 {
     return 2 * drops->stretches.count;
 }
@@ -48,7 +48,7 @@ bool drops_create(const Interface *interface, const Events *events, double toler
     drops->list = NEW_ARRAY(Drop, FIRST_ROOM, err);
     drops->series = NEW_ARRAY(SeriesItem, FIRST_ROOM, err);
     drops->slid = NEW_ARRAY(uint8_t, FIRST_ROOM * drops->pad_count, err);
-    drops->states = NEW_ARRAY(double, (FIRST_ROOM + 1) * state_size(drops), err);
+    drops->states = NEW_ARRAY(double, (FIRST_ROOM + 1) * drops_state_size(drops), err);
     return error_is_clean(err);
 }
 
@@ -64,7 +64,7 @@ void drops_destroy(Drops *drops)
 // `rising` joins the list, and what follows starts anew. ERROR_MEMORY leaves the list as it was.
 static bool push_drop(Drops *drops, const Interface *interface, Error *err)
 {
-    int32_t room = drops->room, size = state_size(drops);
+    int32_t room = drops->room, size = drops_state_size(drops);
     if (!memory_grow(&drops->series, drops->count, &room, sizeof *drops->series, err)) return false;
     if (room > drops->room &&
         (!memory_resize(&drops->states, (int64_t)(drops->room + 1) * size,
@@ -96,7 +96,7 @@ static void rise(Drops *drops, const Observation *seen)
     rising->mu = seen->mu;
     rising->U = seen->U;
     stretches_read(&drops->stretches, seen,
-                   &drops->states[(int64_t)drops->count * state_size(drops)]);
+                   &drops->states[(int64_t)drops->count * drops_state_size(drops)]);
 }
 
 // Across gaps the place of the front is no length of slip.
@@ -223,30 +223,6 @@ Drop drops_as(const Drops *drops, DropKind kind, int32_t k)
     return drop;
 }
 
-int32_t drops_series(const Drops *drops, DropKind kind, int32_t first)
-{
-    int32_t count = 0;
-    for (int32_t k = first; k < drops->count; k++) {
-        if (!drop_is(&drops->list[k], kind)) continue;
-        Drop drop = drops_as(drops, kind, k);
-        drops->series[count++] = (SeriesItem){
-            drop.mu, drop.pads, &drops->states[(int64_t)drop.state * state_size(drops)]};
-    }
-    return count;
-}
-
-const Event *drops_least_resolved(const Drops *drops, int32_t first)
-{
-    const Event *least = NULL;
-    for (int32_t k = first; k < drops->count; k++) {
-        if (!drop_is(&drops->list[k], DROP_LOAD)) continue;
-        const Event *event = &drops->events->list[drops->list[k].event];
-        if (isnan(event->slip_cells)) continue;   // slid from the first step on
-        if (!least || event->slip_cells < least->slip_cells) least = event;
-    }
-    return least;
-}
-
 // events: its own is one of so many.
 static void drop_archive(Drop *drop, int32_t events, Archive *archive)
 {
@@ -265,7 +241,7 @@ static bool make_room(Drops *drops, Error *err)
     memory_free_all(drops->series, drops->slid, drops->states);
     drops->slid = NEW_ARRAY(uint8_t, (int64_t)drops->room * drops->pad_count, err);
     drops->series = NEW_ARRAY(SeriesItem, drops->room, err);
-    drops->states = NEW_ARRAY(double, (int64_t)(drops->room + 1) * state_size(drops), err);
+    drops->states = NEW_ARRAY(double, (int64_t)(drops->room + 1) * drops_state_size(drops), err);
     return error_is_clean(err);
 }
 
@@ -282,7 +258,7 @@ bool drops_archive(Drops *drops, Archive *archive, Error *err)
         drops->list[k].state = k;
     }
     archive_octets(archive, drops->slid, drops->count * drops->pad_count);
-    archive_numbers(archive, drops->states, (int64_t)(drops->count + 1) * state_size(drops));
+    archive_numbers(archive, drops->states, (int64_t)(drops->count + 1) * drops_state_size(drops));
     stretches_archive(&drops->stretches, archive);
     archive_index(archive, &drops->settled, -1, drops->count + 1);
     drop_archive(&drops->rising, events + 1, archive);   // it has none yet

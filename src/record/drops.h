@@ -7,7 +7,7 @@
 //                   block on pads may have them without ever sliding as a whole
 //   pad slidings    some pads slid over all their length, also where their neighbours took over
 //                   the load and mu hardly fell
-// Fed after record/events; read by record/answers.
+// Fed after record/events; read by answers/.
 #ifndef AMONTONS_RECORD_DROPS_H
 #define AMONTONS_RECORD_DROPS_H
 
@@ -38,7 +38,7 @@ typedef struct Drops {
     double tolerance;   // drops agree within this, relative
     int32_t count, room;
     Drop *list;   // [count] in order of time; owned
-    SeriesItem *series;   // [room] work; owned
+    SeriesItem *series;   // [room] work of answers/drop_series; owned
     Stretches stretches;   // of the contact
     uint8_t *slid;   // [room][pad_count] 1: this pad slid over all its length in the drop; owned
     int32_t pad_count;
@@ -64,21 +64,12 @@ bool drops_create(const Interface *interface, const Events *events, double toler
 void drops_destroy(Drops *drops);
 bool drops_record(void *self, const Observation *seen, Error *err);   // a Recorder
 
-// So many cells must slip before slow slip turns fast for mu to be sure; measured: run/warnings.
-enum { SLIP_CELLS_ENOUGH = 8 };
-
+int32_t drops_state_size(const Drops *drops);   // numbers in a row of `states`
 bool drop_is(const Drop *drop, DropKind kind);
 int32_t drops_count(const Drops *drops, DropKind kind);
 // Drop k of the list as one of this kind: what it holds since the drop before, it holds since the
 // one of the same kind before.
 Drop drops_as(const Drops *drops, DropKind kind, int32_t k);
-// mu of the drops of one kind from number `first` of the list on, into drops->series, their kind
-// the number of pads that slid, with the contact's state. Returns how many they are.
-int32_t drops_series(const Drops *drops, DropKind kind, int32_t first);
-// Among the load drops from number `first` of the list on, finds the event before which the fewest
-// cells slipped on the pad where slow slip turned fast; NULL: no such drop.
-const Event *drops_least_resolved(const Drops *drops, int32_t first);
-
 bool drops_archive(Drops *drops, Archive *archive, Error *err);
 
 #endif

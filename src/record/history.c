@@ -196,7 +196,7 @@ bool history_sync(History *history, Error *err)
 }
 
 // Entry number k of a table, of peaks or of events. false: that drop is no peak, a bulk sliding.
-static bool table_entry(const Drops *drops, const Answers *answers, int32_t k, ResultTable table,
+static bool table_entry(const Drops *drops, int32_t counted, int32_t k, ResultTable table,
                         double *value)
 {
     const Event *event = &drops->events->list[k];
@@ -205,7 +205,7 @@ static bool table_entry(const Drops *drops, const Answers *answers, int32_t k, R
     Drop peak = of_peaks ? drops_as(drops, DROP_BULK, k) : (Drop){0};
     *value = (const double[RESULT_TABLES_COUNT]){[PEAKS_U] = peak.U,
                                                  [PEAKS_MU] = peak.mu,
-                                                 [PEAKS_COUNTS] = k >= answers->first,
+                                                 [PEAKS_COUNTS] = k >= counted,
                                                  [EVENTS_KIND] = event->kind,
                                                  [EVENTS_U_START] = event->U_start,
                                                  [EVENTS_U_STOP] = event->U_stop,
@@ -220,7 +220,8 @@ static bool table_entry(const Drops *drops, const Answers *answers, int32_t k, R
 
 // Tables of peaks and events, mu_M and l_c where there are any, then the file gets its final name.
 // After a failure the file is no longer `history`'s.
-bool history_finish(History *history, const Drops *drops, const Answers *answers, Error *err)
+bool history_finish(History *history, const Drops *drops, int32_t counted, double mu_M, double l_c,
+                    Error *err)
 {
     const Events *events = drops->events;   // as many as drops, or more
     double *column = NEW_ARRAY(double, events->count, err);
@@ -229,15 +230,13 @@ bool history_finish(History *history, const Drops *drops, const Answers *answers
         int32_t count = 0;
         if (table == EVENTS_SLIPPED && !events->in_space) continue;
         for (int32_t k = 0; k < events->count; k++)
-            count += table_entry(drops, answers, k, table, &column[count]);
+            count += table_entry(drops, counted, k, table, &column[count]);
         TRY(result_file_write_table(history->file, table, column, count, err));
     }
-    if (!isnan(answers->mu_M.value))
-        TRY(array_file_set_number(history->file, result_number_name(NUMBER_MU_M),
-                                  answers->mu_M.value, err));
-    if (history->pad_count == 1 && !isnan(answers->critical_length))
-        TRY(array_file_set_number(history->file, result_number_name(NUMBER_L_C),
-                                  answers->critical_length, err));
+    if (!isnan(mu_M))
+        TRY(array_file_set_number(history->file, result_number_name(NUMBER_MU_M), mu_M, err));
+    if (history->pad_count == 1 && !isnan(l_c))
+        TRY(array_file_set_number(history->file, result_number_name(NUMBER_L_C), l_c, err));
     ArrayFile *file = history->file;
     history->file = NULL;
     TRY(array_file_close(file, err));

@@ -5,8 +5,8 @@
 #define AMONTONS_RECORD_HISTORY_H
 
 #include "io/hdf5/result_file.h"
-#include "record/answers.h"
 #include "record/contact_arrays.h"
+#include "record/drops.h"
 
 // By which a saved state knows its history again.
 typedef struct HistoryEnd {
@@ -46,7 +46,9 @@ bool history_has_end(ArrayFile *file, const HistoryEnd *end, Error *err);
 bool history_take_back(History *history, const HistoryEnd *end, Error *err);
 bool history_sync(History *history, Error *err);   // all steps onto the disk; fine without a file
 
-// Tables of peaks and events, and what is known only now; then the file gets its final name.
-bool history_finish(History *history, const Drops *drops, const Answers *answers, Error *err);
+// Writes tables of peaks and events, mu_M and l_c; then the file gets its final name. Peaks count
+// from drop number `counted` of the list on. mu_M and l_c (length) NaN: there is none.
+bool history_finish(History *history, const Drops *drops, int32_t counted, double mu_M, double l_c,
+                    Error *err);
 
 #endif

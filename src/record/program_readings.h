@@ -15,7 +15,7 @@
 //     healing         the first peak of mu after a hold, less the level before the hold
 //
 // Errors add up what levels, velocities, slip so far and bins leave open. Only of a
-// program that jumps (program_jumps); record/program_results says what they come to.
+// program that jumps (program_jumps); answers/program_results says what they come to.
 #ifndef AMONTONS_RECORD_PROGRAM_READINGS_H
 #define AMONTONS_RECORD_PROGRAM_READINGS_H
 

@@ -3,11 +3,12 @@
 // slides slowly after the rod and the load never drops. What it then holds is F_T/F_N at which it
 // slides. Steady is a state in which every node of the contact slips (or is open), none fast, and
 // mu keeps within STEADY_RANGE while the drive goes as far as the slip that the drop of friction
-// drives. Fed after record/events; read by run/ at the end of a run.
+// drives. Fed after record/events; read by answers/steady_answer.
 #ifndef AMONTONS_RECORD_STEADY_H
 #define AMONTONS_RECORD_STEADY_H
 
-#include "record/answers.h"
+#include "record/events.h"
+#include "record/series.h"
 
 typedef struct Steady {
     const Events *events;   // not owned
@@ -23,14 +24,6 @@ bool steady_record(void *self, const Observation *seen, Error *err);   // a Reco
 
 // The mean of mu since it is steady, and half its range; NaN: the run does not end so.
 Estimate steady_mu(const Steady *steady);
-
-// Where no bulk sliding counts mu_M is that of steady sliding, its error half the range in which it
-// keeps; other meshes have another, as with load drops.
-void steady_answer(const Steady *steady, Answers *answers);
-// The meaning of mu_M: "peaks", "steady sliding", or "none: " and why.
-const char *steady_words(const Steady *steady, const Answers *answers);   // static storage
-// Into results: mu_M_is, mu_steady, its error and from where on.
-void steady_write_json(const Steady *steady, const Answers *answers, JsonWriter *json);
 
 void steady_archive(Steady *steady, Archive *archive);
 

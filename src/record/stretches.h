@@ -3,7 +3,7 @@
 // part of one; each carries a share of the load and lags behind the drive. An elastic block at rest
 // is in the same state as before when all of them carry the same again, and it can only come back
 // to it when each has slipped as far as the drive has gone: a stretch that sticks on is loaded more
-// and more. Kept for each drop by record/drops, judged by record/regime.
+// and more. Kept for each drop by record/drops, judged by answers/regime.
 #ifndef AMONTONS_RECORD_STRETCHES_H
 #define AMONTONS_RECORD_STRETCHES_H
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // amontons_run: one run, or, where the scene asks for an error bar (accuracy.mu), runs on meshes of
-// falling cell size until the bar (record/error_bars) is met.
+// falling cell size until the bar (answers/error_bars) is met.
 //
 // A level is a mesh, mesh.set.refine times as fine as the scene's; the first is the coarsest with
 // enough contact nodes. Its runs write nothing and end as soon as their answer is known; they
 // differ in pressure within accuracy.window, and share mesh and basis. What is done next
 // follows from the largest part of the bar: a finer mesh, or more runs on this one. The last run is
 // the scene itself on the last mesh, with all that it asks to be written, and counts too.
+#include "answers/drop_series.h"
 #include "base/clock.h"
 #include "base/decimal_point.h"
 #include "base/memory.h"

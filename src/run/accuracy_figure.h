@@ -4,7 +4,7 @@
 #ifndef AMONTONS_RUN_ACCURACY_FIGURE_H
 #define AMONTONS_RUN_ACCURACY_FIGURE_H
 
-#include "record/error_bars.h"
+#include "answers/error_bars.h"
 
 // figures/accuracy.json (render/plot/plot_file's format, which a user may edit) and
 // figures/accuracy.png in the result folder `folder`.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "run/accuracy_state.h"
 
+#include "answers/drop_series.h"
 #include "base/clock.h"
 #include "base/memory.h"
 #include "io/cache/cache_folder.h"

@@ -9,7 +9,7 @@
 #ifndef AMONTONS_RUN_ACCURACY_STATE_H
 #define AMONTONS_RUN_ACCURACY_STATE_H
 
-#include "record/error_bars.h"
+#include "answers/error_bars.h"
 #include "run/simulation_state.h"
 
 // Ratio of cell sizes from level to level where cells can only be halved (no .geo with `refine`),

@@ -4,7 +4,7 @@
 #ifndef AMONTONS_RUN_ONE_MESH_H
 #define AMONTONS_RUN_ONE_MESH_H
 
-#include "record/error_bars.h"
+#include "answers/error_bars.h"
 #include "run/simulation_state.h"
 
 // Contact nodes, and whether cells are too long for slip.

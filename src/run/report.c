@@ -5,10 +5,11 @@
 // below is the block's: lengths are given over it where the key says over_L.
 #include "run/report.h"
 
+#include "answers/program_results.h"
+#include "answers/steady_answer.h"
 #include "base/computation.h"
 #include "base/kernels.h"
 #include "io/text/json_writer.h"
-#include "record/program_results.h"
 #include "scene/keys.h"
 
 #include <math.h>

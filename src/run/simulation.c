@@ -2,8 +2,10 @@
 // mesh -> bulk and interface -> steps prepared -> relaxed -> recorders -> steps -> results.
 #include "run/simulation_state.h"
 
-#include "base/clock.h"
 #include "algebra/dense.h"
+#include "answers/drop_series.h"
+#include "answers/steady_answer.h"
+#include "base/clock.h"
 #include "base/decimal_point.h"
 #include "base/memory.h"
 #include "io/files/own_list.h"
@@ -400,7 +402,8 @@ bool simulation_finish(Simulation *simulation, const Error *failure, RunSummary 
     RunCounters counters = summary_count(simulation);
     if (simulation->history.file && !simulation->folder.aside &&
         !(output_store_warnings(simulation, err) &&
-          history_finish(&simulation->history, &simulation->drops, &answers, err) &&
+          history_finish(&simulation->history, &simulation->drops, answers.first,
+                         answers.mu_M.value, answers.critical_length, err) &&
           output_draw_figures(simulation, err)))
         return false;
     simulation->timing.output += clock_seconds() - started;

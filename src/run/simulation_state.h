@@ -6,11 +6,11 @@
 
 #include "amontons.h"
 #include "amontons_simulation.h"
+#include "answers/error_bars.h"
 #include "base/hash.h"
 #include "base/memory.h"
 #include "model/model.h"
 #include "record/contact_arrays.h"
-#include "record/error_bars.h"
 #include "record/fields.h"
 #include "record/history.h"
 #include "record/pads.h"

@@ -3,10 +3,12 @@
 // answers. Nothing is computed here that is not known already.
 #include "run/summary.h"
 
+#include "answers/drop_series.h"
+#include "answers/program_results.h"
+#include "answers/steady_answer.h"
 #include "base/decimal_point.h"
 #include "base/memory.h"
 #include "base/text.h"
-#include "record/program_results.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -13,9 +13,9 @@
 // %, largest 3.2 %).
 #include "run/warnings.h"
 
+#include "answers/drop_series.h"
 #include "friction/friction_start.h"
 #include "friction/friction_state.h"
-#include "record/drops.h"
 #include "scene/keys.h"
 #include "scene/materials.h"
 #include "scene/programs.h"

@@ -9,8 +9,8 @@
 #define AMONTONS_RUN_WARNINGS_H
 
 #include "amontons.h"
+#include "answers/error_bars.h"
 #include "model/model.h"
-#include "record/error_bars.h"
 #include "record/events.h"
 #include "record/turning.h"
 #include "scene/scene.h"

@@ -4,8 +4,8 @@
 // scene/scene.h, and code that reads it; parsing, --set, run.json and the reference follow.
 #include "scene/keys.h"
 
+#include "amontons_pictures.h"
 #include "base/text.h"
-#include "render/render.h"
 
 #include <string.h>
 
@@ -24,7 +24,7 @@ static const char *const unit_choices[] = {
 static const char *const evolution_choices[] = {"ageing", "slip", NULL};
 static const char *const figure_choices[] = {
 #define X(symbol, name, title) name,
-    RENDER_FIGURES(X)
+    PICTURE_FIGURES(X)
 #undef X
         NULL};
 

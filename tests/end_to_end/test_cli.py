@@ -122,7 +122,7 @@ class Help(unittest.TestCase):
             self.assertLessEqual(max(map(len, first.stdout.splitlines())), 80)
 
     def test_every_figure_is_in_the_help(self):
-        names = re.findall(r'X\(FIGURE_\w+, "([\w-]+)"', (SOURCE / "render/render.h").read_text())
+        names = re.findall(r'X\(FIGURE_\w+, "([\w-]+)"', (SOURCE / "src/amontons_pictures.h").read_text())
         self.assertGreaterEqual(len(names), 3)
         shown = re.sub(r"\s+", " ", amontons("render", "--help").stdout)
         for name in names:

@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The folders of src are layers: a file includes its own folder and those above it in the list; contact/ and
-reduction/ are neighbours that do not know each other. The rooms of a large folder are layers, too. No two files include or call each other, neither directly nor through others.
+reduction/ are neighbours that do not know each other. The rooms of a large folder are layers, too. No two files, and no two folders, include or call each other, neither directly nor through others;
+nor do scripts of validation/ import each other so.
 
 Also: nothing below scene/ knows a scene or the public header, no study knows another, but that a search is sweeps, render/ sees base/ and the result
 format only, cli/ sees the public headers only, and modules export amontons_ symbols only.
 """
+import ast
 import os
 import re
 import subprocess
@@ -15,9 +17,11 @@ from pathlib import Path
 SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents[2]))
 MODULES = Path(os.environ.get("AMONTONS_MODULES", SOURCE / "build/bin"))
 
-LAYERS = ["base", "io", "algebra", "fem", "friction", "contact", "reduction", "stepping", "record", "scene", "model", "run", "study", "page", "cli"]
+LAYERS = ["base", "io", "algebra", "fem", "friction", "contact", "reduction", "stepping", "record", "answers", "scene", "model", "run", "study", "page", "cli"]
 BELOW_SCENE = LAYERS[:LAYERS.index("scene")]
-PUBLIC = ("amontons.h", "amontons_cache.h", "amontons_model1d.h", "amontons_optimise.h", "amontons_simulation.h", "amontons_stability.h")
+PUBLIC = ("amontons.h", "amontons_cache.h", "amontons_model1d.h", "amontons_optimise.h", "amontons_pictures.h", "amontons_simulation.h",
+          "amontons_stability.h")
+LEAVES = ("render/quantities.h", "render/picture_options.h")   # of render: names of what it shows; they include nothing of it
 CAIRO = r"render/canvas/(canvas|drawing|text)\.[ch]"
 NEIGHBOURS = [{"contact", "reduction"}, {"friction", "reduction"}]
 STUDIES = ["study/stability", "study/line", "study/sweep", "study/search"]
@@ -26,7 +30,7 @@ ROOMS = {
     "io": ["files", "text hdf5 video cache", "mesh", "fields"],
     "run": ["result", "info static"],
     "study/sweep": ["reading", "computing", "showing"],
-    "render": ["canvas view", "plot figures", "film frames"],
+    "render": ["canvas view", "plot figures", "film frames mesh"],
 }
 OWN_INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.M)
 
@@ -51,25 +55,24 @@ def allowed(folder, include):
     layer = folder.split("/")[0]
     if include in ("amontons_error.h", "amontons_words.h"):
         return folder in ("base", "")   # what base/error.h and base/text.h show to everybody
-    if include == "amontons_pictures.h":
-        return layer in ("render", "") or folder == "io/text"   # what render/render.h is asked; its options, read
     if include == "amontons_friction.h":
         return folder in ("friction", "")   # what a plug-in and friction/friction_plugin share
     generated = {"build_record.h": "run", "computing_sources.h": "base", "page_resources.h": "page", "cli_help.h": "cli"}
     if include in generated:
         return layer == generated[include]
-    if include in (*PUBLIC, "render/render.h") and layer in BELOW_SCENE:
+    if layer in BELOW_SCENE and include in PUBLIC or layer in (*BELOW_SCENE, "scene", "model") and include.startswith("render/"):
         return False
     if folder == "":
         return include.startswith(("base/", "amontons"))   # the public header and its parts
-    if include == "render/render.h":
+    if include in ("render/render.h", *LEAVES):
         return True
     if not rooms_allow(folder, include.rpartition("/")[0]):
         return False
     if layer == "render":
         return include.startswith(("base/", "render/")) or include in (
+            "amontons_pictures.h",   # what render/render.h is asked
             "io/files/folder.h", "io/files/own_list.h", "io/files/part_file.h", "io/text/html_writer.h", "io/text/yaml_document.h",
-            "io/text/csv_reader.h", "io/text/csv_writer.h", "io/text/picture_options.h",   # measurements; what a figure shows
+            "io/text/csv_reader.h", "io/text/csv_writer.h",   # measurements; what a figure shows
             "io/hdf5/array_file.h", "io/hdf5/result_file.h", "io/video/video_file.h", "io/mesh/mesh_file.h", "io/fields/field_read.h",
             "io/mesh/shape_functions.h", "io/mesh/element_faces.h")   # fields inside an element and on its faces
     if folder == "cli":
@@ -116,6 +119,33 @@ def include_graph(root):
         for include in OWN_INCLUDE.findall(path.read_text()):
             targets = {units.get(root / "src" / include), units.get(root / include)}
             graph[unit] |= targets - {None, unit}
+    return graph
+
+
+def folder_graph(root):
+    """The same of folders; a file beside the rooms of its folder stands for itself."""
+    def place(unit):
+        folder = unit.rpartition("/")[0]
+        return unit if folder.removeprefix("src/") in ROOMS else folder
+    graph = {}
+    for unit, includes in include_graph(root).items():
+        graph.setdefault(place(unit), set()).update(place(target) for target in includes)
+        for target in includes:
+            graph.setdefault(place(target), set())
+    return {folder: targets - {folder} for folder, targets in graph.items()}
+
+
+def import_graph(root):
+    """For each Python file of validation/, those of it that it imports: of its own folder, else of that name in another."""
+    files = [path for path in (root / "validation").rglob("*") if path.suffix == ".py"]
+    graph = {}
+    for path in files:
+        nodes = list(ast.walk(ast.parse(path.read_text(encoding="utf-8"))))
+        names = {alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names}
+        names |= {node.module for node in nodes if isinstance(node, ast.ImportFrom) and node.module}
+        graph[str(path.relative_to(root))] = {
+            str(file.relative_to(root)) for name in names for file in files if file != path and file.stem == name
+            and (file.parent == path.parent or not path.with_name(f"{name}.py").exists())}
     return graph
 
 
@@ -191,7 +221,11 @@ class Layers(unittest.TestCase):
             "src/cli/a.c": "scene/scene.h",
             "src/study/line/a.c": "study/sweep/sweep.h",
             "src/record/a.c": "scene/scene.h",
+            "src/record/b.c": "answers/answers.h",
+            "src/answers/a.c": "scene/scene.h",
             "src/io/fields/a.cc": "render/render.h",
+            "src/scene/a.c": "render/quantities.h",
+            "src/run/c.c": "render/view/block.h",
             "src/io/files/a.c": "io/text/json_writer.h",
             "src/io/text/a.c": "io/hdf5/array_file.h",
             "src/io/mesh/a.c": "io/fields/field_grid.h",
@@ -211,9 +245,12 @@ class Layers(unittest.TestCase):
             "src/contact/good.c": ["contact/rod.h", "fem/mesh.h"],
             "src/reduction/good.c": ["reduction/machine.h", "fem/mesh.h"],
             "src/stepping/good.c": ["contact/rod.h", "reduction/machine.h"],
+            "src/answers/good.c": ["record/drops.h", "answers/regime.h"],
             "src/study/line/good.c": ["study/line/model1d.h", "run/simulation_state.h"],
             "src/run/good.c": ["amontons.h", "scene/scene.h", "stepping/state.h", "render/render.h"],
             "src/cli/good.c": ["amontons.h", "cli/options.h"],
+            "src/scene/good.c": ["amontons_pictures.h", "record/history.h"],
+            "src/run/result/good.c": ["render/quantities.h", "render/picture_options.h"],
             "render/film/good.c": ["render/render.h", "render/canvas/page.h", "render/view/zoom.h"],
             "render/good.c": ["render/render.h", "io/hdf5/result_file.h", "base/memory.h"],
         }
@@ -262,6 +299,12 @@ class Circles(unittest.TestCase):
     def test_includes(self):
         self.assertEqual(circles(include_graph(SOURCE)), [])
 
+    def test_folders(self):
+        self.assertEqual(circles(folder_graph(SOURCE)), [])
+
+    def test_imports(self):
+        self.assertEqual(circles(import_graph(SOURCE)), [])
+
     def test_calls(self):
         graph = call_graph(SOURCE, MODULES.parent)
         called = {unit for calls in graph.values() for unit in calls}
@@ -272,8 +315,17 @@ class Circles(unittest.TestCase):
         self.assertEqual(circles(graph), [])
 
     def test_sees_planted_circles(self):
-        """A header that includes back, and three files that call one another in turn."""
+        """A header that includes back, three files that call one another in turn, three folders, two scripts."""
         files = {
+            "render/render.h": '#include "render/figures/map.h"\n',
+            "render/figures/map.h": '#include "render/view/view.h"\n',
+            "render/view/view.h": "",
+            "render/view/block.h": '#include "render/render.h"\n#include "render/leaf.h"\n',
+            "render/leaf.h": "",
+            "validation/one/a.py": "import b\n",
+            "validation/one/b.py": "def late():\n    from a import all_of_it\n",
+            "validation/two/a.py": "import c\n",
+            "validation/two/c.py": "import b\n",
             "src/base/a.h": '#include "base/b.h"\n',
             "src/base/a.c": '#include "base/a.h"\n',
             "src/base/b.h": "int b(void);\n",
@@ -295,6 +347,8 @@ class Circles(unittest.TestCase):
                 made.parent.mkdir(parents=True, exist_ok=True)
                 subprocess.run(["cc", "-I", root / "src", "-c", root / name, "-o", f"{made}.o"], check=True)
             self.assertEqual(circles(include_graph(root)), [{"src/base/a", "src/base/b"}])
+            self.assertEqual(circles(folder_graph(root)), [{"render/render", "render/figures", "render/view"}])
+            self.assertEqual(circles(import_graph(root)), [{"validation/one/a.py", "validation/one/b.py"}])
             self.assertEqual(circles(call_graph(root, root / "build")), [{"render/three", "src/io/one", "src/io/two"}])
 
 

@@ -11,6 +11,7 @@ FOLDER = SOURCE / "validation" / "memory"
 sys.path[:0] = [str(FOLDER), str(SOURCE / "validation" / "benchmark")]
 sys.dont_write_bytecode = True
 import cases      # noqa: E402
+import laws       # noqa: E402
 import page       # noqa: E402
 import question   # noqa: E402
 
@@ -30,21 +31,21 @@ class MemoryPage(unittest.TestCase):
 
     def test_rows_computed_again(self):
         """A mesh of 28 cells is within the bar of 3 % that was asked for, and the row's laws are those of now."""
-        for law in question.MAIN:
+        for law in laws.MAIN:
             row = self.kept.rows[f"{law}: {STANDARD}", "pressure"]
             point = question.Point("pressure", law)
-            ended = question.run(question.SCENE, point.settings(28), 60)
+            ended = question.run(laws.SCENE, point.settings(28), 60)
             with self.subTest(law):
-                self.assertAlmostEqual(ended.report["results"]["mu_M"] / row["mu_M"], 1, delta=question.TO)
+                self.assertAlmostEqual(ended.report["results"]["mu_M"] / row["mu_M"], 1, delta=laws.TO)
 
     def test_match(self):
         """mu_S after a rest of 200 and mu_K at 10 v_c, of the laws that are said to be matched so; the page's lengths."""
-        for name, law in question.LAWS.items():
+        for name, law in laws.LAWS.items():
             if name.endswith(("creep", "rock")):
                 continue
-            self.assertAlmostEqual(question.rested(law), question.MU_STATIC, delta=2e-3, msg=name)
-            self.assertAlmostEqual(question.steady(law, question.FAST), question.MU_KINETIC, delta=6e-3, msg=name)
-        lengths = [question.length_of(question.LAWS[name]) for name in ("rate-and-state", "slip-weakening", "rate-and-state, matched in creep")]
+            self.assertAlmostEqual(laws.rested(law), laws.MU_STATIC, delta=2e-3, msg=name)
+            self.assertAlmostEqual(laws.steady(law, laws.FAST), laws.MU_KINETIC, delta=6e-3, msg=name)
+        lengths = [laws.length_of(laws.LAWS[name]) for name in ("rate-and-state", "slip-weakening", "rate-and-state, matched in creep")]
         self.assertLess(max(lengths) / min(lengths), 1.05)
 
 

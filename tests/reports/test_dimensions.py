@@ -9,7 +9,7 @@ from pathlib import Path
 
 SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents[2]))
 # Where there are nodes. base/, cli/, page/, scene/ and the rest of io/ know none.
-FOLDERS = ["src/fem", "src/friction", "src/contact", "src/reduction", "src/stepping", "src/record", "src/model", "src/run", "src/study",
+FOLDERS = ["src/fem", "src/friction", "src/contact", "src/reduction", "src/stepping", "src/record", "src/answers", "src/model", "src/run", "src/study",
            "src/io/mesh", "src/io/fields", "render"]
 COUNTED = r"(?:\(int64_t\))?\(?[\w>.-]*\b(?:nodes?|node_count|contact_count|contacts|neighbour\w*)\b"
 IDIOMS = [
@@ -29,8 +29,8 @@ REASONS = {
     "src/stepping/explicit_sweep.c": ("its kernel takes the plane's pairs (x, z) into one register", r".*"),
     "render/figures/block_page.c": ("a picture is flat", r".*"),
     "render/figures/block_mesh.c": ("a picture is flat", r".*"),
-    "render/figures/mesh_picture.c": ("a picture is flat", r".*"),
-    "render/figures/mesh_space.c": ("a picture is flat", r"d < 2; "),
+    "render/mesh/mesh_picture.c": ("a picture is flat", r".*"),
+    "render/mesh/mesh_space.c": ("a picture is flat", r"d < 2; "),
     "render/view/contact_plane.c": ("a floor is flat", r".*"),
     "render/view/surface.c": ("a face is flat", r".*"),
     "render/figures/space_page.c": ("a picture is flat", r".*"),

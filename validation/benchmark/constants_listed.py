@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-FOLDERS = ("contact", "reduction", "stepping", "fem", "record", "model", "study/stability")   # of src
+FOLDERS = ("contact", "reduction", "stepping", "fem", "record", "answers", "model", "study/stability")   # of src
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?"
 KEYS = "scene/keys.c"      # a key's default: varied as a user would, with --set
 
@@ -106,7 +106,7 @@ CONSTANTS = [
         ("LITTLE", "left of a motion, from which on others are taken out again", "rounding")),
     *of("record/drops.c",
         ("LEAST_DROP", "drop of mu that counts, of mu", "validation/pads, drops seen")),
-    *of("record/series.c",
+    *of("answers/statistics.c",
         ("START_PART", "part of the run left to the start without a period", HERE),
         ("LOWEST", "quantile that stands for the least mu without a period", HERE)),
     *of("model/step_rule.c",
@@ -226,23 +226,23 @@ NOT_A_CHOICE = {
     "record/front_path.h": {"FRONT_STATIONS": "shown"},
     "record/front_path.c": {"AT_NODE": "rounding of coordinates"},
     "record/turning.c": {"ROUNDING": ROUNDING},
-    "record/regime.c": {"LAG": "of run-in: above", "TREND_DROPS": "of run-in: above"},
-    "record/regime.h": {"DROPS_ENOUGH": "of run-in: above"},
-    "record/answers.c": {"MEAN_ERROR": "what `time.until.periodic` promises without a period; half and twice changed nothing"},
-    "record/series.c": {"ROUNDS": "what a period is (head of the file); half and twice changed no period",
+    "answers/regime.c": {"LAG": "of run-in: above", "TREND_DROPS": "of run-in: above"},
+    "answers/regime.h": {"DROPS_ENOUGH": "of run-in: above"},
+    "answers/answers.c": {"MEAN_ERROR": "what `time.until.periodic` promises without a period; half and twice changed nothing"},
+    "answers/statistics.c": {"ROUNDS": "what a period is (head of the file); half and twice changed no period",
                         "REPEATING_PART": "the same", "NEARER": "of run-in: above", "TREND_VALUES": SIZE, "by_freedoms": "Student's, 95 %",
                         "CORRELATED": "items that tell nothing of a correlation", "CORRELATION_MAX": "the root of what follows is finite"},
     "record/stretches.c": {"STRETCHES": "of run-in: above"},
-    "record/answers.h": {"ERROR_BAR": "95 % of normal deviates"},
-    "record/error_bars_json.c": {"BRANCH_WIDTH": "of branches: the next is twice as far"},
-    "record/error_bars.c": {
+    "answers/answers.h": {"ERROR_BAR": "95 % of normal deviates"},
+    "answers/error_bars_json.c": {"BRANCH_WIDTH": "of branches: the next is twice as far"},
+    "answers/error_bars.c": {
         "USUAL": "of error bars: priors.md", "USUAL_LEAST": "the same", "USUAL_LEVELS": "the same", "ONE_MESH": "the same", "ONE_MESH_IN_SPACE": "of digits without a bar: validation/space/priors.md", "SPAN": "the same",
         "CONFIRM": "of error bars on several pads: two feet of unequal height, strangers 467",
         "ROUNDING": "of products of a few steps from mesh to mesh", "END_WAITS": "of error bars: set B at P = 1e-5",
         "STEPS": "of error bars: what this table's tolerances move"},
-    "record/error_bars.h": {"LEVELS_MAX": SIZE, "LEVEL_RUNS_MAX": SIZE},
-    "record/patterns.c": {"CHANCE": "95 %"},
-    "record/patterns.h": {"PATTERNS_MAX": SIZE},
+    "answers/error_bars.h": {"LEVELS_MAX": SIZE, "LEVEL_RUNS_MAX": SIZE},
+    "answers/patterns.c": {"CHANCE": "95 %"},
+    "answers/patterns.h": {"PATTERNS_MAX": SIZE},
     "record/program_readings.c": {"STEADY_RANGE": "as in record/steady", "REACHED": "rounding of points in time",
                                   "LEAST": "bins that make a level", "ARRIVED": "what counts as the rod's new velocity, in the definition of the direct effect"},
     "record/program_readings.h": {"PROGRAM_BINS": SIZE, "PROGRAM_READINGS_MAX": SIZE},

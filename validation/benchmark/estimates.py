@@ -11,7 +11,7 @@ import numpy
 SAFETY, SAFETY_BLIND = 1.25, 3
 ORDERS = (0.5, 2)      # an observed order is taken to lie between these, as is usual; quads of order 1 have 2
 ORDER_BLIND = 1        # of mu here (precision.md)
-# The program's own rule, src/record/error_bars.c.
+# The program's own rule, src/answers/error_bars.c.
 SLOPE, SCATTER, SCATTER_LEVELS, STEPS = 0.5, 0.12, 4, 0.002
 STUDENT = {4: 2.78, 5: 2.57}      # by degrees of freedom
 SURE = 0.95

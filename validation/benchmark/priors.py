@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What is usual from mesh to mesh? Chooses what src/record/error_bars.c takes for granted before meshes tell.
+"""What is usual from mesh to mesh? Chooses what src/answers/error_bars.c takes for granted before meshes tell.
 
     validation/benchmark/priors.py [-o FOLDER]
 
@@ -196,7 +196,7 @@ def text_of(families):
     counts = ", ".join(f"{len({problem['number'] for problem in problems})} {family}" for family, problems in families.items())
     return f"""## What is usual from mesh to mesh?
 
-Version {commit()}. What `src/record/error_bars.c` takes for granted before meshes tell: by how much the value of a mesh is off, in parts of mu over the nodes in contact.
+Version {commit()}. What `src/answers/error_bars.c` takes for granted before meshes tell: by how much the value of a mesh is off, in parts of mu over the nodes in contact.
 Problems with a reference: {counts}. `cells`: those that slip where slow slip turns fast.
 
 ### One mesh

@@ -8,40 +8,14 @@ processes in points_calls.py, of answers in points_answers.py; each of the three
 A function takes an empty folder and yields (what was tried, what happened, good or not), as often as it tries something.
 Prints a table in Markdown. Exit status 1: some point is bad.
 """
-import argparse
 import os
-import subprocess
 import sys
-import tempfile
 from pathlib import Path
 
 import cases
-from tries import PROGRAM, SCRATCH
-
-PATIENCE = 60   # seconds until something counts as waiting without end
-
-
-def call(folder, *words, seconds=PATIENCE, shell=None, env=None):
-    """(exit status, None where it did not end; what it said). shell: a command that runs "$@"."""
-    words = [str(PROGRAM), *map(str, words)]
-    if shell:
-        words = ["bash", "-c", shell, "bash", *words]
-    try:
-        done = subprocess.run(words, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, timeout=seconds,
-                              stderr=subprocess.STDOUT, env=os.environ | {"AMONTONS_CACHE": ""} | (env or {}))
-    except subprocess.TimeoutExpired:
-        return None, f"no end after {seconds} s"
-    return done.returncode, done.stdout.decode(errors="replace").strip()
-
-
-def last_line(said):
-    return (said.splitlines() or ["nothing said"])[-1]
-
-
-def put_scene(folder):
-    """scene.yaml and its mesh: a run of a tenth of a second."""
-    cases.put(folder, {"scene.yaml": cases.SCENE, "block.msh": cases.square(), "block.geo": cases.ROOT / "meshes/block.geo"})
-
+import points_answers
+import points_calls
+from point_table import call, last_line, main, put_scene, refused
 
 # --- the points: name, function ------------------------------------------------------------------
 
@@ -51,11 +25,6 @@ POINTS = {}
 def point(function):
     POINTS[function.__name__] = function
     return function
-
-
-def refused(status, said, name):
-    """A sentence of ours that names `name`, and nothing computed."""
-    return status in (1, 2) and "error: " in said and str(name) in said
 
 
 @point
@@ -148,27 +117,5 @@ def runs_that_do_not_begin(folder):
         yield f"{what}, --overwrite", last_line(said), status in (1, 2) and held() == before
 
 
-# --- the table -----------------------------------------------------------------------------------
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--only", nargs="+", metavar="NAME", choices=POINTS, default=list(POINTS))
-    wanted = parser.parse_args().only
-    print("| point | tried | what happened | good |\n|---|---|---|---|")
-    bad = 0
-    for name in wanted:
-        with tempfile.TemporaryDirectory(dir=SCRATCH) as folder:
-            for tried, happened, good in POINTS[name](Path(folder)):
-                bad += not good
-                row = [name, tried, happened.replace(folder, "."), "yes" if good else "**no**"]
-                print("| " + " | ".join(str(cell).replace("|", "\\|").replace("\n", " ") for cell in row) + " |",
-                      flush=True)
-    print(f"\n{len(wanted)} points, {bad} tries ended as none should")
-    return 1 if bad else 0
-
-
 if __name__ == "__main__":
-    import points_answers
-    import points_calls
-    POINTS |= points_calls.POINTS | points_answers.POINTS
-    sys.exit(main())
+    sys.exit(main(POINTS | points_calls.POINTS | points_answers.POINTS))

@@ -11,8 +11,7 @@ import shutil
 import sys
 
 import cases
-import points
-from points import PROGRAM, call, last_line, put_scene, refused
+from point_table import PROGRAM, call, last_line, main, put_scene, refused
 
 POINTS = {}
 OBEYED = re.compile("[\0-\x08\x0b-\x1f\x7f-\x9f]")   # by a terminal; ends of lines and tabs are not
@@ -197,5 +196,4 @@ def odd_places(folder):
 
 
 if __name__ == "__main__":
-    points.POINTS = POINTS
-    sys.exit(points.main())
+    sys.exit(main(POINTS))

@@ -15,6 +15,8 @@ import sys
 import time
 from pathlib import Path
 
+from point_table import main
+
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAM = Path(os.environ.get("AMONTONS_BIN", ROOT / "build/bin"), "amontons").resolve()
 MODULE = PROGRAM.parents[1] / "python"
@@ -161,6 +163,4 @@ def stop_at_any_moment(folder):
 
 
 if __name__ == "__main__":
-    import points
-    points.POINTS = POINTS
-    sys.exit(points.main())
+    sys.exit(main(POINTS))

@@ -7,10 +7,10 @@ import statistics
 import subprocess
 
 import cases
+from laws import (CELLS_ASKED, COST_CELLS, COST_LAWS, FAST, HERE, LAWS, MAIN, P, REST, REST_CELLS, RESTS, V, length_of, rested,
+                  steady)
 from measured_run import PROGRAM, markdown_table
 from promise import Kept
-from question import (CELLS_ASKED, COST_CELLS, COST_LAWS, FAST, HERE, LAWS, MAIN, P, REST, REST_CELLS, RESTS, V, length_of, rested,
-                      steady)
 
 MU = "~{\u03bc}_{M}"
 COLORS = {law: k + 1 for k, law in enumerate(MAIN)}

@@ -7,7 +7,7 @@ area that slips before and grooves, with error bars.
 
 Each point is run on meshes of 8, 10, 12, 14 and 16 cells to the height, as long as one may be expected to take S seconds of processor
 time (default 40; it goes up with the sixth power). A line of FOLDER/papers.jsonl (default validation/space) is one run, and a call
-that was stopped goes on behind the last one. Bars are those of the program's rule (src/record/error_bars.c) on these meshes: of blocks
+that was stopped goes on behind the last one. Bars are those of the program's rule (src/answers/error_bars.c) on these meshes: of blocks
 in space 98 of 100 held (priors.md). Writes papers.md and its two figures beside it."""
 import argparse
 import json

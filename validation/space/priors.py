@@ -7,7 +7,7 @@
 Draws blocks and blocks on pads in space (a seed, so always the same), runs each on a row of meshes until its load drops repeat, and
 keeps values in FOLDER/priors.jsonl (default validation/space): a call that was stopped goes on where it was. Then says by how much
 a mesh is off the two finest, times nodes along the contact and times cells that slip where slip turns
-fast, and which bars of coarser meshes would hold by the constants of src/record/error_bars.c (validation/space/priors.md)."""
+fast, and which bars of coarser meshes would hold by the constants of src/answers/error_bars.c (validation/space/priors.md)."""
 import argparse
 import json
 import math
@@ -145,7 +145,7 @@ mesh. The mean of the {FINEST} finest is the reference; they differ by {200 * st
 
 {scatter_text(problems)}
 
-Bars of two and more of the coarser meshes, by the rule of src/record/error_bars.c with the constants that it has (0.05 and 0.2) and
+Bars of two and more of the coarser meshes, by the rule of src/answers/error_bars.c with the constants that it has (0.05 and 0.2) and
 others; half of the distance between the two finest is taken off each error:
 
 {bars_text(problems)}

@@ -4,7 +4,8 @@
 #include "base/memory.h"
 #include "io/files/own_list.h"
 #include "io/files/text_file.h"
-#include "render/render.h"
+#include "amontons_pictures.h"
+#include "render/quantities.h"
 
 #include <ctype.h>
 #include <dirent.h>
@@ -24,7 +25,7 @@ static const char *const FIELDS[] = {"bulk_", ".vtu", "interface_", ".vtp"};
     name ".png", name ".pdf", name ".svg", name ".csv", name "-compared.csv",
 #define FIELD_FILE(id, name, ...) FIGURE_FILE(id, "field-" name, )   // of a quantity
 #define CONTACT_FILE(id, name, ...) FIGURE_FILE(id, "contact-plane-" name, )
-static const char *const FIGURES[] = {RENDER_FIGURES(FIGURE_FILE) BLOCK_QUANTITIES(FIELD_FILE)
+static const char *const FIGURES[] = {PICTURE_FIGURES(FIGURE_FILE) BLOCK_QUANTITIES(FIELD_FILE)
                                           CONTACT_QUANTITIES(CONTACT_FILE)
                                               FIGURE_FILE(, "panels", ) "accuracy.png",
                                       "accuracy.json"};

@@ -5,7 +5,7 @@
 #include "base/child_process.h"
 #include "base/decimal_point.h"
 #include "base/module.h"
-#include "io/text/picture_options.h"
+#include "render/picture_options.h"
 #include "render/render.h"
 #include "run/result/own_file.h"
 

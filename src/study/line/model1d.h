@@ -16,6 +16,7 @@
 #define AMONTONS_STUDY_LINE_MODEL1D_H
 
 #include "amontons_model1d.h"
+#include "answers/answers.h"
 #include "record/history.h"
 #include "scene/scene.h"
 #include "stepping/growth.h"

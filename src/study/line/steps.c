@@ -158,7 +158,8 @@ bool model1d_simulate(Model1dSimulation *simulation, Error *err)
     events_close(&simulation->events, &simulation->last);
     Answers answers = answers_of(&simulation->drops);
     if (simulation->history.file)
-        TRY(history_finish(&simulation->history, &simulation->drops, &answers, err));
+        TRY(history_finish(&simulation->history, &simulation->drops, answers.first,
+                           answers.mu_M.value, answers.critical_length, err));
 cleanup:
     if (!error_is_clean(err)) error_context(err, "in the 1D model");
     return error_is_clean(err);

@@ -194,8 +194,7 @@ TEST(test_written_and_read_back)
                         {.U = 0.7, .mu = 0.5, .bulk = true, .load = true}};
     Events events = {.list = event_list, .count = 4};
     Drops drops = {.events = &events, .list = drop_list, .count = 4};
-    Answers answers = {.first = 1, .mu_M.value = 0.5, .critical_length = NAN};
-    assert_true(history_finish(&history, &drops, &answers, &err));
+    assert_true(history_finish(&history, &drops, 1, 0.5, NAN, &err));
     history_destroy(&history);
     contact_arrays_destroy(&contact);
     assert_int_equal(memory_counters().live, live);
@@ -269,7 +268,6 @@ TEST(test_memory_faults)
     bool done = false;
     Events events = {0};
     Drops drops = {.events = &events};
-    Answers answers = {.mu_M.value = NAN, .critical_length = NAN};
     for (int32_t k = 0; !done; k++) {
         Error err = {0};
         ResultHead head = head_of("faults");
@@ -280,7 +278,7 @@ TEST(test_memory_faults)
                contact_arrays_record(&contact, &hand.seen, &err) &&
                history_create(place, &head, &hand.interface, &contact, &history, &err) &&
                history_record(&history, &hand.seen, &err) &&
-               history_finish(&history, &drops, &answers, &err);
+               history_finish(&history, &drops, 0, NAN, NAN, &err);
         memory_fail_after(-1);
         assert_int_equal(err.code, done ? ERROR_NONE : ERROR_MEMORY);
         history_destroy(&history);

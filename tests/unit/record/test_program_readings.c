@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Readings of velocity steps and holds from steps written by hand: mu jumps by A ln(V2/V1) and goes
 // on to its new level over D, and heals by H in each decade of a hold.
-#include "record/program_results.h"
+#include "answers/program_results.h"
 
 #include "seen_by_hand.h"
 

@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "contact/slip.h"
 #include "near.h"
-#include "record/answers.h"
+#include "answers/answers.h"
 #include "record/contact_arrays.h"
 #include "record/history.h"
 #include "record/pads.h"
@@ -306,8 +306,7 @@ TEST_BETWEEN(test_history, setup, teardown)
         assert_true(history_record(&history, &hand.seen, &err));
     }
     Drops drops = {.events = &events};
-    Answers answers = {.mu_M.value = NAN, .critical_length = NAN};
-    assert_true(history_finish(&history, &drops, &answers, &err));
+    assert_true(history_finish(&history, &drops, 0, NAN, NAN, &err));
     ArrayFile *file = result_file_open(place, &err);
     assert_non_null(file);
     expect_values(file, SERIES_SLIP_RATE, 2 * NODES, rate);

@@ -78,34 +78,3 @@ TEST(test_begins_anew)
     assert_near("the mean of the last stretch", mu_of(&slide), 0.33, 0.002 * 0.33);
     events_destroy(&slide.run.events);
 }
-
-// What mu_M is then, and why there is none.
-TEST(test_answer)
-{
-    Slide slide;
-    Answers none = {.mu_M = {NAN, NAN}},
-            peaks = {.mu_M = {0.35, 0.01}, .peaks_counted = 3, .peaks = 4};
-    begin(&slide);
-    slide.now = 0.3;
-    go(&slide, 3, 0.3, SLIDES);
-    assert_non_null(strstr(steady_words(&slide.steady, &none), "not steady yet"));
-    go(&slide, 20, 0.3, SLIDES);
-    Answers found = none;
-    steady_answer(&slide.steady, &found);
-    assert_near("mu_M", found.mu_M.value, 0.3, 1e-12);
-    assert_near("error", found.mu_M.error, 0, 0);   // it never moved
-    assert_true(found.steady);
-    assert_string_equal(steady_words(&slide.steady, &found), "steady sliding");
-    found = peaks;
-    steady_answer(&slide.steady, &found);
-    assert_near("peaks count more", found.mu_M.value, 0.35, 0);
-    assert_string_equal(steady_words(&slide.steady, &found), "peaks");
-    go(&slide, 1, 0.3, STICKS);
-    assert_non_null(
-        strstr(steady_words(&slide.steady, &none), "none: the block as a whole did not"));
-    slide.run.events.kinds[EVENT_LEADING] = 1;
-    assert_non_null(strstr(steady_words(&slide.steady, &none), "slid from the start on"));
-    none.peaks = 1;
-    assert_non_null(strstr(steady_words(&slide.steady, &none), "belong to the start or run-in"));
-    events_destroy(&slide.run.events);
-}

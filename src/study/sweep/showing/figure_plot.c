@@ -8,7 +8,7 @@
 #include "base/memory.h"
 #include "base/order.h"
 #include "io/files/folder.h"
-#include "io/text/picture_options.h"
+#include "render/picture_options.h"
 #include "study/sweep/showing/figure_data.h"
 #include "study/sweep/showing/figure_file.h"
 

@@ -3,7 +3,7 @@
 // values differ by more than both errors, taken as independent: |a - b| > sqrt(e_a^2 + e_b^2). A
 // point's rank lies between one more than the points that are decidedly better and the number of
 // those that are not decidedly worse. An error that is not known decides nothing; where there is no
-// error bar it is what a mesh usually leaves (record/error_bars).
+// error bar it is what a mesh usually leaves (answers/error_bars).
 //
 // A gain is g = a / b - 1 over the baseline b; to first order its error is that of a / b,
 // sqrt((e_a / b)^2 + (a e_b / b^2)^2), and 0 for the baseline itself.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A mesh in space in perspective: its outside in the colours of its groups, its contact once more
 // below it. Called by mesh_picture.
-#ifndef AMONTONS_RENDER_FIGURES_MESH_SPACE_H
-#define AMONTONS_RENDER_FIGURES_MESH_SPACE_H
+#ifndef AMONTONS_RENDER_MESH_MESH_SPACE_H
+#define AMONTONS_RENDER_MESH_MESH_SPACE_H
 
 #include "render/canvas/axes.h"
 #include "render/render.h"

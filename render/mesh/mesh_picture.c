@@ -5,7 +5,7 @@
 
 #include "base/memory.h"
 #include "render/canvas/key.h"
-#include "render/figures/mesh_space.h"
+#include "render/mesh/mesh_space.h"
 #include "render/figures/rod_mark.h"
 
 #include <math.h>

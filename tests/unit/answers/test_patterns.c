@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Which pads slid, of drops by hand; and when two lists differ, by chances of Fisher's test: 4 of 8
 // drops that 8 others lack are 70 / 1820 of 1.
-#include "record/patterns.h"
+#include "answers/patterns.h"
 
 #include "drops_by_hand.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What is answered from made-up drops, and from a real block whose peaks alternate between two
 // values.
-#include "record/answers.h"
+#include "answers/answers.h"
 
 #include "amontons.h"
 #include "drops_by_hand.h"

@@ -5,7 +5,7 @@
 // level's value times nodes over cells that slip (all, where it is not known how many do), 0.2 of
 // it at least, w what its last nodes hold up, r_i the spread of runs on levels as fine and finer,
 // with chi^2 = 1 of one level more, times Student's factor.
-#include "record/error_bars.h"
+#include "answers/error_bars.h"
 
 #include "near.h"
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Error bars as `accuracy` of run.json.
-#include "record/error_bars.h"
+#include "answers/error_bars.h"
+
+#include "answers/statistics.h"
 
 #include <math.h>
 

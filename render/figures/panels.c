@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Figures of the history below each other on one page, as the paper's Figure 1: (a), (b), (c), with
 // frames of one width, and numbers of U below the last of those that share it.
-#include "render/panels.h"
+#include "render/figures/panels.h"
 
 #include <math.h>
 #include <stdio.h>

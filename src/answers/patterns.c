@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "record/patterns.h"
+#include "answers/patterns.h"
 
 static const double CHANCE = 0.05;
 

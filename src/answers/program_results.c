@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "record/program_results.h"
+#include "answers/program_results.h"
 
 #include <math.h>
 

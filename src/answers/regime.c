@@ -2,7 +2,10 @@
 // The block is elastic and its load is given: so the state of the contact at rest comes back only
 // if all of it has slipped as far as the drive went. A drift of mu by less than the tolerance from
 // drop to drop, with most of the contact stuck, is thus no period, however long it goes on.
-#include "record/regime.h"
+#include "answers/regime.h"
+
+#include "answers/drop_series.h"
+#include "answers/statistics.h"
 
 #include <math.h>
 

@@ -3,7 +3,7 @@
 // as combinatorics says; and of numbers whose mean, decile and errors are known: an arithmetic
 // ladder, a constant, and an autoregressive series of first order, whose mean has
 // sqrt((1 + a) / (1 - a)) times the error of independent items.
-#include "record/series.h"
+#include "answers/statistics.h"
 
 #include "near.h"
 #include "random_numbers.h"

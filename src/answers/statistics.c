@@ -16,7 +16,7 @@
 // Student's factor for blocks would hold in 93, and be 1.4 times as long for independent items, 6
 // times for 8 of them. Quantiles are interpolated between order statistics; the error of a quantile
 // is that of the share of items below it, read off the same curve.
-#include "record/series.h"
+#include "answers/statistics.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "io/text/picture_options.h"
+#include "render/picture_options.h"
 
 #include <math.h>
 #include <stddef.h>

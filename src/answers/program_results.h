@@ -3,8 +3,8 @@
 // all velocity steps, and healing per decade of time held, from a straight line. The error of the
 // healing combines the standard error of the line and the change of slope that the errors of the
 // readings allow. Called by run/report and run/summary.
-#ifndef AMONTONS_RECORD_PROGRAM_RESULTS_H
-#define AMONTONS_RECORD_PROGRAM_RESULTS_H
+#ifndef AMONTONS_ANSWERS_PROGRAM_RESULTS_H
+#define AMONTONS_ANSWERS_PROGRAM_RESULTS_H
 
 #include "io/text/json_writer.h"
 #include "record/program_readings.h"

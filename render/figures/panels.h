@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Several figures of the history on one page. Called by render.c.
-#ifndef AMONTONS_RENDER_PANELS_H
-#define AMONTONS_RENDER_PANELS_H
+// Several figures of the history on one page. Called by picture.c.
+#ifndef AMONTONS_RENDER_FIGURES_PANELS_H
+#define AMONTONS_RENDER_FIGURES_PANELS_H
 
 #include "render/figures/figures.h"
 
@@ -9,7 +9,7 @@ enum { PANELS_MAX = 12 };
 
 typedef struct PanelFigure {
     const char *name;
-    int32_t figure;   // its number in render.c
+    FigureId figure;
     double shape;   // height over the page's width
     FigureFunction draw;
     int32_t state;   // which the view stands for while it is drawn

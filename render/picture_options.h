@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The options of a picture by their names, read and checked by the one table, PICTURE_OPTIONS.
 // Called by run/result/pictures, for callers, and by render/plot, for the `page` of a plot file.
-#ifndef AMONTONS_IO_TEXT_PICTURE_OPTIONS_H
-#define AMONTONS_IO_TEXT_PICTURE_OPTIONS_H
+#ifndef AMONTONS_RENDER_PICTURE_OPTIONS_H
+#define AMONTONS_RENDER_PICTURE_OPTIONS_H
 
 #include "amontons_pictures.h"
 #include "base/error.h"

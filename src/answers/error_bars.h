@@ -20,11 +20,11 @@
 //              met only where levels differ by a factor of two in cell size (levels_span_left).
 //
 // How often bars hold, and by how much, is measured by validation/benchmark/promise.py.
-#ifndef AMONTONS_RECORD_ERROR_BARS_H
-#define AMONTONS_RECORD_ERROR_BARS_H
+#ifndef AMONTONS_ANSWERS_ERROR_BARS_H
+#define AMONTONS_ANSWERS_ERROR_BARS_H
 
-#include "record/answers.h"
-#include "record/patterns.h"
+#include "answers/answers.h"
+#include "answers/patterns.h"
 
 enum { LEVELS_MAX = 24, LEVEL_RUNS_MAX = 9 };
 

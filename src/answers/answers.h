@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Answers of a run about the load ratio mu = F_T / F_N, defined here and nowhere else. The load
-// drops (record/drops) come to repeat with a period, or they do not (record/series): those of this
-// regime count, the start's do not.
+// drops (record/drops) come to repeat with a period, or they do not (answers/statistics): those of
+// this regime count, the start's do not.
 //   mu_M      macroscopic static friction coefficient: mean of the peaks before bulk sliding. In a
 //             period it is that of whole rounds
 //   mu_hold   holding coefficient, what the contact holds for sure: the lowest load drop that
@@ -9,12 +9,12 @@
 //             would sink with every drop waited for
 //   mu_max    the largest mu of all steps
 // Errors are bars that hold in 19 of 20 cases. A run alone knows the part that its finite number of
-// drops leaves open; what mesh and branches add takes several runs (record/error_bars).
-#ifndef AMONTONS_RECORD_ANSWERS_H
-#define AMONTONS_RECORD_ANSWERS_H
+// drops leaves open; what mesh and branches add takes several runs (answers/error_bars).
+#ifndef AMONTONS_ANSWERS_ANSWERS_H
+#define AMONTONS_ANSWERS_ANSWERS_H
 
+#include "answers/regime.h"
 #include "io/text/json_writer.h"
-#include "record/regime.h"
 
 typedef struct ErrorParts {   // NaN: not known
     double mesh, branches, drops;
@@ -39,7 +39,7 @@ typedef struct Answers {
     Estimate mu_drops;   // mean of the load drops; error: twice the standard error
     double mu_max, mu_max_jump;   // how far it is above both of its neighbours in time
     // How far other meshes and runs usually are from these: the bar, where one is known; else what
-    // nine of ten meshes are off by (record/error_bars). NaN: cells are too long for slip.
+    // nine of ten meshes are off by (answers/error_bars). NaN: cells are too long for slip.
     double mu_M_known_to, mu_hold_known_to, mu_max_known_to;
     double critical_length;   // mean l_c of the peaks that count, length; NaN: none
     double critical_part;   // mean A_c/A of them; NaN: none

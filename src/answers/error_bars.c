@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "record/error_bars.h"
+#include "answers/error_bars.h"
 
-#include "record/drops.h"
+#include "answers/statistics.h"
 
 #include <math.h>
 #include <stddef.h>

@@ -2,7 +2,10 @@
 // Slow passage through the instability makes the time of a burst depend on how small the
 // disturbance was that it grew from, so at some loads the block slides a burst earlier or later:
 // peaks then lie on branches some per cent apart, with periods of 2 and more, or without any.
-#include "record/answers.h"
+#include "answers/answers.h"
+
+#include "answers/drop_series.h"
+#include "answers/statistics.h"
 
 #include <math.h>
 #include <stddef.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Faces that look away are left out, the others drawn from the farthest to the nearest.
-#include "render/figures/mesh_space.h"
+#include "render/mesh/mesh_space.h"
 
 #include "base/memory.h"
 #include "base/order.h"

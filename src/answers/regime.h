@@ -7,9 +7,9 @@
 //   period    the state of the whole contact comes back: what slid, mu and the share of the load
 //             that each stretch carries (record/stretches)
 //
-// Read by record/answers.
-#ifndef AMONTONS_RECORD_REGIME_H
-#define AMONTONS_RECORD_REGIME_H
+// Read by answers/answers.
+#ifndef AMONTONS_ANSWERS_REGIME_H
+#define AMONTONS_ANSWERS_REGIME_H
 
 #include "record/drops.h"
 
