@@ -187,7 +187,7 @@ static bool starts_fast(Solve *solve)
     double *slip_rate = &equations->at->velocity[t];
     double direction = status_direction(solve->newton->equations.at->status[node]);
     if (*slip_rate * direction >= 0) return false;
-    *slip_rate = direction * friction_spent_speed(friction_at(problem->law, node));
+    *slip_rate = direction * friction_spent_speed(friction_at(problem->friction, node));
     solve->newton->factors_gain = false;
     solve->least = INFINITY;
     solve->stalled = 0;

@@ -14,7 +14,7 @@ bool sdirk_create(const Block *block, TableauKind kind, Ladder *ladder, Sdirk *s
     *scheme = (Sdirk){.tableau = tableau_of(kind),
                       .system = block->system,
                       .interface = interface,
-                      .law = block->law,
+                      .friction = block->friction,
                       .rod = block->rod,
                       .ladder = ladder};
     scheme->rhs = NEW_ARRAY(double, system->dof_count, err);
@@ -123,7 +123,7 @@ static bool solve_stage(Sdirk *scheme, const Trial *trial, int32_t i, ContactSol
     const Interface *interface = scheme->interface;
     TRY(interface_operator_condense(bulk, scheme->rhs, scheme->g, err));
     ContactProblem problem = {.interface = interface,
-                              .law = scheme->law,
+                              .friction = scheme->friction,
                               .rod_kind = scheme->rod->kind,
                               .rod_softness = scheme->rod->softness,
                               .rod_lag = scheme->rod->lag,

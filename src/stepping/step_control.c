@@ -51,7 +51,7 @@ bool step_control_create(const Block *block, const StepControlDef *def, StepCont
     ladder_init(block->system, longest, def->step_min, &control->ladder);
     TRY(sdirk_create(block, def->scheme, &control->ladder, &control->scheme, err));
     TRY(certificate_create(block, &control->certificate, err));
-    if (def->use_certificate && !control->scheme.memory.laws)
+    if (def->use_certificate && !control->scheme.memory.node)
         TRY(half_step_create(block, &control->certificate, &control->half, err));
     if (control->half.exists) control->ladder.half = &control->half.half;
     control->scheme.half = &control->half;
@@ -103,7 +103,7 @@ void step_control_restart(StepControl *control)
 static void choose_side(StepControl *control)
 {
     bool halved = control->ladder.half && !control->lopsided &&
-                  half_step_take_law(&control->half, control->scheme.law);
+                  half_step_take_friction(&control->half, control->scheme.friction);
     control->ladder.side = halved ? LADDER_EVEN : LADDER_WHOLE;
     control->scheme.odd_acts = !control->odd_decays || control->half.odd_part > ODD_LIMIT;
 }
@@ -160,7 +160,7 @@ static bool oscillations_stay_small(StepControl *control, const State *state, Ru
     double fastest = 0;
     for (int32_t i = 0; i < state->contact_count; i++)
         fastest = fmax(fastest, slip_size(control->scheme.interface, i, state->slip_rate));
-    double growth = SMALL_OSCILLATION * control->scheme.law->critical_velocity / fastest;
+    double growth = SMALL_OSCILLATION * control->scheme.friction->critical_velocity / fastest;
     return growth > 1 &&
            both_sides_ask(sides_of(control), state, SIDES_OSCILLATE_LESS, range, growth);
 }
