@@ -7,6 +7,7 @@
 #include "algebra/dense.h"
 #include "block_mesh.h"
 #include "dense_by_hand.h"
+#include "friction_by_hand.h"
 #include "stepping/step_control.h"
 #include "paper_material.h"
 
@@ -14,6 +15,7 @@ typedef struct RigDef {
     BlockDef block;
     Material material;
     FrictionLaw law;
+    const Friction *friction;   // NULL: everywhere by that law
     RodKind rod_kind;
     double rod_velocity, rod_height, rod_width;   // width 0: no rod nodes
     double traction[2];   // on top, (x, z), stress
@@ -25,6 +27,7 @@ typedef struct BlockRig {
     Interface interface;
     BulkOperator system;
     FrictionLaw law;
+    Friction friction;   // everywhere by that law
     Rod rod;
     Block block;
 } BlockRig;
@@ -50,6 +53,7 @@ static inline void rig_build(const RigDef *def, BlockRig *rig)
     memset(rig, 0, sizeof *rig);
     block_build(&def->block, &rig->mesh);
     rig->law = def->law;
+    rig->friction = def->friction ? *def->friction : FRICTION_OF(&rig->law);
     InterfaceDef interface = {.has_rod = def->rod_width > 0,
                               .rod_name = "rod",
                               .rod_height = def->rod_height,
@@ -63,7 +67,7 @@ static inline void rig_build(const RigDef *def, BlockRig *rig)
                                 rig->interface.count, &rig->system, &err) &&
            rod_build(&rig->interface, def->rod_kind, def->rod_velocity, &rig->rod, &err);
     if (!done) fail_msg("%s", err.message);
-    rig->block = (Block){&rig->system, &rig->interface, &rig->law, &rig->rod, NULL};
+    rig->block = (Block){&rig->system, &rig->interface, &rig->friction, &rig->rod, NULL};
 }
 
 static inline void rig_destroy(BlockRig *rig)

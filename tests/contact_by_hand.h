@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "contact/contact_check.h"
 #include "contact/contact_solver.h"
+#include "friction_by_hand.h"
 #include "near.h"
 #include "random_numbers.h"
 
@@ -21,6 +22,7 @@ enum { HAND_RODS = 4, HAND_UNKNOWNS = HAND_DIM * HAND_NODES + HAND_RODS };
 typedef struct HandContact {
     Interface interface;   // counts only
     FrictionLaw law;
+    Friction friction;   // everywhere by that law, unless it has nodes
     RodKind rod_kind;
     const double *rod_softness;
     double rod_reach;
@@ -41,10 +43,11 @@ static inline void hand_contact_size(HandContact *hand, int32_t contacts, int32_
 }
 
 // matrix: of hand->schur; NULL: to be judged only.
-static inline ContactProblem hand_problem(const HandContact *hand, ContactMatrix *matrix)
+static inline ContactProblem hand_problem(HandContact *hand, ContactMatrix *matrix)
 {
+    if (!hand->friction.node) hand->friction = FRICTION_OF(&hand->law);
     return (ContactProblem){.interface = &hand->interface,
-                            .law = &hand->law,
+                            .friction = &hand->friction,
                             .rod_kind = hand->rod_kind,
                             .rod_softness = hand->rod_softness,
                             .rod_reach = hand->rod_reach,
@@ -90,7 +93,7 @@ static inline bool hand_contact_solve(HandContact *hand)
 }
 
 // The largest violation, and of S v = g + r, relative to the forces there are.
-static inline double hand_contact_error(const HandContact *hand)
+static inline double hand_contact_error(HandContact *hand)
 {
     int32_t count = hand->interface.count;
     double force = 0, diagonal = 0, worst = 0;

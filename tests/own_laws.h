@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Friction laws of one's own, as a scene makes them.
+// Friction laws that need more than their numbers, as a scene makes them.
 #ifndef AMONTONS_TESTS_OWN_LAWS_H
 #define AMONTONS_TESTS_OWN_LAWS_H
 
-#include "friction/friction_look.h"
 #include "friction/friction_make.h"
+#include "friction_by_hand.h"
 #include "near.h"
 
 #include <string.h>
@@ -28,8 +28,7 @@ static inline FrictionLaw own_law(FrictionLaw law, const FrictionSource *source)
     FrictionSource full = *source;
     if (!full.look_up) full.look_up = own_number;
     if (!full.context) full.context = &given;
-    if (!friction_own_law(&full, &law, &key, &err) || !friction_look(&law, &err))
-        fail_msg("%s: %s", key, err.message);
+    if (!friction_make(&full, &law, &key, &err)) fail_msg("%s: %s", key, err.message);
     return law;
 }
 
@@ -48,6 +47,13 @@ static inline FrictionLaw own_formula(const char *text, double end)
 {
     FrictionSource source = {.formula = text, .end = end};
     return own_law((FrictionLaw){.kind = FRICTION_FORMULA}, &source);
+}
+
+// A built-in law with a state, whose contacts slip steadily at 1e-5.
+static inline FrictionLaw law_with_state(FrictionLaw law)
+{
+    FrictionSource source = {.rod_velocity = 1e-5, .end = 1};
+    return own_law(law, &source);
 }
 
 #endif

@@ -16,6 +16,7 @@ static inline void space_rig_build(const SpaceDef *shape, const RigDef *def,
     memset(rig, 0, sizeof *rig);
     space_build(shape, &rig->mesh);
     rig->law = def->law;
+    rig->friction = FRICTION_OF(&rig->law);
     Material material = def->material;
     material.plane_strain = true;
     InterfaceDef interface = {.has_rod = def->rod_width > 0,
@@ -31,7 +32,7 @@ static inline void space_rig_build(const SpaceDef *shape, const RigDef *def,
                                 rig->interface.count, &rig->system, &err) &&
            rod_build(&rig->interface, def->rod_kind, def->rod_velocity, &rig->rod, &err);
     if (!done) fail_msg("%s", err.message);
-    rig->block = (Block){&rig->system, &rig->interface, &rig->law, &rig->rod, NULL};
+    rig->block = (Block){&rig->system, &rig->interface, &rig->friction, &rig->rod, NULL};
 }
 
 #endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Sums and products of numbers, of named quantities and of variables, so that a study can say
 // `mesh.set.height: = 0.5 * mesh.set.length` and a scene its own friction law. Called by
-// scene/formulas and friction/friction_law.
+// scene/formulas and friction/laws.
 //
 //     sum = product {(+|-) product}     product = power {(*|/) power}
 //     power = - power | unit [^ power]

@@ -33,7 +33,7 @@ ContactResidual contact_residual(const ContactProblem *problem, const double *ve
         double pressing = reaction[n] / force_scale;
         check_unilateral((velocity[n] - problem->bound[n]) / velocity_scale, pressing, &worst);
         double speed = slip_size(interface, i, velocity);
-        double limit = friction_coefficient(friction_at(problem->law, i), speed) *
+        double limit = friction_coefficient(friction_at(problem->friction, i), speed) *
                        fmax(pressing, 0);
         worst.cone = fmax(worst.cone, slip_size(interface, i, reaction) / force_scale - limit);
         // Where it slips, friction is mu p against the slip; at rest any shear inside the cone will

@@ -7,7 +7,7 @@
 #include "algebra/dense.h"
 #include "base/memory.h"
 #include "contact/contact_sweeps.h"
-#include "friction/friction_state.h"
+#include "friction/friction.h"
 
 #include <string.h>
 
@@ -72,7 +72,7 @@ static bool judge_node(const Settling *settling, int32_t i)
 {
     const ContactProblem *problem = settling->problem;
     const Interface *interface = problem->interface;
-    const FrictionLaw *law = friction_at(problem->law, i);
+    const FrictionNode *node = friction_at(problem->friction, i);
     ContactSolution *at = settling->at;
     DiscRow *row = &settling->discs->row[i];
     int32_t t = interface_tangent(interface, i), n = interface_normal(interface, i);
@@ -85,11 +85,11 @@ static bool judge_node(const Settling *settling, int32_t i)
         return was != CONTACT_OPEN;
     }
     double speed = slip_size(interface, i, at->velocity);
-    double mu = friction_coefficient(law, speed), limit = mu * fmax(pressing, 0);
+    double mu = friction_coefficient(node, speed), limit = mu * fmax(pressing, 0);
     double z[] = {at->reaction[t] - rho * at->velocity[t],
                   at->reaction[t + 1] - rho * at->velocity[t + 1]};
     double size = hypot(z[0], z[1]);
-    bool creeps = friction_creeps(law) && size > 0;
+    bool creeps = node->law->creeps && size > 0;
     if (!creeps && size <= limit + (was == CONTACT_STICK ? slack : 0)) {
         at->status[i] = CONTACT_STICK;
         return was != CONTACT_STICK;
@@ -98,7 +98,7 @@ static bool judge_node(const Settling *settling, int32_t i)
                      .mu = mu,
                      .theta = limit > 0 ? limit / (limit + rho * speed) : 0,
                      .rho = rho};
-    double slope = friction_slope(law, speed) * fmax(at->reaction[n], 0);
+    double slope = friction_slope(node, speed) * fmax(at->reaction[n], 0);
     for (int32_t c = 0; c < 2; c++)
         row->along[c] = slope * (speed > 0 ? at->velocity[t + c] / speed : row->d[c]);
     at->status[i] = CONTACT_SLIP_FORWARD;

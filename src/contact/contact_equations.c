@@ -82,11 +82,11 @@ void contact_react(const ContactEquations *equations)
 // mu(|v_t|) of a slipping node, and mu' where it is asked for, one over a velocity.
 static double friction_of(const ContactEquations *equations, int32_t i, double *slope)
 {
-    const FrictionLaw *law = friction_at(equations->problem->law, i);
+    const FrictionNode *node = friction_at(equations->problem->friction, i);
     int32_t t = interface_tangent(equations->problem->interface, i);
     double speed = fabs(equations->at->velocity[t]);
-    if (slope) *slope = friction_slope(law, speed);
-    return friction_coefficient(law, speed);
+    if (slope) *slope = friction_slope(node, speed);
+    return friction_coefficient(node, speed);
 }
 
 void contact_find_rows(const ContactEquations *equations)
@@ -166,8 +166,9 @@ uint8_t contact_judge_node(const ContactEquations *equations, ContactScales scal
     *violation = -pressing / scales.force;
     if (*violation > 0) return CONTACT_OPEN;
     if (status == CONTACT_STICK) {
-        *violation = (fabs(shear) - friction_at(problem->law, i)->mu_static * pressing) /
-                     scales.force;
+        *violation =
+            (fabs(shear) - friction_threshold(friction_at(problem->friction, i)) * pressing) /
+            scales.force;
         return shear < 0 ? CONTACT_SLIP_FORWARD : CONTACT_SLIP_BACKWARD;
     }
     *violation = -at->velocity[t] * status_direction(status) / scales.velocity;

@@ -5,7 +5,7 @@
 
 #include "algebra/dense.h"
 #include "base/memory.h"
-#include "friction/friction_state.h"
+#include "friction/friction.h"
 #include "contact/slip.h"
 
 #include <math.h>
@@ -103,7 +103,7 @@ void contact_newton_begin(ContactNewton *newton, const ContactProblem *problem,
 {
     newton->equations = (ContactEquations){
         .problem = problem, .at = solution, .free = newton->free, .row = newton->row};
-    newton->creeps = friction_creeps(problem->law);
+    newton->creeps = problem->friction->whole.law->creeps;
     newton->rounding = rounding * dense_max_abs(problem->g, problem->interface->count);
     hold(newton);
     contact_newton_react(newton);
@@ -212,17 +212,17 @@ void contact_newton_creep(ContactNewton *newton)
     double fastest = contact_scales(problem, at->reaction).velocity;
     for (int32_t a = 0; a < newton->equations.free_count; a++) {
         int32_t k = newton->free[a], i = contact_slipping_node(&newton->equations, k);
-        if (i < 0 || !friction_creeps(friction_at(problem->law, i))) continue;
+        if (i < 0 || !friction_at(problem->friction, i)->law->creeps) continue;
         if (k != interface_tangent(problem->interface, i)) continue;
-        const FrictionLaw *law = friction_at(problem->law, i);
+        const FrictionNode *node = friction_at(problem->friction, i);
         double *v = at->velocity + k, *step = newton->step + a, turned = 0, next[TANGENTS_MAX];
         double speed = slip_size(problem->interface, i, at->velocity);
         double pressing = at->reaction[interface_normal(problem->interface, i)];
         for (int32_t c = 0; c < tangents; c++) turned += (v[c] + step[c]) * v[c];
-        bool steep = friction_direct_slope(law, speed) * pressing >
+        bool steep = friction_direct_slope(node, speed) * pressing >
                      problem->matrix->schur[k * (count + 1)];
         if (!steep && turned > 0) continue;
-        friction_follow(law, tangents, v, step, next);
+        friction_follow(node, tangents, v, step, next);
         double most = fmax(speed, fastest), size = fabs(next[0]);
         if (tangents > 1) size = hypot(next[0], next[1]);
         for (int32_t c = 0; c < tangents; c++)

@@ -30,7 +30,7 @@ typedef struct ContactNewton {
     bool listed;   // what is free, open and closed is that of the statuses, and `step` has the
         // residuals of what is free
     bool exact;   // reactions are S v - g, not what steps added up to
-    bool creeps;   // nodes never stick: friction_creeps
+    bool creeps;   // nodes never stick, by their law
     bool reused;   // the last step was one with the factors of an earlier matrix
     int32_t *free;   // [count] work; owned, as all that follows
     int32_t *open;   // [count] work: unknowns of open nodes

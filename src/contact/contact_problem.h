@@ -17,13 +17,13 @@
 
 #include "contact/contact_matrix.h"
 #include "contact/contact_status.h"
-#include "friction/friction_law.h"
+#include "friction/friction.h"
 #include "contact/rod.h"
 
 // Nothing is owned.
 typedef struct ContactProblem {
     const Interface *interface;
-    const FrictionLaw *law;
+    const Friction *friction;
     RodKind rod_kind;
     const double *rod_softness;   // [rod_count] length per force/width, 0: rigid; NULL: all are
     const double *rod_lag;   // [rod_count] time; NULL: 0

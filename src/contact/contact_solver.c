@@ -94,7 +94,7 @@ static bool start_fast(ContactNewton *newton, int32_t node)
     double *slip_rate = &equations->at->velocity[interface_tangent(problem->interface, node)];
     double direction = status_direction(equations->at->status[node]);
     if (*slip_rate * direction >= 0) return false;
-    *slip_rate = direction * friction_spent_speed(friction_at(problem->law, node));
+    *slip_rate = direction * friction_spent_speed(friction_at(problem->friction, node));
     newton->factors_gain = false;
     newton->listed = false;
     contact_newton_react(newton);

@@ -24,7 +24,7 @@ enum {
 };
 
 typedef struct NodeAlone {
-    const FrictionLaw *law;
+    const FrictionNode *friction;
     double s[3][3];
     double b[3], bound;
     double q[2], r_0;
@@ -41,7 +41,7 @@ static double slip_at(const NodeAlone *node, double x, double v[2], double *pres
     v[1] = (a * node->q[1] - b * node->q[0]) / determinant;
     double speed = hypot(v[0], v[1]);
     *pressing = fmax(node->r_0 + node->s[0][2] * v[0] + node->s[1][2] * v[1], 0);
-    return l * speed - friction_coefficient(node->law, speed) * *pressing;
+    return l * speed - friction_coefficient(node->friction, speed) * *pressing;
 }
 
 static void find_slip(const NodeAlone *node, double v[2], double *pressing)
@@ -86,7 +86,7 @@ static uint8_t solve_alone(NodeAlone *node, double v[3])
     double trace = node->s[0][0] + node->s[1][1];
     double determinant = node->s[0][0] * node->s[1][1] - node->s[0][1] * node->s[0][1];
     node->soft = determinant / trace;
-    double limit = friction_coefficient(node->law, 0) * fmax(node->r_0, 0), pressing;
+    double limit = friction_coefficient(node->friction, 0) * fmax(node->r_0, 0), pressing;
     if (hypot(node->q[0], node->q[1]) <= limit) return CONTACT_STICK;
     find_slip(node, v, &pressing);
     return status_of_slip(v[0]);
@@ -109,7 +109,8 @@ static void sweep_node(const ContactProblem *problem, ContactSolution *at, int32
     const Interface *interface = problem->interface;
     int64_t count = interface->count, t = interface_tangent(interface, i);
     int32_t dim = interface->dim, slot[] = {0, dim == 2 ? 2 : 1, 2};   // of a component, above
-    NodeAlone node = {.law = friction_at(problem->law, i), .bound = problem->bound[t + dim - 1]};
+    NodeAlone node = {.friction = friction_at(problem->friction, i),
+                      .bound = problem->bound[t + dim - 1]};
     double v[3];
     for (int64_t a = 0; a < dim; a++) {
         double *b_a = &node.b[slot[a]];

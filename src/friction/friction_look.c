@@ -14,10 +14,33 @@ static const double PEAK = 1.01;   // a wide one is met that nearly
 enum { LOOKED_MAX = 20000, PIECES_MAX = 1100 };
 static const double SPENT_PART = 0.01;   // of the drop may be left where the law is spent
 
+static double mu_of(const FrictionLaw *law, double speed)
+{
+    FrictionNode node = {.law = law, .factor = 1};
+    return friction_coefficient(&node, speed);
+}
+
+static double slope_of(const FrictionLaw *law, double speed)
+{
+    FrictionNode node = {.law = law, .factor = 1};
+    return friction_slope(&node, speed);
+}
+
+// The k-th of the speeds, ascending from 0 to the end, at which the law is looked at; INFINITY:
+// there are no more. A formula may change anywhere: a hundred to a decade, over twelve of them.
+static double speed_of(const FrictionLaw *law, int32_t k)
+{
+    enum { DECADE = 100, DECADES = 12, LAST = DECADES * DECADE + 1 };
+    const FrictionOperations *operations = friction_operations(law);
+    if (operations->look_speed) return operations->look_speed(law, k);
+    if (k >= LAST) return k == LAST ? law->end : INFINITY;
+    return k == 0 ? 0 : law->end * pow(10, (double)(k - LAST) / DECADE);
+}
+
 // Looks at mu and its slope at this speed, and refuses values that no law may have.
 static bool look_at(const FrictionLaw *law, double speed, Error *err)
 {
-    double mu = friction_coefficient(law, speed), slope = friction_slope(law, speed);
+    double mu = mu_of(law, speed), slope = slope_of(law, speed);
     if (!isfinite(mu))
         return REFUSE(err, "at velocity %g the coefficient is %g: not a finite number", speed, mu);
     if (!isfinite(slope))
@@ -36,14 +59,15 @@ static bool stays_within(const FrictionLaw *law, double highest, Error *err)
 {
     double pieces[PIECES_MAX][2] = {{0, law->end}};
     const double least = -SLIGHT * law->mu_static, most = PEAK * highest;
-    if (law->kind != FRICTION_FORMULA) return true;
+    const FrictionOperations *operations = friction_operations(law);
+    if (!operations->bounds) return true;
     for (int32_t count = 1, looked = 0; count > 0 && looked < LOOKED_MAX; looked++) {
         double bounds[2], *piece = pieces[--count];
         double middle = 0.5 * (piece[0] + piece[1]), high = piece[1];
-        formula_bounds(&law->own.formula, piece, bounds);
+        operations->bounds(law, piece, bounds);
         if (bounds[0] >= least && bounds[1] <= most) continue;
         if (middle <= piece[0] || middle >= high || count + 2 > PIECES_MAX) continue;
-        double mu = friction_coefficient(law, middle);
+        double mu = mu_of(law, middle);
         if (!(mu >= least) && !look_at(law, middle, err)) return false;
         if (mu > most)
             return REFUSE(err,
@@ -62,13 +86,13 @@ static bool stays_within(const FrictionLaw *law, double highest, Error *err)
 // is halved towards the larger change. A jump stays, whatever is steep shrinks.
 static bool is_continuous(const FrictionLaw *law, double low, double high, Error *err)
 {
-    double from = friction_coefficient(law, low), to = friction_coefficient(law, high);
-    double slopes = friction_slope(law, low) + friction_slope(law, high);
+    double from = mu_of(law, low), to = mu_of(law, high);
+    double slopes = slope_of(law, low) + slope_of(law, high);
     double jump = JUMP * fmax(from, to);
     if (fabs(to - from - 0.5 * (high - low) * slopes) <= jump) return true;
     double least = low + 1e-12 * high;
     while (high - low > 1e-13 * high && high > least && fabs(to - from) > jump) {
-        double middle = 0.5 * (low + high), mu = friction_coefficient(law, middle);
+        double middle = 0.5 * (low + high), mu = mu_of(law, middle);
         bool left = fabs(mu - from) > fabs(to - mu);
         *(left ? &high : &low) = middle;
         *(left ? &to : &from) = mu;
@@ -83,10 +107,10 @@ static bool is_continuous(const FrictionLaw *law, double low, double high, Error
 // The slope against differences on both sides; at a kink it lies between them.
 static bool slope_fits(const FrictionLaw *law, double speed, Error *err)
 {
-    double h = STEP * speed, mu = friction_coefficient(law, speed);
-    double before = (mu - friction_coefficient(law, speed - h)) / h;
-    double after = (friction_coefficient(law, speed + h) - mu) / h;
-    double slope = friction_slope(law, speed);
+    double h = STEP * speed, mu = mu_of(law, speed);
+    double before = (mu - mu_of(law, speed - h)) / h;
+    double after = (mu_of(law, speed + h) - mu) / h;
+    double slope = slope_of(law, speed);
     double allowed = SLOPE_ERROR * (fabs(before) + fabs(after)) +
                      STEP * fmax(law->mu_static, mu) / speed;
     if (slope < fmin(before, after) - allowed || slope > fmax(before, after) + allowed)
@@ -99,13 +123,13 @@ static bool slope_fits(const FrictionLaw *law, double speed, Error *err)
 
 static double weakening(const FrictionLaw *law, double speed)
 {
-    return fmax(-friction_slope(law, speed), 0);
+    return fmax(-slope_of(law, speed), 0);
 }
 
 // Weakening, or where there is none what strengthens.
 static double course(const FrictionLaw *law, double speed)
 {
-    double slope = friction_slope(law, speed);
+    double slope = slope_of(law, speed);
     return fmax(law->steepest > 0 ? -slope : slope, 0);
 }
 
@@ -114,7 +138,7 @@ static double find_critical(const FrictionLaw *law)
 {
     double largest = law->steepest > 0 ? law->steepest : law->bend;
     double at_rest = course(law, 0), allowed = CHANGED * largest, low = 0, high;
-    for (int32_t k = 1; isfinite(high = friction_look_speed(law, k)); k++) {
+    for (int32_t k = 1; isfinite(high = speed_of(law, k)); k++) {
         if (fabs(course(law, high) - at_rest) > allowed) break;
         low = high;
     }
@@ -132,12 +156,12 @@ static double last_fall(const FrictionLaw *law)
 {
     int32_t k = 0;
     double lowest = INFINITY, speed = law->end;
-    while (isfinite(friction_look_speed(law, k))) k++;
+    while (isfinite(speed_of(law, k))) k++;
     while (k-- > 0) {
-        double mu = friction_coefficient(law, friction_look_speed(law, k));
+        double mu = mu_of(law, speed_of(law, k));
         lowest = fmin(lowest, mu);
         if (mu - lowest > SPENT_PART * law->fall) return speed;
-        speed = friction_look_speed(law, k);
+        speed = speed_of(law, k);
     }
     return 0;
 }
@@ -149,8 +173,7 @@ static double find_spent(const FrictionLaw *law)
     if (law->fall > 0) return last_fall(law);
     for (double times = 1; times * law->critical_velocity < law->end;
          times += times < 64 ? 1 : times)
-        if (friction_coefficient(law, times * law->critical_velocity) - law->mu_kinetic <=
-            SPENT_PART * drop)
+        if (mu_of(law, times * law->critical_velocity) - law->mu_kinetic <= SPENT_PART * drop)
             return times * law->critical_velocity;
     return law->end;
 }
@@ -161,16 +184,15 @@ bool friction_look(FrictionLaw *law, Error *err)
 {
     double given = law->mu_static, before = 0, speed, lowest = INFINITY, lowest_at = 0, rise = 0;
     double highest = 0, fall = 0;
-    if (law->remembers) return true;   // friction/friction_start has
-    law->mu_static = friction_coefficient(law, 0);
+    law->mu_static = mu_of(law, 0);
     law->steepest = law->fall = 0;
-    for (int32_t k = 0; isfinite(speed = friction_look_speed(law, k)); k++) {
+    for (int32_t k = 0; isfinite(speed = speed_of(law, k)); k++) {
         if (!look_at(law, speed, err)) return false;
         if (k > 0 && !is_continuous(law, before, speed, err)) return false;
         if (k > 0 && speed < law->end && !slope_fits(law, speed, err)) return false;
         law->steepest = fmax(law->steepest, weakening(law, speed));
-        rise = fmax(rise, friction_slope(law, speed));
-        double mu = friction_coefficient(law, speed);
+        rise = fmax(rise, slope_of(law, speed));
+        double mu = mu_of(law, speed);
         if (mu < lowest) lowest_at = speed;
         lowest = fmin(lowest, mu);
         highest = fmax(highest, mu);

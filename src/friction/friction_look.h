@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Looks at one's own friction law before it is used: is it one that the rest can work with, and
-// what are its scales? Called by scene/own_law.
+// Looks at one's own law of speed alone before it is used: is it one that the rest can work with,
+// and what are its scales? Called by friction/friction_make.
 #ifndef AMONTONS_FRICTION_FRICTION_LOOK_H
 #define AMONTONS_FRICTION_FRICTION_LOOK_H
 
-#include "friction/friction_law.h"
+#include "friction/friction.h"
 
-// law: kind, end and own are set; mu_static, mu_kinetic and critical_velocity as the scene gives
+// law: kind, end and functions are set; mu_static, mu_kinetic and critical_velocity as the scene gives
 // them, 0 where it does not. Sets these three, and what else of its shape is kept:
 //
 //   mu_S   mu(0)

@@ -7,7 +7,7 @@
 
 double friction_weakens_at(const FrictionRates *rates, double reach)
 {
-    return -memory_feedback(rates, reach);
+    return -friction_feedback(rates, reach);
 }
 
 // With G = D + O, D the diagonal, and R = (s - D)^-1, |R_kk| <= P_kk = reach/sqrt(1 + (reach
@@ -70,7 +70,7 @@ double friction_respond(const FrictionRates *rates, double s, double y, const do
     find_scales(rates, s, scale);
     for (int32_t k = 0; k < rates->states; k++)
         theta[k] = rates->rate_speed[k] * y - scale[k] * c[k] / s;
-    if (!memory_solve_states(rates, 1 / s, theta)) return NAN;
+    if (!friction_solve_states(rates, 1 / s, theta)) return NAN;
     for (int32_t k = 0; k < rates->states; k++) {
         if (z) z[k] = theta[k] / scale[k];
         falls -= rates->mu_state[k] * theta[k];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The response of friction that remembers to a small disturbance of slip, from mu, g and their
-// derivatives at a node (friction/friction_state). With any number of states
+// derivatives at a node (friction/friction.h). With any number of states
 //
 //     mu' = mu_v v' + mu_theta theta',     d theta'/dt = g_v v' + g_theta theta',
 //
@@ -9,7 +9,7 @@
 #ifndef AMONTONS_FRICTION_FRICTION_RESPONSE_H
 #define AMONTONS_FRICTION_FRICTION_RESPONSE_H
 
-#include "friction/friction_memory.h"
+#include "friction/friction.h"
 
 // A small disturbance exp(s t) of slip feels -mu_theta (s - g_theta)^-1 g_v, by which what is
 // remembered weakens: at the real s = 1/reach, and the most that its real part is at any s with

@@ -7,9 +7,10 @@
 #include <stdio.h>
 #include <string.h>
 
-static const double SLIGHT = 1e-6;   // of mu_S: what a formula may be below 0
+static const double SLIGHT = 1e-6;   // part of mu_S that a formula may be below 0
 static const double LEFT = 0.36787944117144233;   // 1/e
-static const double CALM = 1e-12;   // of mu at the rod's velocity: mu(0) of a law that creeps
+// Part of mu at the rod's velocity up to which mu(0) counts as 0: the law creeps.
+static const double NO_FRICTION = 1e-12;
 enum { DECADES = 12, DECADE = 10 };   // speeds that are looked at
 
 static double look_speed(const FrictionSource *source, int32_t k)
@@ -18,34 +19,33 @@ static double look_speed(const FrictionSource *source, int32_t k)
 }
 
 // "velocity 0.1, theta 2".
-static void write_place(const FrictionSource *source, const FrictionMemory *memory, double speed,
+static void write_place(const FrictionSource *source, const FrictionNode *node, double speed,
                         char *words, size_t size)
 {
     int used = snprintf(words, size, "velocity %g", speed);
-    for (int32_t k = 0; k < memory->states && used > 0 && (size_t)used < size; k++)
+    for (int32_t k = 0; k < node->law->states && used > 0 && (size_t)used < size; k++)
         used += snprintf(words + used, size - (size_t)used, ", %s %g",
-                         k < source->state_count ? source->state[k].name : "state",
-                         memory->from[k]);
+                         k < source->state_count ? source->state[k].name : "state", node->from[k]);
 }
 
-// Finds mu and the rates at memory->from, and refuses values that no law may have.
-static bool look_at(const FrictionSource *source, const FrictionMemory *memory, double speed,
+// Finds mu and the rates at node->from, and refuses values that no law may have.
+static bool look_at(const FrictionSource *source, const FrictionNode *node, double speed,
                     FrictionRates *rates, const char **key, Error *err)
 {
     char place[300];
     double finite = 0;
-    bool formula = memory->kind == MEMORY_FORMULAS;
-    *key = formula ? "state" : "file";
-    memory_rates(memory, speed, memory->from, rates);
-    write_place(source, memory, speed, place, sizeof place);
-    for (int32_t k = 0; k < memory->states; k++) {
+    const FrictionOperations *operations = friction_operations(node->law);
+    *key = operations->state_key;
+    friction_rates(node, speed, node->from, rates);
+    write_place(source, node, speed, place, sizeof place);
+    for (int32_t k = 0; k < node->law->states; k++) {
         if (!isfinite(rates->rate[k]))
             FAIL(err, ERROR_INPUT, "at %s the rate of %s is %g: not a finite number", place,
-                 formula ? source->state[k].name : "a state", rates->rate[k]);
+                 k < source->state_count ? source->state[k].name : "a state", rates->rate[k]);
         finite += rates->mu_state[k] + rates->rate_speed[k];
-        for (int32_t j = 0; j < memory->states; j++) finite += rates->rate_state[k][j];
+        for (int32_t j = 0; j < node->law->states; j++) finite += rates->rate_state[k][j];
     }
-    if (formula) *key = "formula";
+    *key = operations->mu_key;
     if (!isfinite(rates->mu))
         FAIL(err, ERROR_INPUT, "at %s the coefficient is %g: not a finite number", place,
              rates->mu);
@@ -59,41 +59,41 @@ cleanup:
     return error_is_clean(err);
 }
 
-bool friction_find_steady(FrictionMemory *memory, double speed)
+bool friction_find_steady(FrictionNode *node, double speed)
 {
     static const double STAYS = 1e-6;   // of a state: what the last, longest stage may change
     double state[STATES_MAX], began[STATES_MAX];
     bool found = true;
-    memcpy(began, memory->from, sizeof began);
-    for (memory->reach = 1e-12; memory->reach < 1e30; memory->reach *= 10) {
-        memory_state(memory, speed, state);
+    memcpy(began, node->from, sizeof began);
+    for (node->reach = 1e-12; node->reach < 1e30; node->reach *= 10) {
+        friction_state(node, speed, state);
         found = true;
-        for (int32_t k = 0; k < memory->states; k++) {
-            double change = fabs(state[k] - memory->from[k]);
+        for (int32_t k = 0; k < node->law->states; k++) {
+            double change = fabs(state[k] - node->from[k]);
             found = found && change <= STAYS * fmax(fabs(state[k]), STAYS);
-            if (!isfinite(state[k])) memory->reach = INFINITY;
+            if (!isfinite(state[k])) node->reach = INFINITY;
         }
-        memcpy(memory->from, state, sizeof state);
+        memcpy(node->from, state, sizeof state);
     }
-    memory->reach = 0;
-    if (!found) memcpy(memory->from, began, sizeof began);
+    node->reach = 0;
+    if (!found) memcpy(node->from, began, sizeof began);
     return found;
 }
 
-int32_t friction_count_steady(const FrictionMemory *memory, double speed, double states[2])
+int32_t friction_count_steady(const FrictionNode *node, double speed, double states[2])
 {
     static const double STARTS[] = {1e-6, 1e-3, 1, 1e3, 1e6};   // times the states at the start
     static const double SAME_STATE = 1e-3;   // relative
     double kept[STATES_MAX] = {0};
     int32_t count = 0;
     for (size_t s = 0; s < sizeof STARTS / sizeof *STARTS; s++) {
-        FrictionMemory tried = *memory;
+        FrictionNode tried = *node;
         bool differs = false;
-        for (int32_t k = 0; k < tried.states; k++)
-            tried.from[k] = STARTS[s] * (memory->start[k] != 0 ? memory->start[k] : 1);
+        for (int32_t k = 0; k < tried.law->states; k++)
+            tried.from[k] = STARTS[s] * (node->law->start[k] != 0 ? node->law->start[k] : 1);
         if (!friction_find_steady(&tried, speed)) continue;
-        for (int32_t k = 0; k < tried.states; k++) {
-            double size = fmax(fmax(fabs(tried.from[k]), fabs(kept[k])), fabs(memory->start[k]));
+        for (int32_t k = 0; k < tried.law->states; k++) {
+            double size = fmax(fmax(fabs(tried.from[k]), fabs(kept[k])), fabs(node->law->start[k]));
             bool differs_here = count > 0 && fabs(tried.from[k] - kept[k]) > SAME_STATE * size;
             if (differs_here && !differs) states[0] = kept[k], states[1] = tried.from[k];
             differs = differs || differs_here;
@@ -107,7 +107,7 @@ int32_t friction_count_steady(const FrictionMemory *memory, double speed, double
 
 // mu over one of its arguments: speed (0), pressure (1), state k (2 + k), the others as they are.
 typedef struct Course {
-    FrictionMemory memory;
+    FrictionNode node;
     double speed;
     int32_t argument;
 } Course;
@@ -116,9 +116,9 @@ static double course_at(Course *course, double value)
 {
     FrictionRates rates;
     double speed = course->argument == 0 ? value : course->speed;
-    if (course->argument == 1) course->memory.pressure = value;
-    if (course->argument >= 2) course->memory.from[course->argument - 2] = value;
-    memory_rates(&course->memory, speed, course->memory.from, &rates);
+    if (course->argument == 1) course->node.pressure = value;
+    if (course->argument >= 2) course->node.from[course->argument - 2] = value;
+    friction_rates(&course->node, speed, course->node.from, &rates);
     return rates.mu;
 }
 
@@ -140,24 +140,24 @@ static bool is_continuous(Course *course, double low, double high, double jump[3
 }
 
 // Around the states and the pressure of the start, and at all speeds that are looked at.
-static bool check_continuous(const FrictionSource *source, const FrictionMemory *memory,
+static bool check_continuous(const FrictionSource *source, const FrictionNode *node,
                              const char **key, Error *err)
 {
     static const double REACH = 1e3;   // times pressure and states at the start, and over it
-    Course course = {.memory = *memory, .speed = fmax(source->rod_velocity, 1e-3 * source->end)};
-    for (int32_t argument = 0; argument < 2 + memory->states; argument++) {
+    Course course = {.node = *node, .speed = fmax(source->rod_velocity, 1e-3 * source->end)};
+    for (int32_t argument = 0; argument < 2 + node->law->states; argument++) {
         double middle = argument == 0   ? source->end / REACH
                         : argument == 1 ? source->pressure
-                                        : fabs(memory->start[argument - 2]);
+                                        : fabs(node->law->start[argument - 2]);
         int32_t points = argument == 0 ? DECADES * DECADE : 6 * DECADE;
         double jump[3], value = 0, next;
         if (!(middle > 0)) continue;
         for (int32_t k = 0; k < points; k++, value = next) {
-            course.memory = *memory;
+            course.node = *node;
             course.argument = argument;
             next = middle * REACH * pow(10, (double)(k + 1 - points) / DECADE);
             if (k == 0 || is_continuous(&course, value, next, jump)) continue;
-            *key = memory->kind == MEMORY_FORMULAS ? "formula" : "file";
+            *key = friction_operations(node->law)->mu_key;
             return REFUSE(err,
                           "at %s %g the coefficient jumps from %g to %g: it must be continuous",
                           argument == 0                        ? "velocity"
@@ -170,40 +170,40 @@ static bool check_continuous(const FrictionSource *source, const FrictionMemory 
     return true;
 }
 
-static void rest_for(FrictionMemory *memory, double rest)
+static void rest_for(FrictionNode *node, double rest)
 {
     static const double FIRST = 1e-9, GROWTH = 1.01;   // of the rest; from step to step
     double middle[STATES_MAX], step = FIRST * rest;
     for (double time = 0; time < rest; time += step, step *= GROWTH) {
         step = fmin(step, rest - time);
-        memory->reach = 0.5 * step;
-        memory_state(memory, 0, middle);
-        for (int32_t k = 0; k < memory->states; k++)
-            memory->from[k] = 2 * middle[k] - memory->from[k];
+        node->reach = 0.5 * step;
+        friction_state(node, 0, middle);
+        for (int32_t k = 0; k < node->law->states; k++)
+            node->from[k] = 2 * middle[k] - node->from[k];
     }
-    memory->reach = 0;
+    node->reach = 0;
 }
 
-// Into memory->from.
-static bool find_start(const FrictionSource *source, FrictionMemory *memory, const char **key,
+// Finds the states at the start, node->from.
+static bool find_start(const FrictionSource *source, FrictionNode *node, const char **key,
                        Error *err)
 {
     FrictionRates rates;
     bool all = true;
     *key = "state";
-    if (memory->kind == MEMORY_PLUGIN) {
-        *key = "file";
-        memory->plugin.start(&memory->plugin.given, source->rod_velocity, source->rest,
-                             memory->from);
+    const FrictionOperations *operations = friction_operations(node->law);
+    if (operations->start) {
+        *key = operations->state_key;
+        operations->start(node->law, source, node->from);
         return true;
     }
-    for (int32_t k = 0; k < memory->states; k++) {
+    for (int32_t k = 0; k < node->law->states; k++) {
         const FrictionStateText *state = &source->state[k];
-        memory->from[k] = 1;
+        node->from[k] = 1;
         all = all && *state->start;
         if (!*state->start) continue;
         bool read =
-            formula_value(state->start, source->look_up, source->context, &memory->from[k], err);
+            formula_value(state->start, source->look_up, source->context, &node->from[k], err);
         if (!read) error_context(err, "%s, its start", state->name);
         TRY(read);
     }
@@ -211,84 +211,82 @@ static bool find_start(const FrictionSource *source, FrictionMemory *memory, con
         FAIL(err, ERROR_INPUT,
              "a state needs its `start`: without a rod that moves nothing says what the contacts "
              "remember");
-    if (!all) TRY(look_at(source, memory, source->rod_velocity, &rates, key, err));
+    if (!all) TRY(look_at(source, node, source->rod_velocity, &rates, key, err));
     *key = "state";
-    if (!all && !friction_find_steady(memory, source->rod_velocity))
+    if (!all && !friction_find_steady(node, source->rod_velocity))
         FAIL(err, ERROR_INPUT,
              "no state of steady slip is found at velocity %g: a `start` is needed",
              source->rod_velocity);
-    if (source->rest > 0) rest_for(memory, source->rest);
+    if (source->rest > 0) rest_for(node, source->rest);
 cleanup:
     return error_is_clean(err);
 }
 
-// Steady slip at all speeds that are looked at: its mu, NaN where none is found.
-static bool look_along(const FrictionSource *source, FrictionMemory *memory, double *steady,
-                       double *steepest, const char **key, Error *err)
+// Looks at the law at the start and in steady slip at all speeds: steady gets mu of steady slip, NaN
+// where none is found, *lost the most that mu loses in a unit of slip by its states.
+static bool look_along(const FrictionSource *source, FrictionNode *node, FrictionLaw *law,
+                       double *steady, double *lost, const char **key, Error *err)
 {
     FrictionRates rates;
-    double lost = 0;
-    bool found = true;
+    *lost = 0;
     for (int32_t k = 0; k <= DECADES * DECADE; k++) {
         double speed = look_speed(source, k);
-        memcpy(memory->from, memory->start, sizeof memory->from);
-        TRY(look_at(source, memory, speed, &rates, key, err));
-        *steepest = fmax(*steepest, -rates.mu_speed);
+        memcpy(node->from, law->start, sizeof node->from);
+        TRY(look_at(source, node, speed, &rates, key, err));
+        law->steepest = fmax(law->steepest, -rates.mu_speed);
         double now = 0;
-        for (int32_t j = 0; j < memory->states; j++)
+        for (int32_t j = 0; j < law->states; j++)
             now += fabs(rates.mu_state[j] * rates.rate_speed[j]);
-        lost = fmax(lost, now);
+        *lost = fmax(*lost, now);
         steady[k] = k == 0 ? NAN : rates.mu;
-        if (memory->states == 0 || k == 0) continue;
-        found = friction_find_steady(memory, speed);
+        if (law->states == 0 || k == 0) continue;
         steady[k] = NAN;
-        if (!found) continue;
-        TRY(look_at(source, memory, speed, &rates, key, err));
+        if (!friction_find_steady(node, speed)) continue;
+        TRY(look_at(source, node, speed, &rates, key, err));
         steady[k] = rates.mu;
-        *steepest = fmax(*steepest, -rates.mu_speed);
+        law->steepest = fmax(law->steepest, -rates.mu_speed);
     }
-    memory->slip_distance = lost > 0 ? 1 / lost : 0;   // times the drop; 0: none is lost
 cleanup:
-    memcpy(memory->from, memory->start, sizeof memory->from);
+    memcpy(node->from, law->start, sizeof node->from);
     return error_is_clean(err);
 }
 
-static void set_scales(const FrictionSource *source, FrictionMemory *memory, const double *steady)
+static void set_scales(const FrictionSource *source, const FrictionNode *node, const double *steady,
+                       double lost, FrictionLaw *law)
 {
     FrictionRates rates;
     double lowest = INFINITY, highest = 0;
-    memory_rates(memory, 0, memory->start, &rates);
+    friction_rates(node, 0, law->start, &rates);
     double rests = rates.mu, rises = rates.mu_speed;
-    memory_rates(memory, source->rod_velocity > 0 ? source->rod_velocity : source->end,
-                 memory->start, &rates);
-    memory->creeps = rests <= CALM * rates.mu && rises > 0;
-    memory->reference = rates.mu;
+    friction_rates(node, source->rod_velocity > 0 ? source->rod_velocity : source->end, law->start,
+                   &rates);
+    law->creeps = law->strengthens = rests <= NO_FRICTION * rates.mu && rises > 0;
+    law->mu_reference = rates.mu;
     for (int32_t k = 1; k <= DECADES * DECADE; k++) {
         lowest = fmin(lowest, steady[k]);   // fmin and fmax pass a NaN over
         highest = fmax(highest, steady[k]);
     }
-    if (!(memory->mu_static > 0)) memory->mu_static = memory->creeps ? highest : rests;
-    if (!(memory->mu_kinetic > 0)) memory->mu_kinetic = fmin(lowest, memory->mu_static);
-    double drop = memory->mu_static - memory->mu_kinetic;
+    if (!(law->mu_static > 0)) law->mu_static = law->creeps ? highest : rests;
+    if (!(law->mu_kinetic > 0)) law->mu_kinetic = fmin(lowest, law->mu_static);
+    double drop = law->mu_static - law->mu_kinetic;
     int32_t last = DECADES * DECADE;
-    while (last > 1 && !(steady[last - 1] - memory->mu_kinetic > LEFT * drop)) last--;
-    if (!(memory->critical_velocity > 0)) memory->critical_velocity = look_speed(source, last);
-    memory->slip_distance *= drop;
-    if (source->slip_distance > 0) memory->slip_distance = source->slip_distance;
+    while (last > 1 && !(steady[last - 1] - law->mu_kinetic > LEFT * drop)) last--;
+    if (!(law->critical_velocity > 0)) law->critical_velocity = look_speed(source, last);
+    if (!(law->slip_distance > 0)) law->slip_distance = lost > 0 ? 1 / lost * drop : 0;
 }
 
-bool friction_start(const FrictionSource *source, FrictionMemory *memory, FrictionLaw *law,
-                    const char **key, Error *err)
+bool friction_start(const FrictionSource *source, FrictionLaw *law, const char **key, Error *err)
 {
-    double steady[DECADES * DECADE + 1];
+    double steady[DECADES * DECADE + 1], lost;
     FrictionRates rates;
-    memory->pressure = source->pressure;
-    TRY(find_start(source, memory, key, err));
-    memcpy(memory->start, memory->from, sizeof memory->start);
-    TRY(look_at(source, memory, source->rod_velocity, &rates, key, err));
-    TRY(look_along(source, memory, steady, &law->steepest, key, err));
-    TRY(check_continuous(source, memory, key, err));
-    set_scales(source, memory, steady);
+    law->pressure = source->pressure;
+    FrictionNode node = friction_node(law, 1);
+    TRY(find_start(source, &node, key, err));
+    memcpy(law->start, node.from, sizeof law->start);
+    TRY(look_at(source, &node, source->rod_velocity, &rates, key, err));
+    TRY(look_along(source, &node, law, steady, &lost, key, err));
+    TRY(check_continuous(source, &node, key, err));
+    set_scales(source, &node, steady, lost, law);
 cleanup:
     return error_is_clean(err);
 }

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A law of one's own that remembers, from what a scene gives to one that can be used: its states
-// when the rod begins to move, a look at it, its scales. Called by friction/friction_make, and for
-// steady slip by study/stability.
+// One's own law that remembers, from what a scene gives to one that can be used: its states when
+// the rod begins to move, a look at it, its scales. Called by friction/friction_make,
+// and for steady slip by run/warnings and study/stability.
 #ifndef AMONTONS_FRICTION_FRICTION_START_H
 #define AMONTONS_FRICTION_FRICTION_START_H
 
-#include "friction/friction_law.h"
-#include "friction/friction_source.h"
+#include "friction/friction.h"
 
-// memory: kind, states and functions are set. Completes it and the law:
+// Kind, states and functions of the law are set. Completes it:
 //
 //   start    given by the scene or the plug-in; else that of steady slip at the rod's velocity;
 //            then the contacts rest for source->rest, d state/dt = g(0, state)
@@ -21,14 +20,14 @@
 // A mu_S, mu_K, v_c or D_c that the scene gives stays. ERROR_INPUT, with the velocity and the
 // states: not finite, negative, not continuous in one of its arguments; or no steady state is
 // found. *key: of the map `friction`.
-bool friction_start(const FrictionSource *source, FrictionMemory *memory, FrictionLaw *law,
-                    const char **key, Error *err);
+bool friction_start(const FrictionSource *source, FrictionLaw *law, const char **key, Error *err);
 
 // How many states of steady slip are found at this speed from states at the start and far from it:
 // 0, 1, or 2 for several; then states: one of them in two of these.
-int32_t friction_count_steady(const FrictionMemory *memory, double speed, double states[2]);
+int32_t friction_count_steady(const FrictionNode *node, double speed, double states[2]);
 
-// memory->from becomes that of steady slip. false: none is found from there; it is as it was.
-bool friction_find_steady(FrictionMemory *memory, double speed);
+// node->from becomes the states of steady slip. Returns false where none is found from there, and
+// leaves it as it was.
+bool friction_find_steady(FrictionNode *node, double speed);
 
 #endif

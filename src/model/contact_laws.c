@@ -3,7 +3,6 @@
 
 #include "base/memory.h"
 #include "fem/mesh_pieces.h"
-#include "friction/friction_state.h"
 #include "model/place_formula.h"
 #include "scene/contact_laws.h"
 
@@ -77,16 +76,16 @@ static bool take_mean(Part part, bool plane, const char *text, double *factor, E
     return true;
 }
 
-// The item of the piece of contact on which node i lies, else of its group; NULL: none.
-static const SceneContactLaw *item_of(const Model *model, int32_t i)
+// Number of the item of the piece of contact on which node i lies, else of its group; -1: none.
+static int32_t item_of(const Model *model, int32_t i)
 {
     const SceneContactLaws *laws = &model->scene->contact_laws;
     const char *name = model->interface.pad_name[model->interface.pad[i]];
     for (int32_t k = 0; k < laws->count; k++)
-        if (strcmp(laws->item[k].group, name) == 0) return &laws->item[k];
+        if (strcmp(laws->item[k].group, name) == 0) return k;
     for (int32_t k = 0; k < laws->count; k++)
-        if (mesh_piece_is_of(name, laws->item[k].group)) return &laws->item[k];
-    return NULL;
+        if (mesh_piece_is_of(name, laws->item[k].group)) return k;
+    return -1;
 }
 
 static bool check_groups(const Model *model, Error *err)
@@ -104,30 +103,58 @@ static bool check_groups(const Model *model, Error *err)
     return true;
 }
 
+// The items say the same law.
+static bool is_same_law(const SceneContactLaw *a, const SceneContactLaw *b)
+{
+    return a->kind == b->kind && a->mu_static == b->mu_static && a->mu_kinetic == b->mu_kinetic &&
+           a->critical_velocity == b->critical_velocity && strcmp(a->formula, b->formula) == 0;
+}
+
+// Makes the laws: the scene's, and behind it that of item k at law_of[k]. Nodes of one law point to
+// one entry, so that both sides of a contact can be compared (stepping/half_step).
+static bool make_laws(Model *model, int32_t law_of[SCENE_CONTACT_LAWS_MAX], Error *err)
+{
+    const Scene *scene = model->scene;
+    const SceneContactLaws *items = &scene->contact_laws;
+    int32_t count = 1;
+    model->laws = NEW_ARRAY(FrictionLaw, items->count + 1, err);
+    if (!model->laws) return false;
+    model->laws[0] = scene->friction;
+    for (int32_t k = 0; k < items->count; k++) {
+        const SceneContactLaw *item = &items->item[k];
+        law_of[k] = scene_has_contact_law(item) ? count : 0;
+        for (int32_t j = 0; j < k && law_of[k] > 0; j++)
+            if (law_of[j] > 0 && is_same_law(&items->item[j], item)) law_of[k] = law_of[j];
+        if (law_of[k] < count) continue;
+        if (!scene_contact_law(scene, item, &model->laws[count], err)) return false;
+        count++;
+    }
+    return true;
+}
+
 bool model_lay_laws(Model *model, Error *err)
 {
     const Scene *scene = model->scene;
     const Interface *interface = &model->interface;
-    int32_t count = interface->contact_count;
+    int32_t count = interface->contact_count, law_of[SCENE_CONTACT_LAWS_MAX];
     bool plane = !interface->y;
     Part part = {0}, all = box_of(interface);
     bool alike = scene->contact_laws.count == 0 && !*scene->own_friction.along;
-    if (alike && !friction_remembers(&scene->friction, 0)) return true;
+    if (alike && !scene->friction.remembers) return true;
     if (!scene_blame(scene, "friction.contacts", check_groups(model, err), err)) return false;
-    if (!(model->node_laws = NEW_ARRAY(FrictionLaw, count, err))) return false;
+    if (!scene_blame(scene, "friction.contacts", make_laws(model, law_of, err), err)) return false;
+    model->friction_nodes = NEW_ARRAY(FrictionNode, count, err);
+    if (!model->friction_nodes) return false;
     for (int32_t i = 0; i < count; i++) {
-        const SceneContactLaw *item = item_of(model, i);
+        int32_t k = item_of(model, i);
         double factor = 1;
         part = plane ? next_part(interface, i, part) : square_part(interface, i, all);
         bool done = take_mean(part, plane, scene->own_friction.along, &factor, err);
         if (!scene_blame(scene, "friction.along", done, err)) return false;
-        done = !item || take_mean(part, plane, item->along, &factor, err);
+        done = k < 0 || take_mean(part, plane, scene->contact_laws.item[k].along, &factor, err);
         if (!scene_blame(scene, "friction.contacts", done, err)) return false;
-        FrictionLaw law = scene->friction;
-        done = !item || scene_contact_law(scene, item, &law, err);
-        if (!scene_blame(scene, "friction.contacts", done, err)) return false;
-        model->node_laws[i] = friction_scaled(&law, factor);
+        model->friction_nodes[i] = friction_node(&model->laws[k < 0 ? 0 : law_of[k]], factor);
     }
-    model->law = friction_spread(model->node_laws, count);
+    model->friction = friction_of_nodes(model->friction_nodes, count);
     return error_is_clean(err);
 }

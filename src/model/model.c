@@ -13,7 +13,7 @@ void model_destroy(Model *model)
     interface_destroy(&model->interface);
     bulk_destroy(&model->bulk);
     mesh_destroy(&model->mesh);
-    memory_free(model->node_laws);
+    memory_free_all(model->friction_nodes, model->laws);
     *model = (Model){0};
 }
 
@@ -59,19 +59,21 @@ static Materials scene_materials(const Scene *scene)
 
 Model model_of(const Scene *scene)
 {
-    return (Model){
-        .scene = scene, .materials = scene_materials(scene), .law = scene->friction, .breadth = 1};
+    return (Model){.scene = scene,
+                   .materials = scene_materials(scene),
+                   .friction = friction_everywhere(friction_node(&scene->friction, 1)),
+                   .breadth = 1};
 }
 
 double model_friction_slip(const Model *model)
 {
     double pressure = model->scales.load / (model->length * model->breadth);
-    return friction_slip(&model->law, pressure, model->height, model->materials.mean.young);
+    return friction_slip(&model->friction, pressure, model->height, model->materials.mean.young);
 }
 
 double model_slip_per_mu(const Model *model)
 {
-    FrictionLaw one = friction_constant(1);
+    Friction one = friction_everywhere(friction_constant(1));
     double pressure = model->scales.load / (model->length * model->breadth);
     return friction_slip(&one, pressure, model->height, model->materials.mean.young);
 }

@@ -7,7 +7,7 @@
 #define AMONTONS_MODEL_MODEL_H
 
 #include "reduction/reduced_bulk.h"
-#include "friction/friction_law.h"
+#include "friction/friction.h"
 #include "contact/rod.h"
 #include "io/cache/store.h"
 #include "record/observation.h"
@@ -27,8 +27,10 @@ typedef struct Model {
     RodEnd rod_end[2];   // the lower and the upper end of the rod's strip
     int32_t contact_region;   // of which of them the contact (its first pad) is
     bool on_contact[MATERIALS_MAX];   // which of them have a side in the contact
-    FrictionLaw law;
-    FrictionLaw *node_laws;   // [contact_count] where they differ (model/contact_laws); owned
+    Friction friction;
+    FrictionNode *friction_nodes;   // [contact_count] where they differ, or laws remember
+        // (model/contact_laws); owned
+    FrictionLaw *laws;   // [contacts of the scene + 1] laws that nodes point to; owned
     Mesh mesh;   // owned, like all that follows
     Bulk bulk;   // its loads; M, C and K where the full mesh is stepped
     struct {

@@ -4,25 +4,25 @@
 #include "record/contact_arrays.h"
 
 #include "base/memory.h"
-#include "friction/friction_state.h"
+#include "friction/friction.h"
 #include "contact/slip.h"
 
 #include <stdio.h>
 
 static const double SLIGHT = 1e-6;   // of the pressure: what a formula may be below 0
 
-// law must outlive the arrays.
-bool contact_arrays_create(const Interface *interface, const FrictionLaw *law,
+// friction must outlive the arrays.
+bool contact_arrays_create(const Interface *interface, const Friction *friction,
                            ContactArrays *arrays, Error *err)
 {
     int32_t count = interface->contact_count, tangents = slip_tangents(interface);
-    *arrays = (ContactArrays){.law = law, .count = count, .tangents = tangents};
+    *arrays = (ContactArrays){.friction = friction, .count = count, .tangents = tangents};
     arrays->slip_rate = NEW_ARRAY(double, count *tangents, err);
     arrays->slip = NEW_ARRAY(double, count *tangents, err);
     arrays->pressure = NEW_ARRAY(double, count, err);
     arrays->shear = NEW_ARRAY(double, count *tangents, err);
     arrays->status = NEW_ARRAY(uint8_t, count, err);
-    arrays->states = friction_states(law, count);
+    arrays->states = friction_states(friction, count);
     if (arrays->states > 0) arrays->state = NEW_ARRAY(double, (int64_t)count * arrays->states, err);
     arrays->origin = NEW_ARRAY(double, count *tangents, err);
     return error_is_clean(err);
@@ -35,10 +35,10 @@ void contact_arrays_destroy(ContactArrays *arrays)
     *arrays = (ContactArrays){0};
 }
 
-static uint8_t shown_status(const FrictionLaw *law, uint8_t status, double speed)
+static uint8_t shown_status(const FrictionNode *node, uint8_t status, double speed)
 {
     if (!status_slips(status)) return status;
-    return friction_weakens(law, speed) ? 2 : 3;
+    return friction_weakens(node, speed) ? 2 : 3;
 }
 
 // Reads component c of the slip of node i.
@@ -57,14 +57,14 @@ static void read_slip(ContactArrays *arrays, const Observation *seen, int32_t i,
 static bool check_coefficient(const ContactArrays *arrays, const Observation *seen, int32_t i,
                               Error *err)
 {
-    const FrictionLaw *law = friction_at(arrays->law, i);
+    const FrictionNode *node = friction_at(arrays->friction, i);
     const Interface *interface = seen->interface;
-    if (!law->remembers || !friction_is_own(law)) return true;
+    if (!node->law->remembers || !friction_is_own(node->law)) return true;
     const double *theta = seen->state->theta + (int64_t)i * STATES_MAX;
     double speed = slip_size(interface, i, seen->state->slip_rate);
     char states[25 * STATES_MAX] = "";
     FrictionRates rates;
-    friction_rates(law, speed, theta, &rates);
+    friction_rates(node, speed, theta, &rates);
     if (rates.mu >= -SLIGHT) return true;
     for (int32_t k = 0, used = 0; k < rates.states; k++)
         used += snprintf(states + used, sizeof states - (size_t)used, "%s%g", k ? ", " : ", state ",
@@ -88,9 +88,9 @@ bool contact_arrays_record(void *self, const Observation *seen, Error *err)
         for (int32_t c = 0; c < arrays->tangents; c++) read_slip(arrays, seen, i, c);
         for (int32_t k = 0; k < arrays->states; k++)
             arrays->state[i * arrays->states + k] = friction_shown_state(
-                friction_at(arrays->law, i), k, state->theta[i * STATES_MAX + k]);
+                friction_at(arrays->friction, i), k, state->theta[i * STATES_MAX + k]);
         arrays->pressure[i] = state->reaction[n] / seen->interface->weight[i];
-        arrays->status[i] = shown_status(friction_at(arrays->law, i), seen_status(seen, i),
+        arrays->status[i] = shown_status(friction_at(arrays->friction, i), seen_status(seen, i),
                                          slip_size(seen->interface, i, state->slip_rate));
     }
     arrays->started = true;

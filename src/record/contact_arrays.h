@@ -6,11 +6,11 @@
 #ifndef AMONTONS_RECORD_CONTACT_ARRAYS_H
 #define AMONTONS_RECORD_CONTACT_ARRAYS_H
 
-#include "friction/friction_law.h"
+#include "friction/friction.h"
 #include "record/observation.h"
 
 typedef struct ContactArrays {
-    const FrictionLaw *law;   // not owned
+    const Friction *friction;   // not owned
     int32_t count;   // contact nodes
     bool started;   // the first step was seen
     int32_t tangents;   // 1 in the plane, 2 in space
@@ -26,7 +26,7 @@ typedef struct ContactArrays {
     double *origin;   // [count * tangents] displacement in the first step, length
 } ContactArrays;
 
-bool contact_arrays_create(const Interface *interface, const FrictionLaw *law,
+bool contact_arrays_create(const Interface *interface, const Friction *friction,
                            ContactArrays *arrays, Error *err);
 void contact_arrays_destroy(ContactArrays *arrays);
 bool contact_arrays_record(void *self, const Observation *seen, Error *err);   // a Recorder

@@ -149,7 +149,7 @@ static void copy_line(const Fields *fields, const Observation *seen, double *lin
         pressure[i] = state->reaction[n] / interface->weight[i];
         density[i] = state->status[i] == CONTACT_OPEN
                          ? 0
-                         : friction_contact_density(friction_at(fields->law, i),
+                         : friction_contact_density(friction_at(fields->friction, i),
                                                     slip_size(interface, i, state->slip_rate));
     }
 }

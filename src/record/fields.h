@@ -7,7 +7,7 @@
 #define AMONTONS_RECORD_FIELDS_H
 
 #include "base/worker.h"
-#include "friction/friction_law.h"
+#include "friction/friction.h"
 #include "record/events.h"
 #include "record/field_files.h"
 
@@ -31,7 +31,7 @@ typedef struct FieldTimeCopy {
 typedef struct Fields {
     FieldsDef def;
     const char *folder;   // of the result; not owned, like the next two
-    const FrictionLaw *law;
+    const Friction *friction;
     const Events *events;
     FieldFiles files;   // owned, like all that follows
     Worker *writer;   // NULL until the first time is written

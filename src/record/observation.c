@@ -2,7 +2,7 @@
 #include "record/observation.h"
 
 #include "algebra/dense.h"
-#include "friction/friction_state.h"
+#include "friction/friction.h"
 #include "contact/slip.h"
 
 #include <assert.h>
@@ -77,7 +77,7 @@ Observation observe(const StepControl *control, const ObservationScales *scales)
                         .trailing = scales->trailing,
                         .certified = control->certified,
                         .grows = control->grows};
-    if (friction_creeps(scheme->law)) seen.creep = CREEP * scales->slip_velocity;
+    if (scheme->friction->whole.law->creeps) seen.creep = CREEP * scales->slip_velocity;
     seen.front = slip_front(&seen, &seen.front_slips);
     if (scheme->rod->stiffness == 0) seen.rod_way = seen.U;
     double load = scales->load * load_factor(scheme->course, state->time);
@@ -102,7 +102,7 @@ Observation observe(const StepControl *control, const ObservationScales *scales)
     if (control->counters.accepted > 0) {
         // The scheme still holds the bounds of the accepted step's last stage.
         ContactProblem problem = {.interface = interface,
-                                  .law = scheme->law,
+                                  .friction = scheme->friction,
                                   .rod_kind = scheme->rod->kind,
                                   .rod_softness = scheme->rod->softness,
                                   .rod_lag = scheme->rod->lag,

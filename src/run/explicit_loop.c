@@ -29,11 +29,11 @@ bool explicit_loop_prepare(Simulation *simulation, Error *err)
     simulation->explicit_steps = (int64_t)steps;
     ExplicitDef def = {.bulk = &simulation->model.bulk,
                        .interface = &simulation->model.interface,
-                       .law = &simulation->law,
+                       .friction = &simulation->friction,
                        .rod = &simulation->rod,
                        .course = control->scheme.course,
                        .step = interval / steps,
-                       .stage_laws = control->scheme.memory.laws};
+                       .stage_friction = control->scheme.memory.node};
     if (!explicit_reference_create(&def, &simulation->explicit_reference, err)) return false;
     explicit_reference_start(&simulation->explicit_reference, &control->now);
     step_control_use_explicit(control, &simulation->explicit_reference);

@@ -6,7 +6,7 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "base/module.h"
-#include "friction/friction_state.h"
+#include "friction/friction.h"
 #include "io/files/open_file.h"
 #include "run/result/pictures.h"
 #include "run/warnings.h"
@@ -56,16 +56,16 @@ static bool add_faces(const ContactFaces *faces, ResultHead *head, double **poin
 static const char *state_names(const Scene *scene, int32_t count, char *names, size_t size)
 {
     const SceneStates *own = &scene->own_friction.states;
-    bool part = scene->friction.kind == FRICTION_SLIP_WEAKENING;
-    bool plugin = scene->friction.kind == FRICTION_PLUGIN;
+    bool numbered = friction_is_own(&scene->friction) && own->count == 0;
     names[0] = 0;
     for (int32_t k = 0; k < count; k++) {
         size_t used = strlen(names);
-        const char *name = k < own->count ? own->state[k].name : part ? "phi" : "theta";
+        const char *name = k < own->count ? own->state[k].name
+                                          : friction_state_name(&scene->friction);
         used += (size_t)snprintf(names + used, size - used, "%s%s", k > 0 ? "\n" : "", name);
-        if (plugin) snprintf(names + used, size - used, "_%d", k + 1);
+        if (numbered) snprintf(names + used, size - used, "_%d", k + 1);
     }
-    return own->count > 0 || plugin ? "its own" : part ? "1" : "time";
+    return friction_state_unit(&scene->friction);
 }
 
 // mu_M and l_c are NaN in the head: they are known at the end only.
@@ -75,7 +75,7 @@ static bool open_history(Simulation *simulation, Error *err)
     const Model *model = &simulation->model;
     const Material *material = &model->materials.list[model->contact_region];
     WaveSpeeds speeds = material_speeds(material);
-    bool creeps = friction_creeps(&model->law);
+    bool creeps = model->friction.whole.law->creeps;
     char names[STATES_MAX * (STATE_NAME_SIZE + 1)];
     ResultHead head = {
         .title = scene->title,
@@ -91,10 +91,10 @@ static bool open_history(Simulation *simulation, Error *err)
                     [NUMBER_PRESSURE] = scene->load.pressure,
                     [NUMBER_LOAD] = simulation->model.scales.load,
                     [NUMBER_ROD_VELOCITY] = scene->rod.velocity,
-                    [NUMBER_CRITICAL_VELOCITY] = simulation->model.law.critical_velocity,
+                    [NUMBER_CRITICAL_VELOCITY] = simulation->model.friction.critical_velocity,
                     // For a law under which nothing sticks they are scales, not levels to draw.
-                    [NUMBER_MU_STATIC] = creeps ? NAN : simulation->model.law.mu_static,
-                    [NUMBER_MU_KINETIC] = creeps ? NAN : simulation->model.law.mu_kinetic,
+                    [NUMBER_MU_STATIC] = creeps ? NAN : simulation->model.friction.mu_static,
+                    [NUMBER_MU_KINETIC] = creeps ? NAN : simulation->model.friction.mu_kinetic,
                     [NUMBER_C_LONGITUDINAL] = speeds.longitudinal,
                     [NUMBER_C_SHEAR] = speeds.shear,
                     [NUMBER_C_RAYLEIGH] = speeds.rayleigh,
@@ -155,7 +155,7 @@ static bool open_fields(Simulation *simulation, Error *err)
                        &simulation->model.interface, &simulation->fields, err))
         return false;
     simulation->fields.files.materials = simulation->model.materials.list;
-    simulation->fields.law = &simulation->model.law;
+    simulation->fields.friction = &simulation->model.friction;
     simulation->fields.events = &simulation->events;
     return true;
 }

@@ -65,10 +65,10 @@ static bool open_recorders(Simulation *simulation, Error *err)
         !drops_create(&model->interface, events, simulation->scene.time.periodic_tolerance,
                       &simulation->drops, err) ||
         !pads_create(&model->interface, events, &simulation->pads, err) ||
-        !contact_arrays_create(&model->interface, &model->law, &simulation->contact, err))
+        !contact_arrays_create(&model->interface, &model->friction, &simulation->contact, err))
         return false;
-    bool remembers = simulation->control.scheme.memory.laws != NULL;
-    simulation->drops.mu_static = remembers ? NAN : model->law.mu_static;
+    bool remembers = simulation->control.scheme.memory.node != NULL;
+    simulation->drops.mu_static = remembers ? NAN : model->friction.mu_static;
     simulation->steady = steady_of(events, model_friction_slip(model) + model_machine_yield(model));
     if (program_jumps(&simulation->rod_course))
         simulation->readings.course = &simulation->rod_course;

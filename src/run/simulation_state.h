@@ -41,7 +41,7 @@ struct Simulation {
     RunOptions options;
     ResultFolder folder;
     Model model;   // of `scene`
-    FrictionLaw law;   // that acts now: the model's, or none while relaxing without friction
+    Friction friction;   // that acts now: the model's, or none while relaxing without friction
     Rod rod;   // where it is and what it does now; owned
     RodCourse rod_course;   // how it is driven, where the scene has a program
     LoadCourse load_course;

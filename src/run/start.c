@@ -4,7 +4,7 @@
 #include "run/start.h"
 
 #include "base/clock.h"
-#include "friction/friction_state.h"
+#include "friction/friction.h"
 #include "model/step_rule.h"
 #include "scene/programs.h"
 #include "stepping/relaxation.h"
@@ -26,9 +26,10 @@ bool start_prepare_steps(Simulation *simulation, Error *err)
 {
     const Scene *scene = &simulation->scene;
     Model *model = &simulation->model;
+    const FrictionLaw *law = model->friction.whole.law;
     StepSizes sizes = {.slip = model_friction_slip(model),
                        .yield = model_machine_yield(model),
-                       .memory = model->law.remembers ? model->law.own.memory.slip_distance : 0,
+                       .memory = law->remembers ? law->slip_distance : 0,
                        .crossing = model_crossing(model),
                        .tolerance = TOLERANCES[scene->time.accuracy]};
     StepControlDef def = step_rule(scene, &sizes);
@@ -37,13 +38,13 @@ bool start_prepare_steps(Simulation *simulation, Error *err)
     simulation->t_end = step_rule_end(scene);
     bool held = scene->start.rod == START_ROD_HELD;
     RodKind kind = held ? ROD_KINDS[scene->rod.kind] : ROD_AWAY;
-    simulation->law = model->law;
+    simulation->friction = model->friction;
     if (!model_build_rod(model, kind, &simulation->rod, err)) return false;
     Block block = {.system = &model->system,
                    .interface = &model->interface,
-                   .law = &simulation->law,
+                   .friction = &simulation->friction,
                    .rod = &simulation->rod,
-                   .stage_laws = model->node_laws};
+                   .stage_friction = model->friction_nodes};
     return step_control_create(&block, &def, &simulation->control, err);
 }
 
@@ -99,18 +100,19 @@ bool start_relax(Simulation *simulation, Error *err)
 {
     const Scene *scene = &simulation->scene;
     const Model *model = &simulation->model;
+    const FrictionLaw *law = model->friction.whole.law;
     double started = clock_seconds();
     RelaxationDef def = {.speed_max = scene->start.tolerance * model->scales.slip_velocity,
                          .duration_max = scene->start.duration_max * model->scales.time,
                          .may_go_on = may_go_on,
                          .self = simulation};
     if (scene->start.friction == START_FRICTION_OFF)
-        simulation->law = friction_constant(0);
-    else if (friction_creeps(&model->law))   // no block ever settles on what never sticks
-        simulation->law = friction_constant(model->law.own.memory.reference);
+        simulation->friction = friction_everywhere(friction_constant(0));
+    else if (law->creeps)   // no block ever settles on what never sticks
+        simulation->friction = friction_everywhere(friction_constant(law->mu_reference));
     if (scene->start.state == START_RELAXED)
         TRY(relax(&simulation->control, &def, &simulation->relaxation_steps, err));
-    simulation->law = model->law;
+    simulation->friction = model->friction;
     simulation->rod.kind = ROD_KINDS[scene->rod.kind];
     simulation->rod.velocity = scene->rod.velocity;
     start_programs(simulation);

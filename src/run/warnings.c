@@ -15,7 +15,6 @@
 
 #include "answers/drop_series.h"
 #include "friction/friction_start.h"
-#include "friction/friction_state.h"
 #include "scene/keys.h"
 #include "scene/materials.h"
 #include "scene/programs.h"
@@ -37,16 +36,16 @@ void warnings_add(RunWarnings *warnings, const char *format, ...)
 int32_t undamped_nodes(const Certificate *certificate, double load, double *worst)
 {
     const Interface *interface = certificate->moving.interface;
-    const FrictionLaw *law = certificate->moving.law;
+    const Friction *friction = certificate->moving.contact_friction;
     double length = 0;
     *worst = 0;
-    if (!certificate->damping || !(friction_drop(law) > 0)) return 0;   // the scene was warned of
+    if (!certificate->damping || !(friction->drop > 0)) return 0;   // the scene was warned of
     const double *schur = interface_operator_schur(certificate->damping);
     int32_t count = 0;
     for (int32_t i = 0; i < interface->contact_count; i++) length += interface->weight[i];
     for (int32_t i = 0; i < interface->contact_count; i++) {
         int64_t t = interface_tangent(interface, i);
-        double slope = friction_steepest(friction_at(law, i));
+        double slope = friction_steepest(friction_at(friction, i));
         double ratio = slope * load / length * interface->weight[i] /
                        schur[t * interface->count + t];
         count += ratio > 1;
@@ -57,7 +56,7 @@ int32_t undamped_nodes(const Certificate *certificate, double load, double *wors
 
 void warnings_of_viscosity(const Scene *scene, const Model *model, RunWarnings *warnings)
 {
-    if (!(friction_drop(&scene->friction) > 0) || amontons_scene_warning(scene)) return;
+    if (!(friction_law_drop(&scene->friction) > 0) || amontons_scene_warning(scene)) return;
     for (int32_t k = 0; k < model->materials.count; k++) {
         if (!model->on_contact[k] || model->materials.list[k].eta1 > 0) continue;
         warnings_add(warnings,
@@ -90,14 +89,14 @@ void warnings_of_memory(const Model *model, double load, RunWarnings *warnings)
     const Material *floor = &model->materials.list[model->contact_region];
     double shear = moduli_shear(material_elastic(floor)), length = 0, least = INFINITY;
     int32_t coarse = 0, count = interface->contact_count;
-    if (!friction_remembers(&model->law, count)) return;
+    if (!friction_remembers(&model->friction, count)) return;
     for (int32_t i = 0; i < count; i++) length += interface->weight[i];
     for (int32_t i = 0; i < count; i++) {
-        const FrictionLaw *law = friction_at(&model->law, i);
+        const FrictionNode *node = friction_at(&model->friction, i);
         double state[STATES_MAX], lost = 0;   // of mu over slip
         FrictionRates rates;
-        friction_start_state(law, state);
-        friction_rates(law, model->scales.slip_velocity, state, &rates);
+        friction_start_state(node, state);
+        friction_rates(node, model->scales.slip_velocity, state, &rates);
         for (int32_t k = 0; k < rates.states; k++)
             lost += fabs(rates.mu_state[k] * rates.rate_speed[k]);
         double reach = shear / (load / length * lost);
@@ -383,12 +382,10 @@ void warnings_of_gaps(const Model *model, RunWarnings *warnings)
 
 void warnings_of_states(const Model *model, RunWarnings *warnings)
 {
-    const FrictionLaw *law = &model->law;
+    const FrictionNode *node = &model->friction.whole;
     double speed = model->scene->rod.velocity, states[2] = {0};
-    bool own = law->remembers &&
-               (law->own.memory.kind == MEMORY_FORMULAS || law->own.memory.kind == MEMORY_PLUGIN);
-    if (!own || law->own.memory.states == 0 || !(speed > 0)) return;
-    int32_t count = friction_count_steady(&law->own.memory, speed, states);
+    if (!friction_is_own(node->law) || node->law->states == 0 || !(speed > 0)) return;
+    int32_t count = friction_count_steady(node, speed, states);
     if (count == 0)
         warnings_add(
             warnings,

@@ -115,7 +115,7 @@ static bool check_friction_keys(const Check *check)
     return true;
 }
 
-// The coefficient at rest is the largest: mu_K <= mu_S. One's own law is checked by scene/own_law.
+// The coefficient at rest is the largest: mu_K <= mu_S. One's own law is checked by scene/friction_law.
 static bool check_friction(const Check *check)
 {
     if (!check_friction_keys(check)) return false;
@@ -339,7 +339,7 @@ static bool check_output(const Check *check)
 // run/warnings.
 const char *amontons_scene_warning(const Scene *scene)
 {
-    if (!(friction_drop(&scene->friction) > 0) || scene->material.eta1 > 0) return NULL;
+    if (!(friction_law_drop(&scene->friction) > 0) || scene->material.eta1 > 0) return NULL;
     for (int32_t i = 0; i < scene->materials.count; i++)
         if (scene_material_number(scene, &scene->materials.region[i], MATERIAL_ETA1) > 0)
             return NULL;

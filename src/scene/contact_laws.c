@@ -1,24 +1,28 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "scene/contact_laws.h"
 
-#include "friction/friction_look.h"
 #include "friction/friction_make.h"
-#include "friction/friction_state.h"
-#include "scene/own_law.h"
+#include "scene/friction_law.h"
 
 #include <string.h>
+
+bool scene_has_contact_law(const SceneContactLaw *item)
+{
+    return item->has_law || item->has_static || item->has_kinetic || item->has_critical ||
+           *item->formula;
+}
 
 // A law that is not the scene's law must be one of the built-in laws, or a formula of its own.
 static bool check_item(const SceneContactLaw *item, const FrictionLaw *scene_law,
                        const FrictionLaw *law, Error *err)
 {
     bool own = friction_is_own(law), formula = friction_use(law, "formula") == FRICTION_MUST;
-    bool creeps = law->kind == FRICTION_RATE_STATE;
+    bool has_numbers = friction_use(law, "mu_static") != FRICTION_UNUSED;
     if (friction_use(law, "slip_distance") == FRICTION_MUST && law->kind != scene_law->kind)
         return REFUSE(err,
                       "`%s` takes numbers that friction gives, so friction.law has to be the same",
                       friction_law_name(law));
-    if (creeps && (item->has_static || item->has_kinetic || item->has_critical))
+    if (!has_numbers && (item->has_static || item->has_kinetic || item->has_critical))
         return REFUSE(err, "`%s` can be scaled here (along), or replaced by another law",
                       friction_law_name(law));
     if (own && !formula)
@@ -41,25 +45,16 @@ static bool check_item(const SceneContactLaw *item, const FrictionLaw *scene_law
 bool scene_contact_law(const Scene *scene, const SceneContactLaw *item, FrictionLaw *law,
                        Error *err)
 {
-    bool numbers = item->has_static || item->has_kinetic || item->has_critical;
-    FrictionLaw given = {.mu_static = item->mu_static,
-                         .mu_kinetic = item->mu_kinetic,
-                         .critical_velocity = item->critical_velocity};
-    SceneNumbersOf of = {.scene = scene, .law = &given};
-    FrictionSource source = scene_friction_source(&of);
-    source.formula = item->formula;
     const char *key = NULL;
     *law = scene->friction;
-    if (!item->has_law && !numbers && !*item->formula) return true;
+    if (!scene_has_contact_law(item)) return true;
     *law = (FrictionLaw){.kind = item->kind,
                          .mu_static = item->mu_static,
                          .mu_kinetic = item->mu_kinetic,
                          .critical_velocity = item->critical_velocity};
     if (!friction_has_drop(law)) law->mu_kinetic = law->mu_static;
     return check_item(item, &scene->friction, law, err) &&
-           (!friction_is_own(law) ||
-            (friction_own_law(&source, law, &key, err) && friction_look(law, err))) &&
-           scene_remember(scene, law, &key, err);
+           scene_friction_law(scene, item->formula, law, &key, err);
 }
 
 // Numbers that the item does not give are those of the scene; for another formula they are 0, as

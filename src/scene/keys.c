@@ -9,9 +9,9 @@
 
 #include <string.h>
 
-// Choices stand in the order of their enums in scene/scene.h and friction/friction_law.h.
+// Choices stand in the order of their enums in scene/scene.h and friction/laws/law.h.
 static const char *const law_choices[] = {
-#define X(symbol, name, own, drops, memory) name,
+#define X(symbol, name, operations) name,
     FRICTION_LAWS(X)
 #undef X
         NULL};

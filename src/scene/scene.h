@@ -6,7 +6,7 @@
 #define AMONTONS_SCENE_SCENE_H
 
 #include "base/error.h"
-#include "friction/friction_law.h"
+#include "friction/friction.h"
 #include "io/mesh/mesh_file.h"
 #include "io/text/yaml_document.h"
 #include "scene/scene_values.h"
@@ -67,7 +67,7 @@ typedef struct Scene {
         ScenePlane plane;
     } material;
     SceneMaterials materials;   // of single regions
-    FrictionLaw friction;   // made of what follows, where it is one's own
+    FrictionLaw friction;   // completed by scene/friction_law
     SceneOwnFriction own_friction;
     SceneContactLaws contact_laws;   // friction.contacts
     struct {

@@ -11,9 +11,9 @@
 #include "scene/check.h"
 #include "scene/contact_laws.h"
 #include "scene/formulas.h"
+#include "scene/friction_law.h"
 #include "scene/items.h"
 #include "scene/keys.h"
-#include "scene/own_law.h"
 #include "scene/profile.h"
 #include "scene/value.h"
 
@@ -308,7 +308,7 @@ static bool finish_reading(Reader *reader, const char *path, Scene *scene, Error
     done = scene_profile_read(scene, &profile, err);
     scene_profile_destroy(&profile);
     if (!scene_blame(scene, "contact.profile", done, err)) return false;
-    done = scene_own_law(scene, &word, err);
+    done = scene_friction_law(scene, scene->own_friction.formula, &scene->friction, &word, err);
     snprintf(key, sizeof key, "friction.%s", word);
     return scene_blame(scene, key, done, err) &&
            scene_contact_laws(&reader->sources[scene_key_index("friction.contacts")], scene, err);

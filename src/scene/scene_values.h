@@ -3,8 +3,7 @@
 #ifndef AMONTONS_SCENE_SCENE_VALUES_H
 #define AMONTONS_SCENE_SCENE_VALUES_H
 
-#include "friction/friction_law.h"
-#include "friction/friction_source.h"
+#include "friction/laws/law.h"
 #include "io/mesh/mesh_file.h"
 
 enum {
@@ -92,9 +91,9 @@ typedef struct SceneOwnFriction {
     SceneStates states;   // of a formula
     char file[SCENE_TEXT_SIZE];   // of a plug-in, resolved against the scene file's folder
     double velocity_max;   // 0: the speed of sound
-    // The following numbers belong to laws with memory (friction/friction_memory).
-    double slip_distance, healing_time, healing;
-    double direct_effect, evolution_effect, mu_reference, reference_velocity;
+#define X(number, symbol) double number;   // 0: not given
+    FRICTION_NUMBERS(X)
+#undef X
     SceneEvolution evolution;
     double rest;   // of the contacts before the rod moves, time; 0: not given
     char along[SCENE_TEXT_SIZE];   // factor on mu, a formula of x; empty: 1

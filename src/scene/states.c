@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "scene/states.h"
 
-#include "scene/own_law.h"
+#include "scene/friction_law.h"
 
 #include <ctype.h>
 #include <string.h>
 
-// Returns true for names that scene/own_law or every formula uses already.
+// Returns true for names that scene/friction_law or every formula uses already.
 static bool is_taken(const char *name)
 {
     static const char *const taken[] = {"v",     "p",   "sqrt", "exp", "log",   "tanh",

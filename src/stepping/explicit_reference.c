@@ -5,7 +5,7 @@
 
 #include "algebra/dense.h"
 #include "base/memory.h"
-#include "friction/friction_state.h"
+#include "friction/friction.h"
 #include "contact/slip.h"
 
 #include <math.h>
@@ -50,21 +50,22 @@ void explicit_reference_start(ExplicitReference *scheme, const State *state)
 
 // w + strength mu(w) - free_speed, strength = (dt/m) r_n: by how much speed w is more than what
 // friction leaves of free_speed.
-static double excess_speed(const FrictionLaw *law, double free_speed, double strength, double speed)
+static double excess_speed(const FrictionNode *node, double free_speed, double strength,
+                           double speed)
 {
-    return speed + strength * friction_coefficient(law, speed) - free_speed;
+    return speed + strength * friction_coefficient(node, speed) - free_speed;
 }
 
 // The lower end of the highest of EXCESS_PARTS parts of 0 to free_speed at which excess_speed is
 // below 0, so that a root lies above; -1: at none. Where friction falls less than speed rises, at
 // every speed, excess_speed rises and the whole is one part.
-static double below_largest_root(const FrictionLaw *law, double free_speed, double strength)
+static double below_largest_root(const FrictionNode *node, double free_speed, double strength)
 {
     enum { EXCESS_PARTS = 64 };
-    int32_t parts = strength * friction_steepest(law) < 1 ? 1 : EXCESS_PARTS;
+    int32_t parts = strength * friction_steepest(node) < 1 ? 1 : EXCESS_PARTS;
     for (int32_t k = parts - 1; k >= 0; k--) {
         double low = free_speed * k / parts;
-        if (excess_speed(law, free_speed, strength, low) < 0) return low;
+        if (excess_speed(node, free_speed, strength, low) < 0) return low;
     }
     return -1;
 }
@@ -72,18 +73,18 @@ static double below_largest_root(const FrictionLaw *law, double free_speed, doub
 // The speed left of `free_speed` by friction: the largest root of excess_speed; 0: sticks. Newton
 // from the right goes down to it where the law is convex; else halving helps where a step leaves
 // the interval that holds it. Both end where nothing is left between the ends of this interval.
-static double slip_speed(const FrictionLaw *law, double free_speed, double strength, bool slipped)
+static double slip_speed(const FrictionNode *node, double free_speed, double strength, bool slipped)
 {
-    bool may_stick = free_speed <= strength * friction_coefficient(law, 0);
-    bool convex = friction_is_convex(law);
-    if (may_stick && (!slipped || (convex && 1 + strength * friction_slope(law, 0) > 0))) return 0;
+    bool may_stick = free_speed <= strength * friction_coefficient(node, 0);
+    bool convex = friction_is_convex(node->law);
+    if (may_stick && (!slipped || (convex && 1 + strength * friction_slope(node, 0) > 0))) return 0;
     double speed = free_speed, high = free_speed;
-    double low = convex ? 0 : below_largest_root(law, free_speed, strength);
+    double low = convex ? 0 : below_largest_root(node, free_speed, strength);
     if (low < 0) return 0;
     do {
-        double slope = 1 + strength * friction_slope(law, speed), before = speed;
+        double slope = 1 + strength * friction_slope(node, speed), before = speed;
         if (convex && slope <= 0) return 0;   // there is no root: it has come to rest
-        double excess = excess_speed(law, free_speed, strength, speed);
+        double excess = excess_speed(node, free_speed, strength, speed);
         *(excess > 0 ? &high : &low) = speed;
         speed -= excess / slope;
         bool inside = (speed > low && speed < high) || speed == before;
@@ -110,7 +111,7 @@ static void resolve_slip(const ExplicitReference *scheme, int32_t i, double stre
     for (int32_t c = 0; c < tangents; c++) forward += state->slip_rate[t + c] * v[c];
     if (tangents == 1) forward = status_direction(state->status[i]) * v[0];
     bool slipped = status_slips(state->status[i]) && forward > 0;
-    double speed = slip_speed(friction_at(scheme->def.law, i), free_speed, strength, slipped);
+    double speed = slip_speed(friction_at(scheme->def.friction, i), free_speed, strength, slipped);
     state->status[i] = speed == 0 ? CONTACT_STICK : status_of_slip(v[0]);
     for (int32_t c = 0; c < tangents; c++) {
         double left = speed == 0 ? copysign(0, v[c]) : speed * (v[c] / free_speed);
@@ -122,19 +123,19 @@ static void resolve_slip(const ExplicitReference *scheme, int32_t i, double stre
 // The law of node i in this step; and its states at the end of it.
 static void start_memory(const ExplicitReference *scheme, int32_t i, const State *state)
 {
-    if (scheme->def.stage_laws)
-        friction_set_stage(&scheme->def.stage_laws[i], state->theta + (int64_t)i * STATES_MAX,
+    if (scheme->def.stage_friction)
+        friction_set_stage(&scheme->def.stage_friction[i], state->theta + (int64_t)i * STATES_MAX,
                            0.5 * scheme->def.step);
 }
 
 static void end_memory(const ExplicitReference *scheme, int32_t i, State *state)
 {
-    if (!scheme->def.stage_laws) return;
-    const FrictionLaw *law = &scheme->def.stage_laws[i];
+    if (!scheme->def.stage_friction) return;
+    const FrictionNode *node = &scheme->def.stage_friction[i];
     double speed = slip_size(scheme->def.interface, i, state->slip_rate), middle[STATES_MAX];
     double *theta = state->theta + (int64_t)i * STATES_MAX;
-    friction_state(law, speed, middle);
-    for (int32_t k = 0; k < friction_states(law, 0); k++) theta[k] = 2 * middle[k] - theta[k];
+    friction_state(node, speed, middle);
+    for (int32_t k = 0; k < node->law->states; k++) theta[k] = 2 * middle[k] - theta[k];
 }
 
 // Contact node i; returns the power it dissipates.
@@ -158,8 +159,8 @@ static double resolve_contact(ExplicitReference *scheme, int32_t i, State *state
         for (int32_t d = 0; d <= last; d++) reaction[d] = 0;
     } else {
         double strength = bound - v[last];   // (dt/m) r_n
-        if (scheme->def.stage_laws)
-            friction_set_pressure(&scheme->def.stage_laws[i],
+        if (scheme->def.stage_friction)
+            friction_set_pressure(&scheme->def.stage_friction[i],
                                   strength / kick / interface->weight[i], 0);
         resolve_slip(scheme, i, strength, v, state);
         reaction[last] = strength / kick;

@@ -35,11 +35,11 @@
 typedef struct ExplicitDef {
     const Bulk *bulk;
     const Interface *interface;
-    const FrictionLaw *law;
+    const Friction *friction;
     const Rod *rod;
     const LoadCourse *course;   // NULL: the load stays
     double step;   // dt, time
-    FrictionLaw *stage_laws;   // as in Block (stepping/state); NULL: nothing is remembered
+    FrictionNode *stage_friction;   // as in Block (stepping/state); NULL: nothing is remembered
 } ExplicitDef;
 
 typedef struct ExplicitReference {

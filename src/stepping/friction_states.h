@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// States of friction that remembers (friction/friction_memory), stepped by the scheme's own tableau
+// States of friction that remembers (friction/friction.h), stepped by the scheme's own tableau
 // and eliminated node by node: stage i of a step dt has
 //
 //     theta_i = theta_i* + gamma dt g(|v_i|, theta_i),   theta_i* = theta_n + dt sum_j<i a_ij g_j
@@ -14,7 +14,7 @@
 #include "stepping/tableau.h"
 
 typedef struct FrictionStates {
-    FrictionLaw *laws;   // [contact_count] of the nodes; not owned; NULL: nothing is remembered
+    FrictionNode *node;   // [contact_count] not owned; NULL: nothing is remembered
     const Interface *interface;   // not owned
     bool act;   // some state changes mu: not where friction heals by nothing
     bool frozen;   // states stay as they are: the block settles, and no time passes for them

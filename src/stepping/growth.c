@@ -99,7 +99,7 @@ Growth *growth_create(const Block *block, const GrowthDef *def, Error *err)
     growth->system = block->system;
     growth->interface = block->interface;
     growth->on_spring = block->system->machine.stiffness > 0;
-    growth->states = friction_states(block->law, block->interface->contact_count);
+    growth->states = friction_states(block->friction, block->interface->contact_count);
     TRY(moving_set_create(block, &growth->moving, err));
     TRY(allocate(growth, err));
     for (double s = def->slowest; growth->shift_count < GROWTH_SHIFTS_MAX; s *= 2) {

@@ -32,13 +32,13 @@ static bool create_rod(const Rod *whole, const ContactHalf *half, Rod *rod, Erro
 bool half_step_create(const Block *block, const Certificate *whole, HalfStep *half, Error *err)
 {
     const Interface *side = &half->half.interface;
-    *half = (HalfStep){0};
+    *half = (HalfStep){.friction = friction_everywhere(friction_constant(0))};   // none so far
     if (!contact_half_find(block->interface, &half->half, err)) return false;
     if (side->contact_count == 0) return true;
     bool alike = create_rod(block->rod, &half->half, &half->rod, err);
     if (!state_create(&(BulkOperator){0}, side, &half->state, err)) return false;
     if (!contact_solver_create(side, &half->solver, err)) return false;
-    half->laws = NEW_ARRAY(FrictionLaw, block->interface->contact_count, err);
+    half->nodes = NEW_ARRAY(FrictionNode, block->interface->contact_count, err);
     half->g = NEW_ARRAY(double, side->count, err);
     half->bound = NEW_ARRAY(double, side->count, err);
     half->anti_g = NEW_ARRAY(double, side->count, err);
@@ -46,7 +46,7 @@ bool half_step_create(const Block *block, const Certificate *whole, HalfStep *ha
     half->anti_velocity = NEW_ARRAY(double, side->count, err);
     half->anti_reaction = NEW_ARRAY(double, side->count, err);
     if (!contact_newton_create(side, &half->newton, err)) return false;
-    Block one = {.interface = side, .law = &half->law, .rod = &half->rod};
+    Block one = {.interface = side, .friction = &half->friction, .rod = &half->rod};
     for (ContactPart part = PART_SYMMETRIC; alike && part <= PART_ANTISYMMETRIC; part++) {
         Certificate *certificate = part == PART_SYMMETRIC ? &half->symmetric : &half->antisymmetric;
         if (!certificate_halve(whole, &half->half, &one, part, certificate, err)) return false;
@@ -63,22 +63,22 @@ void half_step_destroy(HalfStep *half)
     contact_solver_destroy(&half->solver);
     contact_half_destroy(&half->half);
     state_destroy(&half->state);
-    memory_free_all(half->rod.softness, half->rod.lag, half->laws, half->g, half->bound,
+    memory_free_all(half->rod.softness, half->rod.lag, half->nodes, half->g, half->bound,
                     half->anti_g, half->anti_bound, half->anti_velocity, half->anti_reaction);
     contact_newton_destroy(&half->newton);
     *half = (HalfStep){0};
 }
 
-bool half_step_take_law(HalfStep *half, const FrictionLaw *law)
+bool half_step_take_friction(HalfStep *half, const Friction *friction)
 {
-    half->law = *law;
-    if (!law->each) return true;
-    half->law.each = half->laws;
+    half->friction = *friction;
+    if (!friction->node) return true;
+    half->friction.node = half->nodes;
     bool alike = true;
     for (int32_t i = 0; i < half->half.interface.contact_count; i++) {
-        const FrictionLaw *across = &law->each[half->half.node_image[i]];
-        half->laws[i] = law->each[half->half.node[i]];
-        alike = alike && memcmp(&half->laws[i], across, sizeof *across) == 0;
+        const FrictionNode *across = &friction->node[half->half.node_image[i]];
+        half->nodes[i] = friction->node[half->half.node[i]];
+        alike = alike && memcmp(&half->nodes[i], across, sizeof *across) == 0;
     }
     return alike;
 }
@@ -146,7 +146,7 @@ bool half_step_solve(HalfStep *half, const ContactProblem *problem, ContactMatri
     fold_solution(side, solution, &at);
     ContactProblem one_side = *problem;
     one_side.interface = &side->interface;
-    one_side.law = &half->law;
+    one_side.friction = &half->friction;
     one_side.rod_softness = half->rod.softness;
     one_side.rod_lag = half->rod.lag;
     one_side.g = half->g;

@@ -18,8 +18,8 @@ typedef struct HalfStep {
     ContactHalf half;   // owned, like all that follows
     bool exists;   // the contact has two sides that are alike
     ContactSolver solver;   // of one side
-    FrictionLaw law;   // of one side
-    FrictionLaw *laws;   // [contact_count of both sides] its nodes'
+    Friction friction;   // of one side
+    FrictionNode *nodes;   // [contact_count of both sides] its nodes
     Rod rod;   // of one side: softness and lag
     State state;   // one side of the last one folded: what the contact knows of it, nothing else
     double *g, *bound;   // [interface.count] work, like the next
@@ -35,8 +35,8 @@ typedef struct HalfStep {
 bool half_step_create(const Block *block, const Certificate *whole, HalfStep *half, Error *err);
 void half_step_destroy(HalfStep *half);
 
-// The laws that act now. false: they are not alike on both sides.
-bool half_step_take_law(HalfStep *half, const FrictionLaw *law);
+// Takes the friction that acts now. Returns false where it is not alike on both sides.
+bool half_step_take_friction(HalfStep *half, const Friction *friction);
 
 // `state` on one side; stands until the next is folded.
 const State *half_step_fold(HalfStep *half, const State *state);

@@ -10,7 +10,8 @@
 
 bool moving_set_create(const Block *block, MovingSet *set, Error *err)
 {
-    *set = (MovingSet){.interface = block->interface, .law = block->law, .rod = block->rod};
+    *set = (MovingSet){
+        .interface = block->interface, .contact_friction = block->friction, .rod = block->rod};
     int64_t count = block->interface->count;
     set->list = NEW_ARRAY(MovingUnknown, count, err);
     set->unknown = NEW_ARRAY(int32_t, count, err);
@@ -18,7 +19,7 @@ bool moving_set_create(const Block *block, MovingSet *set, Error *err)
     set->friction = NEW_ARRAY(double, count, err);
     set->turned = NEW_ARRAY(int32_t, count, err);
     set->direction = NEW_ARRAY(double, count, err);
-    if (friction_remembers(block->law, block->interface->contact_count))
+    if (friction_remembers(block->friction, block->interface->contact_count))
         set->rates = NEW_ARRAY(FrictionRates, block->interface->contact_count, err);
     return error_is_clean(err);
 }
@@ -81,7 +82,7 @@ static void add_slipping(MovingSet *set, const State *state, int32_t i)
     int32_t t = interface_tangent(set->interface, i), n = interface_normal(set->interface, i);
     double speed = slip_size(set->interface, i, state->slip_rate);
     FrictionRates rates;
-    state_friction(state, set->interface, friction_at(set->law, i), i, &rates);
+    state_friction(state, set->interface, friction_at(set->contact_friction, i), i, &rates);
     double mu = rates.mu, d[TANGENTS_MAX];
     MovingUnknown *moving = add_unknown(set, t);
     find_direction(set, state, i, d);

@@ -21,7 +21,7 @@
 // first unknown is then along the slip, with weakening and damper of the plane, its second across,
 // with the damper mu r_n/s. Pressure follows slip along d only.
 //
-// Where friction remembers (friction/friction_memory) a disturbance theta' of its state follows
+// Where friction remembers (friction/friction.h) a disturbance theta' of its state follows
 // that of the slip rate: d theta'/dt = g_v v'_t + g_theta theta', and friction changes by mu_v v'_t
 // + mu_theta theta'. On exp(s t) that is a weakening that depends on s,
 //
@@ -29,7 +29,7 @@
 //     w = -mu_v r_n,   memory = -r_n mu_theta g_v,   fading = -g_theta:
 //
 // a damper or weakening as before, and a spring of negative stiffness that gives way at the rate
-// `fading`. Of several states w(s) - w is that of a small system (friction/friction_state), as of
+// `fading`. Of several states w(s) - w is that of a small system (friction/friction_response), as of
 // one that grows by itself.
 //
 // A soft rod node that touches has a spring and a damper of its own
@@ -56,7 +56,7 @@ typedef struct MovingUnknown {
 
 typedef struct MovingSet {
     const Interface *interface;   // not owned, like the next two
-    const FrictionLaw *law;
+    const Friction *contact_friction;
     const Rod *rod;
     MovingUnknown *list;   // [interface->count]; owned
     // The same numbers as in the list, close together for products with S. Where there is no

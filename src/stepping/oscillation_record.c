@@ -16,7 +16,8 @@ bool oscillation_record_create(const Block *block, double duration, OscillationR
                                Error *err)
 {
     const Interface *interface = block->interface;
-    *record = (OscillationRecord){.interface = interface, .law = block->law, .duration = duration};
+    *record = (OscillationRecord){
+        .interface = interface, .friction = block->friction, .duration = duration};
     record->weakening = NEW_ARRAY(double, interface->contact_count + interface->rod_count, err);
     if (!error_is_clean(err)) return false;
     oscillation_record_clear(record);
@@ -45,7 +46,7 @@ static double weakening_of(const OscillationRecord *record, const State *state, 
     if (state->status[k] == CONTACT_STICK) return -1;
     if (state->status[k] == CONTACT_OPEN) return 0;
     FrictionRates rates;
-    state_friction(state, record->interface, friction_at(record->law, k), k, &rates);
+    state_friction(state, record->interface, friction_at(record->friction, k), k, &rates);
     double slope = rates.mu_speed - friction_weakens_at(&rates, record->duration);
     return slope < 0 ? -slope * state->reaction[interface_normal(record->interface, k)]
                      : 0;   // 0: it strengthens
@@ -54,7 +55,7 @@ static double weakening_of(const OscillationRecord *record, const State *state, 
 static bool is_fast(const OscillationRecord *record, const State *state)
 {
     for (int32_t i = 0; i < record->interface->contact_count; i++) {
-        double limit = SMALL_RATE * friction_at(record->law, i)->critical_velocity;
+        double limit = SMALL_RATE * friction_at(record->friction, i)->law->critical_velocity;
         if (slip_size(record->interface, i, state->slip_rate) > limit) return true;
     }
     return false;

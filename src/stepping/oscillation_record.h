@@ -18,8 +18,8 @@
 #include "stepping/state.h"
 
 typedef struct OscillationRecord {
-    const Interface *interface;   // not owned, like the law
-    const FrictionLaw *law;
+    const Interface *interface;   // not owned, like friction
+    const Friction *friction;
     double duration;   // time; 0: nothing is ever covered
     double seen_for;   // resolved time since slip last did something new; while it runs, since it
         // was near v_c

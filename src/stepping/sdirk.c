@@ -14,7 +14,7 @@ bool sdirk_create(const Block *block, TableauKind kind, Ladder *ladder, Sdirk *s
     *scheme = (Sdirk){.tableau = tableau_of(kind),
                       .system = block->system,
                       .interface = interface,
-                      .law = block->law,
+                      .friction = block->friction,
                       .rod = block->rod,
                       .ladder = ladder};
     scheme->rhs = NEW_ARRAY(double, system->dof_count, err);
@@ -169,7 +169,7 @@ static bool solve_stage(Sdirk *scheme, int32_t k, int32_t i, const State *from, 
                                .status = to->status,
                                .rod_touches = to->rod_touches};
     ContactProblem problem = {.interface = interface,
-                              .law = scheme->law,
+                              .friction = scheme->friction,
                               .rod_kind = rod->kind,
                               .rod_softness = rod->softness,
                               .rod_lag = rod->lag,

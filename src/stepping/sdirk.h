@@ -25,7 +25,7 @@ typedef struct Sdirk {
     BulkOperator *system;   // not owned, like the next four
     Ladder *ladder;
     const Interface *interface;
-    const FrictionLaw *law;
+    const Friction *friction;
     Rod *rod;
     const LoadCourse *course;   // set once the rod moves; NULL: the load stays; not owned
     HalfStep *half;   // solves contact where `part` is the symmetric one; not owned

@@ -58,17 +58,17 @@ void state_copy(const State *from, State *to)
     memcpy(to->rod_touches, from->rod_touches, (size_t)from->rod_count);
 }
 
-void state_friction(const State *state, const Interface *interface, const FrictionLaw *law,
+void state_friction(const State *state, const Interface *interface, const FrictionNode *node,
                     int32_t i, FrictionRates *rates)
 {
     double speed = slip_size(interface, i, state->slip_rate);
     const double *theta = state->theta + (int64_t)i * STATES_MAX;
-    if (!friction_feels_pressure(law)) {
-        friction_rates(law, speed, theta, rates);
+    if (!node->law->feels_pressure) {
+        friction_rates(node, speed, theta, rates);
         return;
     }
     double pressing = fmax(state->reaction[interface_normal(interface, i)], 0);
-    friction_rates_pressed(law, pressing / interface->weight[i], speed, theta, rates);
+    friction_rates_pressed(node, pressing / interface->weight[i], speed, theta, rates);
 }
 
 void state_archive(State *state, Archive *archive)

@@ -6,17 +6,17 @@
 #include "base/archive.h"
 #include "reduction/interface_operator.h"
 #include "contact/contact_problem.h"
-#include "friction/friction_state.h"
+#include "friction/friction.h"
 
 // The system that is stepped: the bulk, where it meets the world, and by which laws. Nothing is
 // owned.
 typedef struct Block {
     BulkOperator *system;
     const Interface *interface;
-    const FrictionLaw *law;
+    const Friction *friction;
     Rod *rod;
-    FrictionLaw *stage_laws;   // law->each, where laws have memory: refreshed stage by stage
-        // (stepping/friction_states); NULL: none has
+    FrictionNode *stage_friction;   // friction->node, where laws remember: refreshed stage by
+        // stage (stepping/friction_states); NULL: none does
 } Block;
 
 typedef struct State {
@@ -42,8 +42,8 @@ bool state_create(const BulkOperator *system, const Interface *interface, State 
 void state_destroy(State *state);
 void state_copy(const State *from, State *to);   // of the same sizes
 
-// mu, g and their derivatives at contact node i, by its law and at its pressure.
-void state_friction(const State *state, const Interface *interface, const FrictionLaw *law,
+// mu, g and their derivatives at contact node i, at its pressure.
+void state_friction(const State *state, const Interface *interface, const FrictionNode *node,
                     int32_t i, FrictionRates *rates);
 
 void state_archive(State *state, Archive *archive);

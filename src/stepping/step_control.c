@@ -51,7 +51,7 @@ bool step_control_create(const Block *block, const StepControlDef *def, StepCont
     ladder_init(block->system, longest, def->step_min, &control->ladder);
     TRY(sdirk_create(block, def->scheme, &control->ladder, &control->scheme, err));
     TRY(certificate_create(block, &control->certificate, err));
-    if (def->use_certificate && !control->scheme.memory.laws)
+    if (def->use_certificate && !control->scheme.memory.node)
         TRY(half_step_create(block, &control->certificate, &control->half, err));
     if (control->half.exists) control->ladder.half = &control->half.half;
     control->scheme.half = &control->half;
@@ -154,7 +154,7 @@ static bool oscillations_stay_small(StepControl *control, const State *state, Ru
     double fastest = 0;
     for (int32_t i = 0; i < state->contact_count; i++)
         fastest = fmax(fastest, slip_size(control->scheme.interface, i, state->slip_rate));
-    double growth = SMALL_OSCILLATION * control->scheme.law->critical_velocity / fastest;
+    double growth = SMALL_OSCILLATION * control->scheme.friction->critical_velocity / fastest;
     return growth > 1 && parts_ask(parts_of(control), state, PARTS_OSCILLATE_LESS, range, growth);
 }
 
@@ -332,7 +332,7 @@ bool step_control_advance(StepControl *control, double remaining, Error *err)
         // The whole contact is solved, or its symmetric part alone, with the antisymmetric one
         // where that does not decay.
         bool halved = ladder->half && !control->asymmetric &&
-                      half_step_take_law(&control->half, control->scheme.law);
+                      half_step_take_friction(&control->half, control->scheme.friction);
         control->scheme.part = halved ? PART_SYMMETRIC : PART_WHOLE;
         control->scheme.antisymmetric_acts = !control->antisymmetric_decays ||
                                              control->half.asymmetry > ANTISYMMETRIC_LIMIT;

@@ -27,6 +27,7 @@ NEIGHBOURS = [{"contact", "reduction"}, {"friction", "reduction"}]
 STUDIES = ["study/stability", "study/line", "study/sweep", "study/search"]
 # A room includes itself and the rows above it; rooms of a row do not know each other. What is in none includes all.
 ROOMS = {
+    "friction": ["laws"],
     "io": ["files", "text hdf5 video cache", "mesh", "fields"],
     "run": ["result", "info static"],
     "study/sweep": ["reading", "computing", "showing"],
@@ -56,7 +57,7 @@ def allowed(folder, include):
     if include in ("amontons_error.h", "amontons_words.h"):
         return folder in ("base", "")   # what base/error.h and base/text.h show to everybody
     if include == "amontons_friction.h":
-        return folder in ("friction", "")   # what a plug-in and friction/friction_plugin share
+        return folder in ("friction/laws", "")   # what a plug-in and friction/laws/plugin share
     generated = {"build_record.h": "run", "computing_sources.h": "base", "page_resources.h": "page", "cli_help.h": "cli"}
     if include in generated:
         return layer == generated[include]
@@ -209,7 +210,7 @@ class Layers(unittest.TestCase):
             "src/fem/b.c": "amontons_error.h",
             "src/fem/c.c": "reduction/reduction.h",
             "src/contact/b.c": "reduction/machine.h",
-            "src/reduction/b.c": "friction/friction_law.h",
+            "src/reduction/b.c": "friction/friction.h",
             "src/run/info/a.c": "run/simulation_state.h",
             "src/run/static/a.c": "run/info/info.h",
             "render/view/a.c": "render/canvas/page.h",

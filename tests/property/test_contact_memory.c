@@ -2,40 +2,37 @@
 // Random contact problems of nodes that remember, each with a law and a state of its own: rate and
 // state over many decades of slip rate, where no node sticks; ageing and slip-weakening. They are
 // solved, and rightly, from any guess, where S outweighs the weakening.
-#include "friction/friction_make.h"
-#include "friction/friction_state.h"
 #include "contact_by_hand.h"
+#include "own_laws.h"
 #include "plane.h"
 
 static HandContact hand, other;   // large; a test runs alone
 static FrictionLaw laws[HAND_NODES];
+static FrictionNode nodes[HAND_NODES];
 
 static double log_between(Random *random, double low, double high)
 {
     return exp(random_between(random, log(low), log(high)));
 }
 
-static void set_law(Random *random, FrictionKind kind, FrictionLaw *law)
+static void set_law(Random *random, FrictionKind kind, FrictionLaw *law, FrictionNode *node)
 {
-    static const MemoryKind kinds[] = {[FRICTION_AGEING] = MEMORY_AGEING,
-                                       [FRICTION_SLIP_WEAKENING] = MEMORY_SLIP_WEAKENING,
-                                       [FRICTION_RATE_STATE] = MEMORY_RATE_STATE};
-    FrictionMemory memory = {.kind = kinds[kind],
-                             .mu_static = random_between(random, 0.2, 0.5),
-                             .mu_kinetic = 0.1,
-                             .critical_velocity = random_between(random, 1, 3),
-                             .slip_distance = 1,
-                             .healing_time = 1,
-                             .healing = random_between(random, 0.005, 0.02),
-                             .direct = random_between(random, 0.005, 0.02),
-                             .reference = random_between(random, 0.2, 0.6),
-                             .reference_velocity = log_between(random, 1e-9, 1e-2),
-                             .slip_law = random_index(random, 2) == 0};
-    *law = (FrictionLaw){.kind = kind};
-    friction_make_memory(&memory, law);
+    *law = law_with_state((FrictionLaw){.kind = kind,
+                                        .mu_static = random_between(random, 0.2, 0.5),
+                                        .mu_kinetic = 0.1,
+                                        .critical_velocity = random_between(random, 1, 3),
+                                        .slip_distance = 1,
+                                        .healing_time = 1,
+                                        .healing = random_between(random, 0.005, 0.02),
+                                        .evolution_effect = random_between(random, 0.005, 0.02),
+                                        .direct_effect = random_between(random, 0.005, 0.02),
+                                        .mu_reference = random_between(random, 0.2, 0.6),
+                                        .reference_velocity = log_between(random, 1e-9, 1e-2),
+                                        .slip_law = random_index(random, 2) == 0});
     bool creeps = kind == FRICTION_RATE_STATE;
     double from = creeps ? random_between(random, -5, 5) : random_between(random, 0, 1);
-    friction_set_stage(law, &from, log_between(random, 1e-6, 0.3));
+    *node = friction_node(law, 1);
+    friction_set_stage(node, &from, log_between(random, 1e-6, 0.3));
 }
 
 static void random_loads(Random *random)
@@ -72,8 +69,8 @@ TEST(test_solved_from_any_guess)
         hand_contact_size(&hand, 1 + random_index(&random, HAND_NODES),
                           random_index(&random, HAND_RODS + 1));
         int32_t count = hand.interface.contact_count;
-        for (int32_t i = 0; i < count; i++) set_law(&random, kind, &laws[i]);
-        hand.law = friction_spread(laws, count);
+        for (int32_t i = 0; i < count; i++) set_law(&random, kind, &laws[i], &nodes[i]);
+        hand.friction = friction_of_nodes(nodes, count);
         hand_random_schur(&random, 3, 0.5, &hand);
         random_loads(&random);
         random_statuses(&random, &hand);

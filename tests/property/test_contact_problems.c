@@ -103,7 +103,7 @@ TEST(test_own_laws)
         assert_near("judged", hand_contact_error(&hand), 0, 1e-9);
         for (int32_t i = 0; i < hand.interface.contact_count; i++)
             if (status_slips(hand.status[i]))
-                pieces[piece_of(&hand.law.own.table, fabs(hand.velocity[2 * i]))]++;
+                pieces[piece_of(&hand.law.table, fabs(hand.velocity[2 * i]))]++;
     }
     print_message("nodes on pieces 0 to 3: %d %d %d %d, %d by sweeps\n", pieces[0], pieces[1],
                   pieces[2], pieces[3], (int)rescued);
@@ -131,7 +131,7 @@ typedef struct Choice {
 
 static int32_t choices_of(const FrictionLaw *law)
 {
-    if (law->kind == FRICTION_TABLE) return 2 + 2 * law->own.table.count;
+    if (law->kind == FRICTION_TABLE) return 2 + 2 * law->table.count;
     return law->kind == FRICTION_LINEAR_WEAKENING ? 6 : 4;
 }
 
@@ -143,7 +143,7 @@ static Choice choice_of(const FrictionLaw *law, int32_t k)
                      .mu = law->mu_static};
     int32_t piece = (k - 2) / 2;
     if (k < 2) return choice;
-    if (law->kind == FRICTION_TABLE) table_piece(&law->own.table, piece, &choice.mu, &choice.slope);
+    if (law->kind == FRICTION_TABLE) table_piece(&law->table, piece, &choice.mu, &choice.slope);
     if (law->kind != FRICTION_LINEAR_WEAKENING) return choice;
     if (piece == 1)
         choice.mu = law->mu_kinetic;

@@ -82,7 +82,7 @@ static void make_solution(Random *random, double *velocity, double *reaction)
         v[2] = kind == 0 ? bound + size : bound;
         r[2] = kind == 0 ? 0 : p;
         double shear = kind == 1 ? 0.95 * size * hand.law.mu_static
-                                 : friction_coefficient(&hand.law, size);
+                                 : friction_coefficient(NODE_OF(&hand.law), size);
         for (int32_t c = 0; c < 2; c++) {
             v[c] = kind == 1 ? 0 : size * along[c];
             r[c] = kind == 0 ? 0 : -shear * p * along[c];

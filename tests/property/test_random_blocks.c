@@ -58,7 +58,7 @@ static void check_contact(const BlockRig *rig, const Sdirk *scheme, const State 
     double force = force_scale(rig, now), stiffest = 0;
     for (int32_t k = 0; k < count; k++) stiffest = fmax(stiffest, schur[k * count + k]);
     ContactProblem problem = {.interface = &rig->interface,
-                              .law = &rig->law,
+                              .friction = &rig->friction,
                               .rod_kind = rig->rod.kind,
                               .bound = scheme->bound};
     // v_c may be far below the scale of velocities: what counts as still must be, too.

@@ -61,7 +61,7 @@ CONSTANTS = [
         ("CLEARLY", "a status is changed alone when it is off by so many times the residual", STEPPING),
         ("CHORD_GAIN", "a kept factor is given up when a step leaves more of the residual", HERE),
         ("STALLED_MAX", "Newton steps in a row that do not halve the residual: no solution", HERE)),
-    *of("friction/friction_law.c",
+    *of("friction/laws/weakening.c",
         ("SPENT", "rate at which a node that starts fast is tried, of v_c, exponential law", HERE)),
     *of("contact/rod.c",
         ("END_SOFTNESS", "softness of the strip's end nodes", "validation/benchmark/precision.py")),
@@ -132,28 +132,27 @@ SIZE = "room of an array; more than is used"
 ROUNDING = "rounding of coordinates"
 NOT_A_CHOICE = {
     "contact/contact_check.c": {"STILL": "rounding; the judge only reports"},
-    "friction/friction_make.c": {"KINDS": "of law", "NO": "a name", "MAY": "a name", "MUST": "a name"},
-    "friction/friction_memory.c": {
-        "EXPONENT_MAX": "exp of it is finite", "LEAST_SPEED": "ln of it is finite", "STEPS": "Newton's: all digits",
+    "friction/friction.c": {
+        "EXPONENT_MAX": "exp of it is finite", "STEPS": "Newton's: all digits",
         "HALVINGS": "of a step: all digits", "NEAR": "Newton's next step is its square, which is rounding",
         "ROUNDING": ROUNDING, "MANY": "a first guess beyond the weakening, as SPENT"},
-    "friction/friction_memory.h": {"STATES_MAX": SIZE},
-    "friction/friction_plugin.c": {"SPEED_ALONE": "of functions", "SYMBOLS": "of functions"},
-    "friction/friction_source.h": {"STATE_NAME_SIZE": SIZE, "STATE_TEXT_SIZE": SIZE},
+    "friction/laws/law.h": {"STATES_MAX": SIZE, "FRICTION_POINTS_MAX": SIZE, "STATE_NAME_SIZE": SIZE,
+                            "STATE_TEXT_SIZE": SIZE},
+    "friction/laws/plugin.c": {"SPEED_ALONE": "of functions", "SYMBOLS": "of functions"},
+    "friction/laws/rate_state.c": {"EXPONENT_MAX": "exp of it is finite", "LEAST_SPEED": "ln of it is finite"},
+    "friction/laws/table.c": {"BETWEEN": "looks between two points"},
     "friction/friction_response.c": {"DECADES": "looks", "DECADE": "looks", "HALVINGS": "all digits"},
     "friction/friction_start.c": {
-        "SLIGHT": "as in friction/friction_look.c", "LEFT": "1/e", "CALM": "rounding of a law that is 0 at rest",
+        "SLIGHT": "as in friction/friction_look.c", "LEFT": "1/e", "NO_FRICTION": "rounding of a law that is 0 at rest",
         "DECADES": "looks", "DECADE": "looks", "STAYS": "a state that is steady: rounding of stages of 1e29",
         "FIRST": "of a rest: nothing", "GROWTH": "the midpoint rule errs by 1e-5 of an exponential"},
-    "friction/friction_law.c": {
-        "BETWEEN": "looks between two points", "DECADE": "looks", "DECADES": "looks"},
     "friction/friction_look.c": {
+        "DECADE": "looks", "DECADES": "looks", "LAST": "looks",
         "SAME": "rounding of a formula", "JUMP": "halved as long as it is larger",
         "STEP": "of differences: half the digits", "SLOPE_ERROR": "that differences leave",
         "CHANGED": "1 - 1/e: v_c of the exponential law", "SPENT_PART": "as of the exponential law",
         "SLIGHT": "rounding of a formula's bounds", "PEAK": "that a wide peak is met to",
         "LOOKED_MAX": "pieces that take some 10 ms", "PIECES_MAX": SIZE},
-    "friction/friction_table.h": {"FRICTION_POINTS_MAX": SIZE},
     "contact/interface.c": {"ROUNDING": "rounding of an integral that is 0", "LINE_ROUNDING": ROUNDING,
                             "STRIP_TOLERANCE": ROUNDING},
     "contact/rod.c": {"PI": "pi", "WHOLE": ROUNDING},

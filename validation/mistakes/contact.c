@@ -30,39 +30,52 @@ static const double GLUE = 1e3;
 
 // --- friction -----------------------------------------------------------------------------------
 
-// The laws that a smoothing solver sees, one of each node; mu_static 0 tells it that nothing
-// sticks.
+// The nodes that a smoothing solver sees; the threshold of each is 0: nothing sticks.
 static struct {
-    FrictionLaw all, *each;
+    Friction all;
+    FrictionLaw law;   // a law that holds nothing at rest
+    FrictionNode *node;
     int32_t count;
-    const FrictionLaw *real;
+    const Friction *real;
 } smooth;
 
-// What stands behind a law that a smoothing solver sees; NULL: it is none.
-static const FrictionLaw *behind(const FrictionLaw *law)
+// The node behind one that a smoothing solver sees; NULL: it is none.
+static const FrictionNode *behind(const FrictionNode *node)
 {
-    bool seen = smooth.each && law >= smooth.each && law < smooth.each + smooth.count;
-    return seen ? friction_at(smooth.real, (int32_t)(law - smooth.each)) : NULL;
+    bool seen = smooth.node && node >= smooth.node && node < smooth.node + smooth.count;
+    return seen ? friction_at(smooth.real, (int32_t)(node - smooth.node)) : NULL;
 }
 
-double __wrap_friction_coefficient(const FrictionLaw *law, double speed)
+// The states are those of the start of the stage.
+static FrictionNode lagged(const FrictionNode *node)
 {
-    const FrictionLaw *real = behind(law);
+    FrictionNode other = *node;
+    Mistake made = friction_is_own(node->law) ? MISTAKE_STATES_LAGGED : MISTAKE_MEMORY_LAGGED;
+    if (mistake_made() == made) other.reach = 0;
+    return other;
+}
+
+double __wrap_friction_coefficient(const FrictionNode *node, double speed)
+{
+    const FrictionNode *real = behind(node);
+    FrictionNode other = lagged(node);
     if (real) return __real_friction_coefficient(real, speed) * tanh(speed / SMOOTH);
     bool half = mistake_made() == MISTAKE_HALF_SLIP_RATE;
-    return __real_friction_coefficient(law, half ? speed / 2 : speed);
+    return __real_friction_coefficient(&other, half ? speed / 2 : speed);
 }
 
-double __wrap_friction_slope(const FrictionLaw *law, double speed)
+double __wrap_friction_slope(const FrictionNode *node, double speed)
 {
-    const FrictionLaw *real = behind(law);
+    const FrictionNode *real = behind(node);
+    FrictionNode other = lagged(node);
     if (real) {
         double rise = tanh(speed / SMOOTH);
         return __real_friction_slope(real, speed) * rise +
                __real_friction_coefficient(real, speed) * (1 - rise * rise) / SMOOTH;
     }
     bool half = mistake_made() == MISTAKE_HALF_SLIP_RATE;
-    return half ? __real_friction_slope(law, speed / 2) / 2 : __real_friction_slope(law, speed);
+    return half ? __real_friction_slope(&other, speed / 2) / 2
+                : __real_friction_slope(&other, speed);
 }
 
 static bool solve_smoothed(ContactSolver *solver, const ContactProblem *problem,
@@ -71,22 +84,24 @@ static bool solve_smoothed(ContactSolver *solver, const ContactProblem *problem,
     ContactProblem smoothed = *problem;
     Error err = {0};
     int32_t count = problem->interface->contact_count;
-    FrictionLaw *each = NEW_ARRAY(FrictionLaw, count, &err);
-    if (!each) return false;
+    FrictionNode *node = NEW_ARRAY(FrictionNode, count, &err);
+    if (!node) return false;
+    smooth.law = *problem->friction->whole.law;
+    smooth.law.mu_static = 0;
     for (int32_t i = 0; i < count; i++) {
-        each[i] = *friction_at(problem->law, i);
-        each[i].mu_static = 0;
+        node[i] = *friction_at(problem->friction, i);
+        node[i].law = &smooth.law;
+        node[i].threshold = 0;
     }
-    smooth.all = *problem->law;
-    smooth.all.mu_static = 0;
-    smooth.all.each = each;
-    smooth.each = each;
+    smooth.all = *problem->friction;
+    smooth.all.node = node;
+    smooth.node = node;
     smooth.count = count;
-    smooth.real = problem->law;
-    smoothed.law = &smooth.all;
+    smooth.real = problem->friction;
+    smoothed.friction = &smooth.all;
     bool solved = __real_contact_solve(solver, &smoothed, solution);
-    smooth.each = NULL;
-    memory_free(each);
+    smooth.node = NULL;
+    memory_free(node);
     return solved;
 }
 

@@ -6,7 +6,6 @@
 #include "reduction/machine.h"
 #include "reduction/reduction_block.h"
 #include "fem/mesh.h"
-#include "friction/friction_pace.h"
 #include "friction/friction_start.h"
 #include "contact/rod_course.h"
 #include "model/contact_laws.h"
@@ -38,16 +37,15 @@ REPLACED(window_take_back);
 REPLACED(window_archive);
 REPLACED(kept_states_archive);
 REPLACED(saved_state_take_back);
-REPLACED(memory_coefficient);
-REPLACED(memory_state);
-REPLACED(memory_rested);
+REPLACED(friction_state);
+REPLACED(friction_rested);
 REPLACED(moving_set_find);
 REPLACED(friction_paced);
 REPLACED(friction_start);
 REPLACED(friction_find_steady);
 REPLACED(friction_set_pressure);
 REPLACED(formula_partials);
-REPLACED(memory_solve_states);
+REPLACED(friction_solve_states);
 REPLACED(state_archive);
 
 static bool made(Mistake mistake)
@@ -179,27 +177,19 @@ bool __wrap_saved_state_take_back(Simulation *simulation, const SavedState *stat
 
 // --- friction that remembers --------------------------------------------------------------------
 
-double __wrap_memory_coefficient(const FrictionMemory *memory, double speed, double *slope)
+void __wrap_friction_state(const FrictionNode *node, double speed, double *state)
 {
-    FrictionMemory other = *memory;
-    bool lagged = memory->kind < MEMORY_FORMULAS ? made(MISTAKE_MEMORY_LAGGED)
-                                                 : made(MISTAKE_STATES_LAGGED);
-    if (lagged) other.reach = 0;
-    return __real_memory_coefficient(&other, speed, slope);
+    FrictionNode other = *node;
+    FrictionLaw law = *node->law;
+    bool kept = friction_is_own(&law) ? made(MISTAKE_STATES_KEPT) : made(MISTAKE_MEMORY_KEPT);
+    if (made(MISTAKE_MEMORY_EVOLUTION)) law.slip_law = false;
+    other.law = &law;
+    __real_friction_state(&other, kept ? 0 : speed, state);
 }
 
-void __wrap_memory_state(const FrictionMemory *memory, double speed, double *state)
+double __wrap_friction_rested(const FrictionLaw *law, double rest)
 {
-    FrictionMemory other = *memory;
-    bool kept = memory->kind < MEMORY_FORMULAS ? made(MISTAKE_MEMORY_KEPT)
-                                               : made(MISTAKE_STATES_KEPT);
-    if (made(MISTAKE_MEMORY_EVOLUTION)) other.slip_law = false;
-    __real_memory_state(&other, kept ? 0 : speed, state);
-}
-
-double __wrap_memory_rested(const FrictionMemory *memory, double rest)
-{
-    return __real_memory_rested(memory, made(MISTAKE_MEMORY_FRESH) ? 1e-9 * rest : rest);
+    return __real_friction_rested(law, made(MISTAKE_MEMORY_FRESH) ? 1e-9 * rest : rest);
 }
 
 // g_theta of the other sign, without what states do to each other, or no memory at all, in what is
@@ -220,41 +210,40 @@ void __wrap_moving_set_find(MovingSet *set, const State *state, bool with_open)
 }
 
 // What is remembered answers at once.
-bool __wrap_memory_solve_states(const FrictionRates *rates, double reach, double *x)
+bool __wrap_friction_solve_states(const FrictionRates *rates, double reach, double *x)
 {
-    return made(MISTAKE_STATES_UNSOLVED) || __real_memory_solve_states(rates, reach, x);
+    return made(MISTAKE_STATES_UNSOLVED) || __real_friction_solve_states(rates, reach, x);
 }
 
 // The quasi-static path remembers as its own slow rod would.
-FrictionLaw __wrap_friction_paced(const FrictionLaw *law, double pace)
+FrictionNode __wrap_friction_paced(const FrictionNode *node, double pace)
 {
-    bool own = made(MISTAKE_STATES_CLOCK) && friction_is_own(law);
-    return __real_friction_paced(law, own || made(MISTAKE_MEMORY_CLOCK) ? 1 : pace);
+    bool own = made(MISTAKE_STATES_CLOCK) && friction_is_own(node->law);
+    return __real_friction_paced(node, own || made(MISTAKE_MEMORY_CLOCK) ? 1 : pace);
 }
 
 // --- laws of one's own --------------------------------------------------------------------------
 
 // With twice the states of equilibrium; without the rest before.
-bool __wrap_friction_start(const FrictionSource *source, FrictionMemory *memory, FrictionLaw *law,
-                           const char **key, Error *err)
+bool __wrap_friction_start(const FrictionSource *source, FrictionLaw *law, const char **key,
+                           Error *err)
 {
     FrictionSource other = *source;
     if (made(MISTAKE_STATES_FRESH)) other.rest = 0;
-    bool started = __real_friction_start(&other, memory, law, key, err);
-    for (int32_t k = 0; made(MISTAKE_STATES_START) && k < memory->states; k++)
-        memory->start[k] *= 2;
+    bool started = __real_friction_start(&other, law, key, err);
+    for (int32_t k = 0; made(MISTAKE_STATES_START) && k < law->states; k++) law->start[k] *= 2;
     return started;
 }
 
 // Of what `stability` lets slip.
-bool __wrap_friction_find_steady(FrictionMemory *memory, double speed)
+bool __wrap_friction_find_steady(FrictionNode *node, double speed)
 {
-    return made(MISTAKE_STATES_STEADY) || __real_friction_find_steady(memory, speed);
+    return made(MISTAKE_STATES_STEADY) || __real_friction_find_steady(node, speed);
 }
 
-double __wrap_friction_set_pressure(FrictionLaw *law, double pressure, double speed)
+double __wrap_friction_set_pressure(FrictionNode *node, double pressure, double speed)
 {
-    return made(MISTAKE_STATES_PRESSURE) ? 0 : __real_friction_set_pressure(law, pressure, speed);
+    return made(MISTAKE_STATES_PRESSURE) ? 0 : __real_friction_set_pressure(node, pressure, speed);
 }
 
 // Rates of states (formula k > 0, by the ends before it) do not know the others; derivatives by the

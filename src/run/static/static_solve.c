@@ -9,7 +9,7 @@
 #include "algebra/dense.h"
 #include "base/decimal_point.h"
 #include "base/memory.h"
-#include "friction/friction_state.h"
+#include "friction/friction.h"
 #include "fem/element_group.h"
 #include "contact/contact_check.h"
 #include "model/contact_laws.h"
@@ -40,7 +40,7 @@ static void static_solution_destroy(StaticSolution *solution)
     memory_free_all(solution->displacement, solution->load, solution->reaction, solution->work);
     rod_destroy(&solution->rod);
     memory_free_all(solution->contact_displacement, solution->contact_reaction, solution->status,
-                    solution->node_laws, solution->rod_touches);
+                    solution->friction_nodes, solution->rod_touches);
     *solution = (StaticSolution){0};
 }
 
@@ -62,7 +62,7 @@ static ContactProblem contact_problem(const Model *model, const StaticSolution *
 {
     fill_bounds(model, solution, bound);
     return (ContactProblem){.interface = &model->interface,
-                            .law = &solution->law,
+                            .friction = &solution->friction,
                             .rod_kind = solution->rod.kind,
                             .rod_softness = solution->rod.softness,
                             .rod_reach = 1,
@@ -143,10 +143,11 @@ static bool static_solve(Model *model, StaticSolution *solution, Error *err)
     TRY(model_build_rod(model, kind, &solution->rod, err));
     TRY(model_lay_laws(model, err));
     TRY(model_lay_gaps(model, err));
-    TRY((solution->node_laws = NEW_ARRAY(FrictionLaw, interface->contact_count, err)));
+    TRY((solution->friction_nodes = NEW_ARRAY(FrictionNode, interface->contact_count, err)));
     for (int32_t i = 0; i < interface->contact_count; i++)
-        solution->node_laws[i] = friction_constant(friction_at(&model->law, i)->mu_static);
-    solution->law = friction_spread(solution->node_laws, interface->contact_count);
+        solution->friction_nodes[i] =
+            friction_constant(friction_threshold(friction_at(&model->friction, i)));
+    solution->friction = friction_of_nodes(solution->friction_nodes, interface->contact_count);
     memcpy(solution->load, bulk->load, (size_t)bulk->dof_count * sizeof(double));
     TRY(model_hold_supports(model, err));
     TRY(bulk_assemble(&model->mesh, model->materials.list, bulk, err));
@@ -282,7 +283,7 @@ bool amontons_static(const Scene *scene, const char *folder, bool overwrite, Sta
     ResultFolder place = {0};
     *summary = (StaticSummary){0};
     TRY(dense_begin(err));
-    if (friction_remembers(&scene->friction, 0))
+    if (scene->friction.remembers)
         FAIL(err, ERROR_INPUT,
              "%s: friction.law: what holds at rest goes by what the contacts remember; `%s` is for "
              "`amontons run`",

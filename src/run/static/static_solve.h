@@ -26,8 +26,8 @@ typedef struct StaticSolution {
     double *work;   // [dof_count]
     Rod rod;
     double rod_way;   // where it stands: rod.displacement, or less on a spring; length
-    FrictionLaw *node_laws;   // [contact_count] Coulomb's with mu_static; owned
-    FrictionLaw law;   // of them all
+    FrictionNode *friction_nodes;   // [contact_count] Coulomb's law with mu_static; owned
+    Friction friction;   // of them all
     int64_t iterations;
 } StaticSolution;
 

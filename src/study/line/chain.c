@@ -117,6 +117,7 @@ static bool build_matrices(const Model1d *model, const Interface *interface, Red
 bool chain_build(const Model1d *model, int32_t points, Chain *chain, Error *err)
 {
     *chain = (Chain){.law = model->law};
+    chain->friction = friction_everywhere(friction_node(&chain->law, 1));
     if (!build_interface(model, points, &chain->interface, err)) return false;
     if (!build_matrices(model, &chain->interface, &chain->reduced, err)) return false;
     double mass = model->density * model->alpha * model->height * model->length;
@@ -126,7 +127,7 @@ bool chain_build(const Model1d *model, int32_t points, Chain *chain, Error *err)
         return false;
     chain->block = (Block){.system = &chain->system,
                            .interface = &chain->interface,
-                           .law = &chain->law,
+                           .friction = &chain->friction,
                            .rod = &chain->rod};
     return true;
 }

@@ -12,7 +12,7 @@
 #include "base/decimal_point.h"
 #include "base/memory.h"
 #include "model/scene_mesh.h"
-#include "friction/friction_state.h"
+#include "friction/friction.h"
 #include "run/result/result_folder.h"
 
 #include <math.h>
@@ -47,12 +47,12 @@ static bool check_scene(const Scene *scene, Error *err)
             path);
     if (scene->rod.stiffness > 0)
         return REFUSE(err, "%s: rod.stiffness: the 1D model's rod goes where it is driven", path);
-    if (friction_remembers(&scene->friction, 0))
+    if (scene->friction.remembers)
         return REFUSE(err,
                       "%s: friction.law: the 1D model's closed forms are of friction that depends "
                       "on slip rate alone; `%s` remembers (`amontons run` takes it)",
                       path, friction_law_name(&scene->friction));
-    if (!(friction_drop(&scene->friction) > 0))
+    if (!(friction_law_drop(&scene->friction) > 0))
         return REFUSE(err,
                       "%s: the 1D model's slip starts from mu_kinetic and ends at mu_static: it "
                       "needs a weakening friction.law (this one is `%s`) with friction.mu_static "
@@ -71,7 +71,7 @@ static bool check_scene(const Scene *scene, Error *err)
                       "%s: materials: the 1D model's line is of one material (`amontons stability` "
                       "and `run` take regions)",
                       path);
-    if (friction_strengthens(&scene->friction))
+    if (scene->friction.strengthens)
         return REFUSE(err,
                       "%s: friction.law: the 1D model's closed forms take a line that has slid to "
                       "be left at mu_kinetic; this `%s` strengthens again at faster slip "

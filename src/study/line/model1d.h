@@ -34,6 +34,13 @@ typedef struct Model1d {
     FrictionLaw law;
 } Model1d;
 
+// d mu/d v at rest, one over a velocity.
+static inline double model1d_friction_slope(const Model1d *model)
+{
+    FrictionNode node = friction_node(&model->law, 1);
+    return friction_slope(&node, 0);
+}
+
 // --- theory (theory.c) ---------------------------------------------------------------------------
 double model1d_pressure(const Model1d *model, double x);
 double model1d_range(const Model1d *model);   // kappa r: what is held at a point is felt so far
@@ -79,6 +86,7 @@ typedef struct Chain {
     BulkOperator system;
     Rod rod;
     FrictionLaw law;
+    Friction friction;   // by that law
     Block block;   // of the above
 } Chain;
 

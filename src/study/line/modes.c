@@ -40,7 +40,7 @@ static void fill_companion(const Model1d *model, double l, int32_t count, double
 {
     int64_t size = 2 * (int64_t)count;
     double springs = 1 / (model->alpha * model->drive * model->height);
-    double weakening = -friction_slope(&model->law, 0) * 2 * model->pressure * l /
+    double weakening = -model1d_friction_slope(model) * 2 * model->pressure * l /
                        (model->length * model->alpha * model->height);
     memset(matrix, 0, (size_t)(size * size) * sizeof(double));
     for (int64_t m = 0; m < count; m++) {
@@ -139,7 +139,7 @@ bool model1d_losses(const Model1d *model, Model1dLosses *losses, Error *err)
     *losses = (Model1dLosses){.l_sc = NAN, .l_c = NAN, .l_rod = NAN};
     double *work = NEW_ARRAY(double, model1d_rates_work(MODEL1D_MODES), err);
     if (!work) goto cleanup;
-    if (!(friction_slope(&model->law, 0) < 0)) goto cleanup;
+    if (!(model1d_friction_slope(model) < 0)) goto cleanup;
     TRY(find_first(model, oscillation_grows, work, &losses->l_sc, err));
     TRY(find_first(model, runs_away, work, &losses->l_c, err));
     TRY(find_first(model, runs_away_at_speed, work, &losses->l_rod, err));

@@ -52,8 +52,9 @@ static bool open_simulation(Model1dSimulation *simulation, Error *err)
                                              .time = model->length / model->speed,
                                              .slip_velocity = model->velocity};
     simulation->t_end = step_rule_end(scene);
+    Friction friction = friction_everywhere(friction_node(&model->law, 1));
     StepSizes sizes = {
-        .slip = friction_slip(&model->law, model->pressure, model->height, model->young),
+        .slip = friction_slip(&friction, model->pressure, model->height, model->young),
         .crossing = simulation->scales.time,
         .tolerance = TOLERANCES[scene->time.accuracy]};
     StepControlDef def = step_rule(scene, &sizes);
@@ -65,7 +66,7 @@ static bool open_simulation(Model1dSimulation *simulation, Error *err)
     return events_create(&simulation->chain.interface, model->velocity, &simulation->events, err) &&
            drops_create(&simulation->chain.interface, &simulation->events,
                         scene->time.periodic_tolerance, &simulation->drops, err) &&
-           contact_arrays_create(&simulation->chain.interface, &simulation->chain.law,
+           contact_arrays_create(&simulation->chain.interface, &simulation->chain.friction,
                                  &simulation->contact, err) &&
            (!simulation->options->folder || open_history(simulation, err));
 }

@@ -51,7 +51,7 @@ double model1d_rest(const Model1d *model, double x)
 // c of the head, 1: slip per length of front
 static double slip_scale(const Model1d *model)
 {
-    return 2 * friction_drop(&model->law) * model->drive * model->pressure /
+    return 2 * friction_law_drop(&model->law) * model->drive * model->pressure /
            (model->elastic_shear * model->length);
 }
 
@@ -74,12 +74,12 @@ double model1d_mu(const Model1d *model, double l)
 {
     double q = model1d_range(model), part = l / model->length;
     double ahead = 2 * (1 - part) * (part - q / model->length * tanh(l / (2 * q)));
-    return model->law.mu_kinetic + friction_drop(&model->law) * (part * part + ahead);
+    return model->law.mu_kinetic + friction_law_drop(&model->law) * (part * part + ahead);
 }
 
 double model1d_mu_line(const Model1d *model, double l)
 {
-    return model->law.mu_kinetic + friction_drop(&model->law) * l / model->length;
+    return model->law.mu_kinetic + friction_law_drop(&model->law) * l / model->length;
 }
 
 // --- growth rates -------------------------------------------------------------------------------
@@ -95,7 +95,7 @@ typedef struct ModeTerms {
 static ModeTerms mode_terms(const Model1d *model, int32_t n, double l)
 {
     double k = (n + 0.5) * M_PI, wave = (k / l) * (k / l), springs = 1 / spring_area(model);
-    double slope = -friction_slope(&model->law, 0);
+    double slope = -model1d_friction_slope(model);
     double layer = model->alpha * model->height;
     return (ModeTerms){.damping = model->viscous_x * wave + model->viscous_shear * springs,
                        .stiffness = model->elastic_x * wave + model->elastic_shear * springs,
@@ -127,7 +127,7 @@ static double resistance_left(const Model1d *model, int32_t n, bool critical, do
 static double find_loss(const Model1d *model, int32_t n, bool critical)
 {
     double low = model->length, high = model->length;
-    if (!(friction_slope(&model->law, 0) < 0)) return NAN;
+    if (!(model1d_friction_slope(model) < 0)) return NAN;
     while (resistance_left(model, n, critical, low) <= 0) low /= 2;
     while (resistance_left(model, n, critical, high) > 0) high *= 2;
     while (high - low > 1e-15 * high) {
@@ -149,7 +149,7 @@ double model1d_l_c(const Model1d *model)
 
 double model1d_l_c_small(const Model1d *model)
 {
-    double k = M_PI / 2, slope = -friction_slope(&model->law, 0);
+    double k = M_PI / 2, slope = -model1d_friction_slope(model);
     double layer = model->alpha * model->height;
     if (!(slope > 0)) return NAN;
     return cbrt(model->viscous_x * k * k * layer * model->length /

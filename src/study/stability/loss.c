@@ -2,7 +2,7 @@
 // Where on the path stability is lost first: l, U and mu of each way to lose it, into the summary.
 #include "study/stability/stability.h"
 
-#include "friction/friction_state.h"
+#include "friction/friction.h"
 
 #include <math.h>
 
@@ -13,10 +13,10 @@
 double stability_half_period(const StabilityPath *path, int32_t k)
 {
     const StabilityPoint *point = &path->points[k];
-    double ratio = path->model->law.critical_velocity / path->model->scene->rod.velocity;
+    double ratio = path->model->friction.critical_velocity / path->model->scene->rod.velocity;
     if (!(point->rate_re > 0)) return -INFINITY;
     if (!(point->rate_im > 0)) return INFINITY;
-    if (friction_creeps(&path->model->law) || ratio < 1) ratio = 1;
+    if (path->model->friction.whole.law->creeps || ratio < 1) ratio = 1;
     return M_PI * point->rate_re / point->rate_im - log(ratio);
 }
 
@@ -115,7 +115,7 @@ static StabilityPoint first_loss(const StabilityPath *path, Margin margin)
 static StabilityPoint first_sliding(const StabilityPath *path, Margin margin)
 {
     StabilityPoint lost = first_loss(path, margin);
-    bool creeps = friction_creeps(&path->model->law), ends = isnan(lost.front);
+    bool creeps = path->model->friction.whole.law->creeps, ends = isnan(lost.front);
     if (!creeps && (!ends || !path->at_end)) return lost;
     if (ends && !path->at_end) return lost;
     if (ends) lost = path->points[path->count - 1];

@@ -24,7 +24,7 @@
 
 #include "algebra/dense.h"
 #include "base/memory.h"
-#include "friction/friction_state.h"
+#include "friction/friction.h"
 #include "contact/slip.h"
 #include "record/pad_sums.h"
 
@@ -193,7 +193,7 @@ static bool measure_lengths(PadWork *work, double length, StabilitySummary *summ
         TRY(steady_nodes(work, true, &nodes, err));
         summary->steady_contact = length * (nodes - 1) / elements;
     }
-    if (!work->path->laws) goto cleanup;
+    if (!work->path->nodes) goto cleanup;
     TRY(steady_nodes(work, false, &nodes, err));
     // A part slips between its held neighbours.
     if (nodes < work->count) summary->nucleation_length = length * nodes / elements;
@@ -206,16 +206,17 @@ static double fall_of_mu(PadWork *work)
 {
     const StabilityPath *path = work->path;
     const Interface *interface = work->interface;
-    const FrictionLaw *law = &path->model->law;
+    const Friction *friction = &path->model->friction;
     const double *schur = interface_operator_schur(work->stiffness);
     int64_t size = interface->count;
     double fall = 0, load = 0;
     for (int32_t a = 0; a < work->count; a++) {
         int32_t i = work->nodes[a];
-        const FrictionLaw *own = friction_at(law, i);
-        double kinetic = own->remembers ? own->mu_kinetic
-                                        : fmax(own->mu_static - friction_drop(own), 0);
-        if (friction_creeps(own)) return NAN;   // nothing ends its fall
+        const FrictionNode *node = friction_at(friction, i);
+        double kinetic = node->law->remembers
+                             ? friction_kinetic(node)
+                             : fmax(friction_threshold(node) - friction_drop(node), 0);
+        if (node->law->creeps) return NAN;   // nothing ends its fall
         work->values[a] = fabs(path->runaway.reaction[interface_tangent(interface, i)]) -
                           kinetic * path->runaway.reaction[interface_normal(interface, i)];
         for (int32_t b = 0; b < work->count; b++)

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Friction that remembers on the quasi-static path. The path's rod goes at a velocity of its own,
-// so its laws are put on the path's clock (friction/friction_pace): what they say there of mu and
+// so its friction is put on the path's clock (friction_paced): what they say there of mu and
 // of the part of a way that is forgotten is what the scene's rod meets. States are looked at in the
 // scene's time.
 #include "study/stability/stability.h"
 
 #include "base/memory.h"
-#include "friction/friction_pace.h"
 #include "friction/friction_response.h"
 #include "friction/friction_start.h"
-#include "friction/friction_state.h"
 
 #include <math.h>
 #include <string.h>
@@ -18,12 +16,12 @@ bool stability_set_pace(StabilityPath *path, double velocity, Error *err)
 {
     const Model *model = path->model;
     int32_t count = model->interface.contact_count;
-    if (!friction_remembers(&model->law, count)) return true;
+    if (!friction_remembers(&model->friction, count)) return true;
     if (!path->options->at_end) path->pace = velocity / model->scene->rod.velocity;
-    TRY((path->laws = NEW_ARRAY(FrictionLaw, count, err)));
+    TRY((path->nodes = NEW_ARRAY(FrictionNode, count, err)));
     for (int32_t i = 0; i < count; i++)
-        path->laws[i] = friction_paced(friction_at(&model->law, i), path->pace);
-    path->law = friction_spread(path->laws, count);
+        path->nodes[i] = friction_paced(friction_at(&model->friction, i), path->pace);
+    path->friction = friction_of_nodes(path->nodes, count);
     path->scales.slip_velocity *= path->pace;
 cleanup:
     return error_is_clean(err);
@@ -41,13 +39,13 @@ static void change_clock(double pace, State *state)
 
 void stability_start_states(StabilityPath *path)
 {
-    if (path->laws) change_clock(path->pace, &path->control.now);
+    if (path->nodes) change_clock(path->pace, &path->control.now);
 }
 
 void stability_look(StabilityPath *path)
 {
     state_copy(&path->control.now, &path->last);
-    if (path->laws) change_clock(1 / path->pace, &path->last);
+    if (path->nodes) change_clock(1 / path->pace, &path->last);
 }
 
 // mu and g of node i at steady slip at V under this pressure; its states. Where none is found: in
@@ -55,25 +53,24 @@ void stability_look(StabilityPath *path)
 static FrictionRates steady_rates(const StabilityPath *path, int32_t i, double pressure,
                                   double *state)
 {
-    FrictionLaw law = *friction_at(&path->model->law, i);
-    FrictionMemory *memory = &law.own.memory;
+    FrictionNode node = *friction_at(&path->model->friction, i);
     double speed = path->model->scales.slip_velocity;
     FrictionRates rates;
-    friction_start_state(&law, state);
-    if (law.remembers) {
-        memory->pressure = pressure;
-        memcpy(memory->from, memory->start, sizeof memory->from);
-        friction_find_steady(memory, speed);
-        memcpy(state, memory->from, (size_t)memory->states * sizeof(double));
+    friction_start_state(&node, state);
+    if (node.law->remembers) {
+        node.pressure = pressure;
+        memcpy(node.from, node.law->start, sizeof node.from);
+        friction_find_steady(&node, speed);
+        memcpy(state, node.from, (size_t)node.law->states * sizeof(double));
     }
-    friction_rates(&law, speed, state, &rates);
+    friction_rates(&node, speed, state, &rates);
     return rates;
 }
 
 double stability_forgets(const StabilityPath *path, int32_t i)
 {
     double state[STATES_MAX], re[STATES_MAX], im[STATES_MAX], slowest = INFINITY;
-    double pressure = friction_at(&path->model->law, i)->own.memory.pressure;
+    double pressure = friction_at(&path->model->friction, i)->pressure;
     FrictionRates rates = steady_rates(path, i, pressure, state);
     friction_own_rates(&rates, re, im);
     for (int32_t k = 0; k < rates.states; k++)
@@ -88,7 +85,7 @@ void stability_let_slip(const StabilityPath *path, State *trial, int32_t i)
     double pressing = trial->reaction[interface_normal(interface, i)];
     trial->status[i] = CONTACT_SLIP_FORWARD;
     for (int32_t c = 0; c < interface->dim - 1; c++) trial->slip_rate[t + c] = 0;
-    if (!path->laws) return;
+    if (!path->nodes) return;
     steady_rates(path, i, pressing / interface->weight[i], &trial->theta[i * STATES_MAX]);
     trial->slip_rate[t] = path->model->scales.slip_velocity;
 }

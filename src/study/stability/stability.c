@@ -14,8 +14,7 @@
 #include "base/clock.h"
 #include "base/decimal_point.h"
 #include "base/memory.h"
-#include "friction/friction_pace.h"
-#include "friction/friction_state.h"
+#include "friction/friction.h"
 #include "contact/slip.h"
 #include "run/result/result_folder.h"
 
@@ -125,18 +124,21 @@ static bool open_path(StabilityPath *path, Error *err)
                           .step_min = 1e-12 * step,
                           .wave_step = INFINITY,
                           .use_certificate = false};
-    Block block = {
-        .system = &model->system, .interface = interface, .law = &model->law, .rod = &path->rod};
+    Block block = {.system = &model->system,
+                   .interface = interface,
+                   .friction = &model->friction,
+                   .rod = &path->rod};
     Block paced = block;
     path->scales = model->scales;
     TRY(stability_set_pace(path, velocity, err));
-    if (path->laws) {
-        paced.law = &path->law;
-        paced.stage_laws = path->laws;
+    if (path->nodes) {
+        paced.friction = &path->friction;
+        paced.stage_friction = path->nodes;
     }
     TRY(model_build_rod(model, before->rod.kind, &path->rod, err));
     TRY(step_control_create(&paced, &def, &path->control, err));
-    path->control.certificate.moving.law = &model->law;   // it is asked about states as seen
+    path->control.certificate.moving.contact_friction =
+        &model->friction;   // it is asked about states as seen
     TRY(state_create(&model->system, interface, &path->last, err));
     TRY(state_create(&model->system, interface, &path->runaway, err));
     state_copy(&before->control.now, &path->control.now);
@@ -151,7 +153,7 @@ static bool open_path(StabilityPath *path, Error *err)
     double mean = material_slip_speed(&model->materials.mean);   // with soft regions it is slower
     GrowthDef growth = growth_def(model->length, speed, (int32_t)elements);
     growth.slowest = fmin(growth.slowest * (mean / speed), mean / (4 * model->height));   // if tall
-    while (path->laws && growth.slowest > slowest_memory(path)) growth.slowest /= 2;
+    while (path->nodes && growth.slowest > slowest_memory(path)) growth.slowest /= 2;
     path->slowest = growth.slowest;
     path->growth = growth_create(&block, &growth, err);
     path->room = interface->contact_count + 2;
@@ -203,27 +205,28 @@ static int32_t count_slipping(const Observation *seen)
 // pressure behind the front. (Without it the path's mu was 0.1 to 2 % above that of runs.)
 static double mu_at_V(const StabilityPath *path, const State *state, double mu)
 {
-    const FrictionLaw *law = &path->model->law;
+    const Friction *friction = &path->model->friction;
     const Interface *interface = &path->model->interface;
     double start = path->count > 0 ? path->points[0].mu : mu, lost = 0, pressed = 0;
-    if (path->options->at_end || !(friction_drop(law) > 0)) return mu;
+    if (path->options->at_end || !(friction->drop > 0)) return mu;
     // With memory slip rates are those at V already.
-    double speed = path->laws ? 1 : path->model->scene->rod.velocity / path->rod.velocity;
+    double speed = path->nodes ? 1 : path->model->scene->rod.velocity / path->rod.velocity;
     for (int32_t i = 0; i < state->contact_count; i++) {
         double pressing = state->reaction[interface_normal(interface, i)];
         double pressure = pressing / interface->weight[i];
         if (!status_slips(state->status[i])) continue;
         double rate = speed * slip_size(interface, i, state->slip_rate);
-        const FrictionLaw *own = friction_at(law, i);
+        const FrictionNode *node = friction_at(friction, i);
         const double *theta = &state->theta[i * STATES_MAX];
         FrictionRates rests, slips;
-        friction_rates_pressed(own, pressure, 0, theta, &rests);
-        friction_rates_pressed(own, pressure, rate, theta, &slips);
-        bool at_V = own->remembers && !friction_weakens_at_once(own);   // on the path already
+        friction_rates_pressed(node, pressure, 0, theta, &rests);
+        friction_rates_pressed(node, pressure, rate, theta, &slips);
+        bool at_V = node->law->remembers &&
+                    !friction_weakens_at_once(node);   // on the path already
         if (!at_V) lost += pressing * (rests.mu - slips.mu);
-        pressed += pressing * (friction_drop(own) / friction_drop(law));
+        pressed += pressing * (friction_drop(node) / friction->drop);
     }
-    return pressed > 0 ? mu - (mu - start) * lost / (pressed * friction_drop(law)) : mu;
+    return pressed > 0 ? mu - (mu - start) * lost / (pressed * friction->drop) : mu;
 }
 
 // At the scene's V: by half a period's growth, or for certain: a real rate has been found.
@@ -243,7 +246,7 @@ static bool add_point(StabilityPath *path, const Observation *seen, Error *err)
     last.state = &path->last;
     last.creep /= path->pace;
     // With memory: nothing grows that is as fast as the slowest rate that is looked for.
-    double reach = path->laws ? 1 / path->slowest : 0, started = clock_seconds();
+    double reach = path->nodes ? 1 / path->slowest : 0, started = clock_seconds();
     TRY(growth_rates(path->growth, &path->last, &rates, err));
     *point = (StabilityPoint){
         .front = seen->front - seen->trailing,
@@ -356,7 +359,7 @@ static void path_destroy(StabilityPath *path)
     state_destroy(&path->runaway);
     rod_destroy(&path->rod);
     amontons_simulation_destroy(path->simulation);
-    memory_free_all(path->laws, path->points, path->modes, path->critical_mode);
+    memory_free_all(path->nodes, path->points, path->modes, path->critical_mode);
 }
 
 // Four stages: a run up to rest after the wanted slidings, the quasi-static path with a point per

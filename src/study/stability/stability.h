@@ -4,7 +4,7 @@
 // the rod so slow that the velocity drops out (V -> 0). Whenever a further node begins to slip, the
 // growth rates of the state just before are computed (stepping/growth). Or, without a path, those
 // of the state in which the scene's own run ends.
-// Friction that remembers is on the path's clock (friction/friction_pace): states and mu are those
+// Friction that remembers is on the path's clock (friction_paced): states and mu are those
 // of the scene's V. amontons_stability is the entry; this is what its files share.
 #ifndef AMONTONS_STUDY_STABILITY_STABILITY_H
 #define AMONTONS_STUDY_STABILITY_STABILITY_H
@@ -19,8 +19,8 @@ typedef struct StabilityPath {
     Model *model;   // the simulation's
     Rod rod;   // of the path; owned, like what follows
     double pace;   // of friction that remembers: velocities of the path over the scene's; else 1
-    FrictionLaw law, *laws;   // at that pace: of all, [contact_count] of the nodes; NULL: none has
-        // memory
+    Friction friction;   // at that pace, where friction remembers
+    FrictionNode *nodes;   // [contact_count] its nodes; NULL: none remembers; owned
     ObservationScales scales;   // of the path
     StepControl control;   // of the path
     State last;   // before the newest step, in the scene's time

@@ -99,7 +99,7 @@ static void say_what_memory_asks(const StabilityPath *path, StabilitySummary *su
 {
     const StabilityPad *pad = &summary->pads[summary->pad];
     char length[120] = "";
-    if (!path->laws || isnan(pad->critical_stiffness)) return;
+    if (!path->nodes || isnan(pad->critical_stiffness)) return;
     if (!isnan(summary->nucleation_length))
         snprintf(length, sizeof length,
                  " Slip that all else holds grows on a part longer than %.3g (nucleation length).",
@@ -152,7 +152,7 @@ void stability_explain(const StabilityPath *path, StabilitySummary *summary)
         say(summary, "The path ended before anything ran away.");
     else
         say_what_decides(path, summary);
-    if (path->grows && !path->laws) say_whether_alone(summary);
+    if (path->grows && !path->nodes) say_whether_alone(summary);
     say_what_memory_asks(path, summary);
     say_what_comes_before(path, summary);
     if (path->grows) say_what_follows(summary);

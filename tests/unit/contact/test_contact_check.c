@@ -22,7 +22,7 @@ static void good_state(HandContact *hand)
     hand->bound[8] = hand->bound[9] = 0.4;
 }
 
-static ContactResidual judge(const HandContact *hand)
+static ContactResidual judge(HandContact *hand)
 {
     ContactProblem problem = hand_problem(hand, NULL);
     return contact_residual(&problem, hand->velocity, hand->reaction, FORCE, VELOCITY);

@@ -10,7 +10,7 @@ static HandContact hand;
 static void one_node(double resists, double p, double gx, double gy)
 {
     hand_contact_size(&hand, 1, 0);
-    hand.law = friction_constant(0.5);
+    hand.law = (FrictionLaw){.kind = FRICTION_COULOMB, .mu_static = 0.5};
     for (int32_t k = 0; k < 3; k++) hand.schur[4 * k] = resists;
     hand.g[0] = gx;
     hand.g[1] = gy;
@@ -92,8 +92,12 @@ TEST(test_plane)
         ContactMatrix matrix;
         assert_true(contact_matrix_create(schur, UNKNOWNS, &matrix, &err) &&
                     contact_solver_create(&plane, &solver, &err));
-        ContactProblem problem = {
-            .interface = &plane, .law = &hand.law, .matrix = &matrix, .g = g, .bound = bound};
+        hand.friction = FRICTION_OF(&hand.law);
+        ContactProblem problem = {.interface = &plane,
+                                  .friction = &hand.friction,
+                                  .matrix = &matrix,
+                                  .g = g,
+                                  .bound = bound};
         uint8_t no_rod[1] = {0};
         assert_true(contact_solve(&solver, &problem, &(ContactSolution){v, r, status, no_rod}));
         memset(hand.status, CONTACT_STICK, sizeof hand.status);
@@ -121,7 +125,7 @@ TEST(test_projections)
     Random random = {.state = 17};
     for (int32_t trial = 0; trial < 10; trial++) {
         hand_contact_size(&hand, HAND_NODES, 0);
-        hand.law = friction_constant(0.3);
+        hand.law = (FrictionLaw){.kind = FRICTION_COULOMB, .mu_static = 0.3};
         hand_random_schur(&random, 4, 0.2, &hand);
         int32_t count = hand.interface.count;
         double v[HAND_UNKNOWNS] = {0}, r[HAND_UNKNOWNS] = {0}, rho = 3;

@@ -64,7 +64,7 @@ static double residual_by_hand(int32_t k)
     uint8_t status = hand.status[k / 2];
     if (status == CONTACT_OPEN) return value;
     for (int32_t j = 0; j < COUNT; j++) normal += hand.schur[j * COUNT + k + 1] * hand.velocity[j];
-    double speed = fabs(hand.velocity[k]), mu = friction_coefficient(&hand.law, speed);
+    double speed = fabs(hand.velocity[k]), mu = friction_coefficient(NODE_OF(&hand.law), speed);
     return value + (status == CONTACT_SLIP_FORWARD ? mu : -mu) * normal;
 }
 

@@ -10,17 +10,20 @@ static const FrictionLaw EXPONENTIAL = {.kind = FRICTION_EXPONENTIAL_WEAKENING,
 
 static void assert_same(const FrictionLaw *own, const FrictionLaw *known, double tolerance)
 {
-    double v_c = known->critical_velocity, steep = friction_steepest(known);
+    double v_c = known->critical_velocity, steep = friction_steepest(NODE_OF(known));
     assert_near("mu_S", own->mu_static, known->mu_static, tolerance);
     assert_near("mu_K", own->mu_kinetic, known->mu_kinetic, tolerance);
     assert_near("v_c", own->critical_velocity, v_c, 1e-9 * v_c);
-    assert_near("spent", friction_spent_speed(own), friction_spent_speed(known), 1e-8 * v_c);
-    assert_near("steepest", friction_steepest(own), steep, 1e-12 * steep);
+    assert_near("spent", friction_spent_speed(NODE_OF(own)), friction_spent_speed(NODE_OF(known)),
+                1e-8 * v_c);
+    assert_near("steepest", friction_steepest(NODE_OF(own)), steep, 1e-12 * steep);
     for (double v = 0; v < 8 * v_c; v += 0.037 * v_c) {
-        assert_near("mu", friction_coefficient(own, v), friction_coefficient(known, v), tolerance);
-        assert_near("slope", friction_slope(own, v), friction_slope(known, v), 1e-14 * steep);
-        assert_near("phi", friction_contact_density(own, v), friction_contact_density(known, v),
-                    1e-14);
+        assert_near("mu", friction_coefficient(NODE_OF(own), v),
+                    friction_coefficient(NODE_OF(known), v), tolerance);
+        assert_near("slope", friction_slope(NODE_OF(own), v), friction_slope(NODE_OF(known), v),
+                    1e-14 * steep);
+        assert_near("phi", friction_contact_density(NODE_OF(own), v),
+                    friction_contact_density(NODE_OF(known), v), 1e-14);
     }
 }
 
@@ -49,7 +52,7 @@ TEST(test_given)
     assert_near("mu_K", law.mu_kinetic, 0.1, 0);
     assert_near("v_c", law.critical_velocity, 3.4e-4, 0);
     assert_near("spent", law.spent, 5 * 3.4e-4, 0);
-    assert_near("end", friction_slope(&law, 0.02), 0, 0);
+    assert_near("end", friction_slope(NODE_OF(&law), 0.02), 0, 0);
 }
 
 // Falls to its lowest at sqrt(a/b) - 1, rises to the end: closed form.
@@ -59,13 +62,13 @@ TEST(test_strengthening)
     double lowest_at = sqrt(30) - 1, lowest = 2 * sqrt(0.003);
     assert_near("mu_S", law.mu_static, 0.31, 1e-15);
     assert_near("mu_K", law.mu_kinetic, lowest, 1e-4);
-    assert_true(friction_weakens(&law, 0.99 * lowest_at));
-    assert_false(friction_weakens(&law, 1.01 * lowest_at));
-    assert_true(friction_slope(&law, 10) > 0);
+    assert_true(friction_weakens(NODE_OF(&law), 0.99 * lowest_at));
+    assert_false(friction_weakens(NODE_OF(&law), 1.01 * lowest_at));
+    assert_true(friction_slope(NODE_OF(&law), 10) > 0);
     // w = 0.3/(1 + v)^2 - 0.01: 1 - 1/e of 0.29 lost.
     assert_near("v_c", law.critical_velocity, sqrt(0.3 / (0.29 / M_E + 0.01)) - 1, 1e-9);
     FrictionLaw flat = own_formula("0.4", 1);
-    assert_near("no drop", friction_drop(&flat), 0, 0);
+    assert_near("no drop", friction_law_drop(&flat), 0, 0);
     assert_near("no v_c", flat.critical_velocity, 0, 0);
 }
 
@@ -77,18 +80,18 @@ TEST(test_above_rest)
     FrictionLaw law = own_formula("0.3 + 0.4 * (1 - exp(-v / 2))", 100);
     assert_near("mu_S", law.mu_static, 0.3, 1e-16);
     assert_near("mu_K", law.mu_kinetic, 0.3, 1e-16);
-    assert_near("drop", friction_drop(&law), 0, 0);
-    assert_near("steepest", friction_steepest(&law), 0, 0);
+    assert_near("drop", friction_law_drop(&law), 0, 0);
+    assert_near("steepest", friction_steepest(NODE_OF(&law)), 0, 0);
     assert_near("v_c", law.critical_velocity, 2, 1e-9);
-    assert_near("spent", friction_spent_speed(&law), 0, 0);
-    assert_near("phi", friction_contact_density(&law, 5), 1, 0);
-    assert_true(friction_strengthens(&law));
+    assert_near("spent", friction_spent_speed(NODE_OF(&law)), 0, 0);
+    assert_near("phi", friction_contact_density(NODE_OF(&law), 5), 1, 0);
+    assert_true(law.strengthens);
     law = own_formula("0.2 + 0.5 * v * exp(1 - v)", 50);   // to 0.7 at v = 1, down to 0.2
-    assert_near("drop", friction_drop(&law), 0.5, 1e-3);
-    double spent = friction_spent_speed(&law);
+    assert_near("drop", friction_law_drop(&law), 0.5, 1e-3);
+    double spent = friction_spent_speed(NODE_OF(&law));
     assert_near("left", spent * exp(1 - spent), 0.01, 1e-3);
-    FrictionLaw half = friction_scaled(&law, 0.5);
-    assert_near("drop of half", friction_drop(&half), 0.5 * friction_drop(&law), 1e-15);
+    FrictionNode half = friction_node(&law, 0.5);
+    assert_near("drop of half", friction_drop(&half), 0.5 * friction_law_drop(&law), 1e-15);
     law = own_formula("0.4 * tanh(v)", 20);   // no friction at rest: lubricated
     assert_near("mu_S", law.mu_static, 0, 0);
 }
@@ -115,8 +118,7 @@ TEST(test_refusals)
         const char *key = NULL;
         FrictionLaw law = {.kind = FRICTION_FORMULA};
         FrictionSource source = {.formula = known[k].formula, .end = 10};
-        assert_true(friction_own_law(&source, &law, &key, &err));
-        assert_false(friction_look(&law, &err));
+        assert_false(friction_make(&source, &law, &key, &err));
         assert_int_equal(err.code, ERROR_INPUT);
         if (!strstr(err.message, known[k].words))
             fail_msg("%s: \"%s\" lacks \"%s\"", known[k].formula, err.message, known[k].words);
@@ -143,8 +145,7 @@ TEST(test_contradictions)
         const char *key = NULL;
         FrictionLaw law = {.kind = FRICTION_FORMULA, .mu_static = k ? 0 : 0.5, .mu_kinetic = 0.2};
         FrictionSource source = {.formula = "0.1 + 0.3 * exp(-v)", .end = 10};
-        assert_true(friction_own_law(&source, &law, &key, &err));
-        assert_false(friction_look(&law, &err));
+        assert_false(friction_make(&source, &law, &key, &err));
         assert_non_null(strstr(err.message, k ? "mu_kinetic" : "mu_static is given as 0.5"));
     }
 }

@@ -1,57 +1,52 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Laws with memory: derivatives against differences, the state of a stage against its equation,
 // steps of the states against closed forms at constant slip and at rest, limits.
-#include "friction/friction_make.h"
-
-#include "friction/friction_state.h"
-#include "near.h"
+#include "own_laws.h"
 
 enum { LAWS = 4 };
 
-static const FrictionMemory MEMORIES[LAWS] = {{.kind = MEMORY_AGEING,
-                                               .mu_static = 0.4,
-                                               .mu_kinetic = 0.1,
-                                               .critical_velocity = 0.05,
-                                               .slip_distance = 0.02,
-                                               .healing_time = 3,
-                                               .healing = 0.2},
-                                              {.kind = MEMORY_SLIP_WEAKENING,
-                                               .mu_static = 0.4,
-                                               .mu_kinetic = 0.1,
-                                               .slip_distance = 0.02,
-                                               .healing_time = 3},
-                                              {.kind = MEMORY_RATE_STATE,
-                                               .slip_distance = 0.02,
-                                               .healing = 0.03,
-                                               .direct = 0.02,
-                                               .reference = 0.5,
-                                               .reference_velocity = 0.01},
-                                              {.kind = MEMORY_RATE_STATE,
-                                               .slip_distance = 0.02,
-                                               .healing = 0.03,
-                                               .direct = 0.02,
-                                               .reference = 0.5,
-                                               .reference_velocity = 0.01,
-                                               .slip_law = true}};
-static const FrictionKind KINDS[LAWS] = {FRICTION_AGEING, FRICTION_SLIP_WEAKENING,
-                                         FRICTION_RATE_STATE, FRICTION_RATE_STATE};
+static const FrictionLaw GIVEN[LAWS] = {{.kind = FRICTION_AGEING,
+                                         .mu_static = 0.4,
+                                         .mu_kinetic = 0.1,
+                                         .critical_velocity = 0.05,
+                                         .slip_distance = 0.02,
+                                         .healing_time = 3,
+                                         .healing = 0.2},
+                                        {.kind = FRICTION_SLIP_WEAKENING,
+                                         .mu_static = 0.4,
+                                         .mu_kinetic = 0.1,
+                                         .slip_distance = 0.02,
+                                         .healing_time = 3},
+                                        {.kind = FRICTION_RATE_STATE,
+                                         .slip_distance = 0.02,
+                                         .evolution_effect = 0.03,
+                                         .direct_effect = 0.02,
+                                         .mu_reference = 0.5,
+                                         .reference_velocity = 0.01},
+                                        {.kind = FRICTION_RATE_STATE,
+                                         .slip_distance = 0.02,
+                                         .evolution_effect = 0.03,
+                                         .direct_effect = 0.02,
+                                         .mu_reference = 0.5,
+                                         .reference_velocity = 0.01,
+                                         .slip_law = true}};
 static const double STATES[LAWS] = {2, 0.6, -0.7, 1.3};
 
-static FrictionLaw law_of(int k)
+static FrictionNode law_of(int k)
 {
-    FrictionLaw law = {.kind = KINDS[k]};
-    friction_make_memory(&MEMORIES[k], &law);
-    return law;
+    static FrictionLaw laws[LAWS];
+    laws[k] = law_with_state(GIVEN[k]);
+    return friction_node(&laws[k], 1);
 }
 
-static FrictionRates rates_at(const FrictionLaw *law, double speed, double theta)
+static FrictionRates rates_at(const FrictionNode *law, double speed, double theta)
 {
     FrictionRates rates;
     friction_rates(law, speed, &theta, &rates);
     return rates;
 }
 
-static double state_at(const FrictionLaw *law, double speed)
+static double state_at(const FrictionNode *law, double speed)
 {
     double theta = NAN;
     friction_state(law, speed, &theta);
@@ -59,7 +54,7 @@ static double state_at(const FrictionLaw *law, double speed)
 }
 
 // A difference of order 4; h is small beside what the function varies over.
-static double difference(double (*f)(const FrictionLaw *, double, double), const FrictionLaw *law,
+static double difference(double (*f)(const FrictionNode *, double, double), const FrictionNode *law,
                          double at, double other, double h)
 {
     return (8 * (f(law, at + h, other) - f(law, at - h, other)) -
@@ -67,23 +62,23 @@ static double difference(double (*f)(const FrictionLaw *, double, double), const
            (12 * h);
 }
 
-static double mu_of_speed(const FrictionLaw *law, double speed, double theta)
+static double mu_of_speed(const FrictionNode *law, double speed, double theta)
 {
     return rates_at(law, speed, theta).mu;
 }
-static double mu_of_state(const FrictionLaw *law, double theta, double speed)
+static double mu_of_state(const FrictionNode *law, double theta, double speed)
 {
     return rates_at(law, speed, theta).mu;
 }
-static double rate_of_speed(const FrictionLaw *law, double speed, double theta)
+static double rate_of_speed(const FrictionNode *law, double speed, double theta)
 {
     return rates_at(law, speed, theta).rate[0];
 }
-static double rate_of_state(const FrictionLaw *law, double theta, double speed)
+static double rate_of_state(const FrictionNode *law, double theta, double speed)
 {
     return rates_at(law, speed, theta).rate[0];
 }
-static double stage_of_speed(const FrictionLaw *law, double speed, double unused)
+static double stage_of_speed(const FrictionNode *law, double speed, double unused)
 {
     (void)unused;
     return friction_coefficient(law, speed);
@@ -93,7 +88,7 @@ TEST(test_derivatives)
 {
     const double speeds[] = {1e-4, 0.01, 0.03, 0.2};
     for (int k = 0; k < LAWS; k++) {
-        FrictionLaw law = law_of(k);
+        FrictionNode law = law_of(k);
         for (size_t s = 0; s < sizeof speeds / sizeof *speeds; s++) {
             double v = speeds[s], theta = STATES[k], h = 1e-3 * v;
             FrictionRates rates = rates_at(&law, v, theta);
@@ -117,7 +112,7 @@ TEST(test_stage)
     const double speeds[] = {0, 1e-9, 1e-3, 0.03, 0.4}, reaches[] = {1e-6, 0.1, 3, 1e4};
     for (int k = 0; k < LAWS; k++) {
         for (int r = 0; r < 4; r++) {
-            FrictionLaw law = law_of(k);
+            FrictionNode law = law_of(k);
             friction_set_stage(&law, &STATES[k], reaches[r]);
             for (int s = 0; s < 5; s++) {
                 double v = speeds[s], theta = state_at(&law, v);
@@ -131,7 +126,7 @@ TEST(test_stage)
                     assert_near("slope", slope, difference(stage_of_speed, &law, v, 0, h),
                                 1e-7 * fabs(slope) + 1e-10 / v);
             }
-            assert_near("threshold", law.mu_static, friction_coefficient(&law, 0), 0);
+            assert_near("threshold", friction_threshold(&law), friction_coefficient(&law, 0), 0);
         }
     }
 }
@@ -141,13 +136,18 @@ TEST(test_stage)
 // fades as exp(-v t/D_c).
 static double stepped(int k, double speed, double time, int32_t steps)
 {
-    FrictionLaw law = law_of(k);
+    FrictionNode law = law_of(k);
     double theta = STATES[k];
     for (int32_t n = 0; n < steps; n++) {
         friction_set_stage(&law, &theta, time / steps);
         theta = state_at(&law, speed);
     }
     return theta;
+}
+
+static double steady_of(int k, double speed)
+{
+    return friction_operations(&GIVEN[k])->steady(&GIVEN[k], speed);
 }
 
 TEST(test_constant_slip)
@@ -163,53 +163,55 @@ TEST(test_constant_slip)
     assert_near("rate and state", 2 * exp(theta[2]), steady + (began - steady) * fades, 1e-7);
     assert_near("slip law", theta[3], -log(3) + (1.3 + log(3)) * fades, 1e-7);
     for (int k = 0; k < LAWS; k++) {
-        FrictionLaw law = law_of(k);
-        assert_near("steady", memory_steady(&MEMORIES[k], v), stepped(k, v, 1e4, 100), 1e-9);
+        FrictionNode law = law_of(k);
+        assert_near("steady", steady_of(k, v), stepped(k, v, 1e4, 100), 1e-9);
         double rested = stepped(k, 0, 10, 10000);
         if (k == 3) assert_near("slip law rests", rested, 1.3, 0);   // not without slip
         if (k == 0) assert_near("rested", rested, 12, 1e-9);
-        double fresh = rates_at(&law, v, memory_steady(&MEMORIES[k], v)).rate[0];
+        double fresh = rates_at(&law, v, steady_of(k, v)).rate[0];
         assert_near("rate at steady slip", fresh, 0, 1e-12);
     }
 }
 
-// No memory of ageing, and a state that stays.
 // What contacts remember that have rested for so long changes as the law says at rest; the slip law
 // changes nothing there, and takes the ageing law's state.
 TEST(test_rested)
 {
     for (int k = 0; k < LAWS; k++) {
-        FrictionLaw law = law_of(k);
+        FrictionNode law = law_of(k);
         for (double t = 0.5; t < 20; t *= 2) {
-            double h = 1e-5 * t, rested = memory_rested(&MEMORIES[k], t);
-            double change = memory_rested(&MEMORIES[k], t + h) - memory_rested(&MEMORIES[k], t - h);
+            double h = 1e-5 * t, rested = friction_rested(&GIVEN[k], t);
+            double change = friction_rested(&GIVEN[k], t + h) - friction_rested(&GIVEN[k], t - h);
             double rate = rates_at(&law, 0, rested).rate[0];
-            if (!MEMORIES[k].slip_law) assert_near("change", change / (2 * h), rate, 1e-8);
-            if (k > 1) assert_near("theta", memory_shown(&MEMORIES[k], rested), t, 1e-12 * t);
+            if (!GIVEN[k].slip_law) assert_near("change", change / (2 * h), rate, 1e-8);
+            if (k > 1) assert_near("theta", friction_shown_state(&law, 0, rested), t, 1e-12 * t);
         }
     }
-    assert_near("at first", memory_rested(&MEMORIES[0], 0), 0, 0);
-    assert_near("at first", memory_rested(&MEMORIES[1], 0), 0, 0);
+    assert_near("at first", friction_rested(&GIVEN[0], 0), 0, 0);
+    assert_near("at first", friction_rested(&GIVEN[1], 0), 0, 0);
 }
 
 TEST(test_limits)
 {
-    FrictionMemory memory = MEMORIES[0];
-    FrictionLaw law = {.kind = FRICTION_AGEING}, linear = {.kind = FRICTION_LINEAR_WEAKENING,
-                                                           .mu_static = 0.4,
-                                                           .mu_kinetic = 0.1,
-                                                           .critical_velocity = 0.05};
-    memory.healing = 0;
-    friction_make_memory(&memory, &law);
+    FrictionLaw linear = {.kind = FRICTION_LINEAR_WEAKENING,
+                          .mu_static = 0.4,
+                          .mu_kinetic = 0.1,
+                          .critical_velocity = 0.05};
+    FrictionLaw ageless = GIVEN[0];
+    ageless.healing = 0;
+    ageless = law_with_state(ageless);
+    FrictionNode law = friction_node(&ageless, 1);
     friction_set_stage(&law, (const double[]){5}, 0.1);
     for (double v = 0; v < 0.1; v += 0.0037) {
-        assert_near("beta = 0", friction_coefficient(&law, v), friction_coefficient(&linear, v), 0);
-        assert_near("beta = 0", friction_slope(&law, v), friction_slope(&linear, v), 0);
+        assert_near("beta = 0", friction_coefficient(&law, v),
+                    friction_coefficient(NODE_OF(&linear), v), 0);
+        assert_near("beta = 0", friction_slope(&law, v), friction_slope(NODE_OF(&linear), v), 0);
     }
     for (int k = 0; k < LAWS; k++) {
-        FrictionLaw frozen = law_of(k);
+        FrictionNode frozen = law_of(k), half = frozen;
         friction_set_stage(&frozen, &STATES[k], 0);
-        FrictionLaw half = friction_scaled(&frozen, 0.5);
+        half.factor = 0.5;
+        friction_set_stage(&half, &STATES[k], 0);
         for (double v = 1e-3; v < 0.1; v += 0.0037) {
             FrictionRates rates = rates_at(&frozen, v, STATES[k]);
             assert_near("frozen", friction_coefficient(&frozen, v), rates.mu, 0);
@@ -217,7 +219,7 @@ TEST(test_limits)
             assert_near("half", friction_coefficient(&half, v), 0.5 * rates.mu, 1e-15);
         }
     }
-    FrictionLaw asinh_law = law_of(2);
+    FrictionNode asinh_law = law_of(2);
     double v = 0.004, psi = 0.4;
     assert_near("the law as it is written", rates_at(&asinh_law, v, psi).mu,
                 0.02 * asinh(v / 0.02 * exp((0.5 + 0.03 * psi) / 0.02)), 1e-15);
@@ -226,7 +228,7 @@ TEST(test_limits)
 // A step in mu: forward and back leads to where it began, over many decades, and through 0.
 TEST(test_follow)
 {
-    FrictionLaw law = law_of(2);
+    FrictionNode law = law_of(2);
     friction_set_stage(&law, (const double[]){0.3}, 0);
     for (double v = 1e-14; v < 1; v *= 31) {
         double slope = friction_slope(&law, v), mu = friction_coefficient(&law, v);

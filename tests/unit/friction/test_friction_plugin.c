@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The shipped example as a law: the same bits as the built-in one; what is no plug-in is refused.
-#include "friction/friction_state.h"
 #include "own_laws.h"
 
 // A file of the build, as seen from the program's folder.
@@ -28,10 +27,11 @@ TEST(test_same_bits)
     own.kind = FRICTION_PLUGIN;
     own = own_law(own, &source);
     for (double v = 0; v < 1e-2; v += 1.23e-6) {
-        assert_true(friction_coefficient(&own, v) == friction_coefficient(&known, v));
-        assert_true(friction_slope(&own, v) == friction_slope(&known, v));
+        assert_true(friction_coefficient(NODE_OF(&own), v) ==
+                    friction_coefficient(NODE_OF(&known), v));
+        assert_true(friction_slope(NODE_OF(&own), v) == friction_slope(NODE_OF(&known), v));
     }
-    assert_true(friction_spent_speed(&own) == friction_spent_speed(&known));
+    assert_true(friction_spent_speed(NODE_OF(&own)) == friction_spent_speed(NODE_OF(&known)));
     assert_true(own.critical_velocity == known.critical_velocity);
     assert_true(own.mu_kinetic == known.mu_kinetic);
 }
@@ -49,8 +49,8 @@ TEST(test_parameters)
                              .parameter_count = 2,
                              .end = 0.1};
     own = own_law(own, &source);
-    assert_near("mu", friction_coefficient(&own, 0.05), 0.1 + 0.02 * log(51), 1e-15);
-    assert_near("slope", friction_slope(&own, 0.05), 0.02 / 0.051, 1e-14);
+    assert_near("mu", friction_coefficient(NODE_OF(&own), 0.05), 0.1 + 0.02 * log(51), 1e-15);
+    assert_near("slope", friction_slope(NODE_OF(&own), 0.05), 0.02 / 0.051, 1e-14);
 }
 
 // Built for the first version of amontons_friction.h.
@@ -66,8 +66,8 @@ TEST(test_first_interface)
     FrictionLaw own =
         own_law((FrictionLaw){.kind = FRICTION_PLUGIN, .critical_velocity = 1e-3}, &source);
     assert_false(own.remembers);
-    assert_near("mu", friction_coefficient(&own, 3e-3), 0.1, 1e-15);
-    assert_near("slope", friction_slope(&own, 1e-3), -100, 1e-11);
+    assert_near("mu", friction_coefficient(NODE_OF(&own), 3e-3), 0.1, 1e-15);
+    assert_near("slope", friction_slope(NODE_OF(&own), 1e-3), -100, 1e-11);
 }
 
 // The shipped law with two states against the same by formulas: start, mu of a stage and its slope.
@@ -95,20 +95,22 @@ TEST(test_states)
         .end = 1};
     FrictionLaw own = own_law((FrictionLaw){.kind = FRICTION_PLUGIN}, &source);
     FrictionLaw known = own_law((FrictionLaw){.kind = FRICTION_FORMULA}, &text);
-    assert_true(friction_creeps(&own) && friction_creeps(&known));
-    assert_int_equal(friction_states(&own, 0), 2);
+    assert_true(own.creeps && known.creeps);
+    assert_int_equal(own.states, 2);
     assert_near("v_c", own.critical_velocity, known.critical_velocity, 1e-12);
     assert_near("mu_K", own.mu_kinetic, known.mu_kinetic, 1e-12);
     double start[STATES_MAX], other[STATES_MAX];
-    friction_start_state(&own, start);
-    friction_start_state(&known, other);
+    FrictionNode node = friction_node(&own, 1), known_node = friction_node(&known, 1);
+    friction_start_state(&node, start);
+    friction_start_state(&known_node, other);
     for (int k = 0; k < 2; k++) assert_near("start", start[k], other[k], 1e-14);
-    friction_set_stage(&own, start, 3);
-    friction_set_stage(&known, other, 3);
+    friction_set_stage(&node, start, 3);
+    friction_set_stage(&known_node, other, 3);
     for (double v = 1e-12; v < 1; v *= 7) {
-        double slope = friction_slope(&known, v);
-        assert_near("mu", friction_coefficient(&own, v), friction_coefficient(&known, v), 1e-13);
-        assert_near("slope", friction_slope(&own, v) / slope, 1, 1e-10);
+        double slope = friction_slope(&known_node, v);
+        assert_near("mu", friction_coefficient(&node, v), friction_coefficient(&known_node, v),
+                    1e-13);
+        assert_near("slope", friction_slope(&node, v) / slope, 1, 1e-10);
     }
 }
 
@@ -123,7 +125,7 @@ static void check_refused_of(bool trusted, const char *file, int32_t parameters,
                              .parameters = numbers,
                              .parameter_count = parameters,
                              .end = 1};
-    assert_false(friction_own_law(&source, &law, &key, &err));
+    assert_false(friction_make(&source, &law, &key, &err));
     assert_int_equal(err.code, ERROR_INPUT);
     assert_string_equal(key, "file");
     if (!strstr(err.message, words)) fail_msg("\"%s\" lacks \"%s\"", err.message, words);

@@ -2,8 +2,6 @@
 // Laws of one's own that remember: steady slip, rest and scales against closed forms; which of them
 // creep; what is refused.
 #include "friction/friction_start.h"
-
-#include "friction/friction_state.h"
 #include "own_laws.h"
 
 static const FrictionStateText AGE = {.name = "theta", .rate = "1 - v * theta / 1e-3"};
@@ -29,25 +27,25 @@ TEST(test_start)
     double now[STATES_MAX];
     FrictionSource source = source_of(AGED, &AGE, 1);
     FrictionLaw law = made(&source);
-    friction_start_state(&law, now);
+    friction_start_state(NODE_OF(&law), now);
     assert_near("steady slip at the rod's velocity", now[0], 10, 1e-9);
     assert_near("mu_S", law.mu_static, 0.4 * (1 + 0.02 * log(2)), 1e-10);
-    assert_false(friction_creeps(&law));
+    assert_false(law.creeps);
     source.rest = 500;
     law = made(&source);
-    friction_start_state(&law, now);
+    friction_start_state(NODE_OF(&law), now);
     assert_near("and then at rest", now[0], 510, 1e-7);
     FrictionStateText given = AGE, heals = {.name = "phi", .rate = "(1 - phi) / 200", .start = "0"};
     snprintf(given.start, sizeof given.start, "2 + 3");
     source.state = &given;
     source.rest = 0;
     law = made(&source);
-    friction_start_state(&law, now);
+    friction_start_state(NODE_OF(&law), now);
     assert_near("given", now[0], 5, 0);
     source = source_of("0.2 + 0.1 * phi", &heals, 1);
     source.rest = 300;
     law = made(&source);
-    friction_start_state(&law, now);
+    friction_start_state(NODE_OF(&law), now);
     assert_near("exponentially", now[0], -expm1(-1.5), 1e-5);   // steps of 1 % of the time gone
 }
 
@@ -58,14 +56,14 @@ TEST(test_scales)
     FrictionSource source =
         source_of("0.01 * asinh(v / 2e-4 * exp((0.6 + 0.03 * psi) / 0.01))", &psi, 1);
     FrictionLaw law = made(&source);
-    assert_true(friction_creeps(&law) && friction_strengthens(&law));
+    assert_true(law.creeps && law.strengthens);
     assert_near("mu_K", law.mu_kinetic, 0.6 - 0.02 * log(1e4), 1e-9);
-    assert_near("drop", friction_drop(&law), 0.02 * log(1e12) * 11.9 / 12, 1e-9);
+    assert_near("drop", friction_law_drop(&law), 0.02 * log(1e12) * 11.9 / 12, 1e-9);
     FrictionRates rates;
     double start = 0;
-    friction_start_state(&law, &start);
+    friction_start_state(NODE_OF(&law), &start);
     assert_near("psi at V_0", start, 0, 1e-12);
-    friction_rates(&law, 1e-4, &start, &rates);
+    friction_rates(NODE_OF(&law), 1e-4, &start, &rates);
     assert_near("f_0", rates.mu, 0.6, 1e-12);
 }
 
@@ -74,7 +72,7 @@ static void check_refused(FrictionSource source, const char *key_wanted, const c
     Error err = {0};
     const char *key = NULL;
     FrictionLaw law = {.kind = FRICTION_FORMULA};
-    assert_false(friction_own_law(&source, &law, &key, &err));
+    assert_false(friction_make(&source, &law, &key, &err));
     assert_int_equal(err.code, ERROR_INPUT);
     if (!strstr(err.message, words)) fail_msg("\"%s\" lacks \"%s\"", err.message, words);
     assert_string_equal(key, key_wanted);
@@ -116,7 +114,8 @@ TEST(test_steady_states)
         FrictionSource source = source_of("0.3", &text, 1);
         FrictionLaw law = made(&source);
         double states[2] = {0};
-        assert_int_equal(friction_count_steady(&law.own.memory, 1e-3, states), rows[k].count);
+        FrictionNode node = friction_node(&law, 1);
+        assert_int_equal(friction_count_steady(&node, 1e-3, states), rows[k].count);
         if (rows[k].count < 2) continue;
         assert_near("lower", states[0], 0, 1e-6);
         assert_near("upper", states[1], 1, 1e-6);

@@ -18,9 +18,9 @@ static double error_of(int32_t count, bool straight)
     }
     FrictionLaw law = own_table(count, velocity, mu, straight);
     for (int32_t k = 0; k < count; k++)
-        assert_near("a point", friction_coefficient(&law, velocity[k]), mu[k], 1e-15);
+        assert_near("a point", friction_coefficient(NODE_OF(&law), velocity[k]), mu[k], 1e-15);
     for (double v = 0; v < end; v += end / 3000)
-        worst = fmax(worst, fabs(friction_coefficient(&law, v) - curve(v)));
+        worst = fmax(worst, fabs(friction_coefficient(NODE_OF(&law), v) - curve(v)));
     return worst;
 }
 
@@ -45,18 +45,18 @@ TEST(test_monotone)
         for (int32_t k = 0; k + 1 < COUNT; k++) {
             double width = velocity[k + 1] - velocity[k], h = 1e-6 * width;
             for (double s = 0.01; s < 1; s += 0.01) {
-                double v = velocity[k] + s * width, slope = friction_slope(&law, v);
-                double rise = mu[k + 1] - mu[k], here = friction_coefficient(&law, v);
+                double v = velocity[k] + s * width, slope = friction_slope(NODE_OF(&law), v);
+                double rise = mu[k + 1] - mu[k], here = friction_coefficient(NODE_OF(&law), v);
                 assert_true(slope * rise >= -1e-12);
                 assert_true((here - mu[k]) * rise >= 0 && (mu[k + 1] - here) * rise >= 0);
-                double difference =
-                    (friction_coefficient(&law, v + h) - friction_coefficient(&law, v - h)) /
-                    (2 * h);
+                double difference = (friction_coefficient(NODE_OF(&law), v + h) -
+                                     friction_coefficient(NODE_OF(&law), v - h)) /
+                                    (2 * h);
                 assert_near("slope", slope, difference, 1e-7 * law.steepest);
             }
         }
-        assert_near("beyond", friction_coefficient(&law, 1), 0.35, 1e-15);
-        assert_near("beyond", friction_slope(&law, 0.03), 0, 0);
+        assert_near("beyond", friction_coefficient(NODE_OF(&law), 1), 0.35, 1e-15);
+        assert_near("beyond", friction_slope(NODE_OF(&law), 0.03), 0, 0);
     }
 }
 
@@ -65,11 +65,11 @@ TEST(test_pieces)
 {
     const double velocity[] = {0, 1, 3}, mu[] = {0.5, 0.2, 0.4};
     FrictionLaw two = own_table(2, velocity, mu, false), law = own_table(3, velocity, mu, true);
-    assert_near("two", friction_coefficient(&two, 0.25), 0.425, 1e-15);
-    assert_near("first", friction_slope(&law, 0.5), -0.3, 1e-12);
-    assert_near("at a point", friction_slope(&law, 1), 0.1, 1e-12);
-    assert_near("second", friction_coefficient(&law, 2), 0.3, 1e-12);
-    assert_near("beyond", friction_slope(&law, 7), 0, 0);
+    assert_near("two", friction_coefficient(NODE_OF(&two), 0.25), 0.425, 1e-15);
+    assert_near("first", friction_slope(NODE_OF(&law), 0.5), -0.3, 1e-12);
+    assert_near("at a point", friction_slope(NODE_OF(&law), 1), 0.1, 1e-12);
+    assert_near("second", friction_coefficient(NODE_OF(&law), 2), 0.3, 1e-12);
+    assert_near("beyond", friction_slope(NODE_OF(&law), 7), 0, 0);
 }
 
 static void check_refused(int32_t count, const double *velocity, const double *mu, int32_t mu_count,
@@ -80,7 +80,7 @@ static void check_refused(int32_t count, const double *velocity, const double *m
     FrictionSource source = {
         .velocity = velocity, .velocity_count = count, .mu = mu, .mu_count = mu_count};
     const char *found = NULL;
-    assert_false(friction_own_law(&source, &law, &found, &err) && friction_look(&law, &err));
+    assert_false(friction_make(&source, &law, &found, &err));
     assert_int_equal(err.code, ERROR_INPUT);
     assert_string_equal(found, key);
     if (!strstr(err.message, words)) fail_msg("\"%s\" lacks \"%s\"", err.message, words);

@@ -12,6 +12,7 @@ enum { STEPS = 40 };
 
 static HandSeen hand;
 static const FrictionLaw LAW = {.mu_static = 0.4, .mu_kinetic = 0.1, .critical_velocity = 1};
+static const Friction FRICTION = {.whole = {.law = &LAW, .factor = 1}};
 
 // Step k has numbers of its own everywhere.
 static void show(int32_t k)
@@ -171,7 +172,7 @@ TEST(test_written_and_read_back)
     head.pads = "left\nright";
     History history;
     ContactArrays contact;
-    assert_true(contact_arrays_create(&hand.interface, &LAW, &contact, &err));
+    assert_true(contact_arrays_create(&hand.interface, &FRICTION, &contact, &err));
     assert_true(history_create(place, &head, &hand.interface, &contact, &history, &err));
     record_steps(&contact, &history);
     assert_int_equal(history.end.rows, STEPS);
@@ -242,7 +243,7 @@ TEST(test_abandoned)
     ResultHead head = head_of("given up");
     History history;
     ContactArrays contact;
-    assert_true(contact_arrays_create(&hand.interface, &LAW, &contact, &err));
+    assert_true(contact_arrays_create(&hand.interface, &FRICTION, &contact, &err));
     assert_true(history_create(place, &head, &hand.interface, &contact, &history, &err));
     record_steps(&contact, &history);
     history_destroy(&history);
@@ -274,7 +275,7 @@ TEST(test_memory_faults)
         History history = {0};
         ContactArrays contact;
         memory_fail_after(k);
-        done = contact_arrays_create(&hand.interface, &LAW, &contact, &err) &&
+        done = contact_arrays_create(&hand.interface, &FRICTION, &contact, &err) &&
                contact_arrays_record(&contact, &hand.seen, &err) &&
                history_create(place, &head, &hand.interface, &contact, &history, &err) &&
                history_record(&history, &hand.seen, &err) &&

@@ -264,6 +264,7 @@ TEST_BETWEEN(test_pads, setup, teardown)
 // --- files --------------------------------------------------------------------------------------
 
 static const FrictionLaw LAW = {.mu_static = 0.4, .mu_kinetic = 0.1, .critical_velocity = 4};
+static const Friction FRICTION = {.whole = {.law = &LAW, .factor = 1}};
 
 static void expect_values(ArrayFile *file, ResultSeries series, int32_t width, const double *wanted)
 {
@@ -288,7 +289,7 @@ TEST_BETWEEN(test_history, setup, teardown)
     ResultHead head = {.title = "space", .units = "normalised", .version = "test"};
     double rate[2 * NODES], slip[2 * NODES], shear[2 * NODES], status[NODES];
     place_make(place);
-    assert_true(contact_arrays_create(&hand.interface, &LAW, &contact, &err));
+    assert_true(contact_arrays_create(&hand.interface, &FRICTION, &contact, &err));
     assert_true(history_create(place, &head, &hand.interface, &contact, &history, &err));
     for (int32_t k = 0; k < 2; k++) {
         const double speed[NODES] = {3, 5, 0};
@@ -335,7 +336,7 @@ TEST_BETWEEN(test_turning, setup, teardown)
 {
     Error err = {0};
     ContactArrays contact;
-    assert_true(contact_arrays_create(&hand.interface, &LAW, &contact, &err));
+    assert_true(contact_arrays_create(&hand.interface, &FRICTION, &contact, &err));
     Turning turning = {.contact = &contact};
     for (int32_t k = 0; k < 3; k++) {
         double part = k == 1 ? 1 : 0.25 * k;   // it comes back half way

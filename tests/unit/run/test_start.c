@@ -55,8 +55,9 @@ TEST(test_friction_while_relaxing)
         assert_near("shear", shear_force(simulation), 0, 1e-6 * PRESSURE);
         if (on) assert_true(largest > 0.05 * PRESSURE && uneven > 0.01 * PRESSURE);
         if (!on) assert_true(largest < 1e-6 * PRESSURE && uneven < 1e-6 * PRESSURE);
-        assert_int_equal(simulation->law.kind, FRICTION_LINEAR_WEAKENING);   // the scene's again
-        assert_near("mu_S", simulation->law.mu_static, 0.38, 0);
+        assert_int_equal(simulation->friction.whole.law->kind,
+                         FRICTION_LINEAR_WEAKENING);   // the scene's again
+        assert_near("mu_S", simulation->friction.mu_static, 0.38, 0);
         assert_near("t", now->time, 0, 0);
         amontons_simulation_destroy(simulation);
     }

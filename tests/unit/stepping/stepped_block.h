@@ -7,6 +7,7 @@
 
 #include "algebra/dense.h"
 #include "block_mesh.h"
+#include "friction_by_hand.h"
 #include "reduction/interface_operator.h"
 #include "contact/rod.h"
 #include "stepping/state.h"
@@ -28,6 +29,7 @@ typedef struct SteppedBlock {
     Bulk bulk;
     Interface interface;
     FrictionLaw law;
+    Friction friction;   // everywhere by that law
     Rod rod;
     BulkOperator system;
     State state;
@@ -56,6 +58,7 @@ static inline void stepped_block_build(const SteppedDef *def, SteppedBlock *bloc
     Error err = {0};
     dense_use_one_thread();
     *block = (SteppedBlock){.law = def->law, .material = paper_material()};
+    block->friction = FRICTION_OF(&block->law);
     block->material.eta1 = block->material.eta2 = def->eta;
     BlockDef shape = {.kind = ELEMENT_Q4,
                       .nx = def->cells,

@@ -43,12 +43,13 @@ static double least_eigenvalue(const Fixture *fixture, const double *schur, bool
         if (!contact && seen->rod_touches[k - 2 * interface->contact_count]) continue;
         if (status == CONTACT_STICK || (status != CONTACT_OPEN && !tangent)) continue;
         double speed = fabs(seen->slip_rate[k]);
-        const FrictionLaw *law = friction_at(&fixture->built.rig.law, i);
+        const FrictionNode *node = friction_at(&fixture->built.rig.friction, i);
+        const FrictionLaw *law = node->law;
         if (status != CONTACT_OPEN && friction_is_own(law)) {
-            w[count] = -friction_slope(law, speed) * seen->reaction[k + 1];
+            w[count] = -friction_slope(node, speed) * seen->reaction[k + 1];
             *weakening = *weakening || w[count] > 0;
         } else if (status != CONTACT_OPEN && speed < law->critical_velocity) {
-            w[count] = (law->mu_static - law->mu_kinetic) / law->critical_velocity *
+            w[count] = node->factor * (law->mu_static - law->mu_kinetic) / law->critical_velocity *
                        seen->reaction[k + 1];
             *weakening = true;
         }
@@ -123,18 +124,19 @@ TEST(test_strengthening)
 TEST(test_laws_by_node)
 {
     enum { NODES_MAX = 16 };
-    FrictionLaw each[NODES_MAX];
+    FrictionNode each[NODES_MAX];
     RigDef def = rig_def();
     def.rod_width = 0.5;
     const double velocity[] = {0, 1.7e-4, 3.4e-4, 6e-4}, mu[] = {0.38, 0.24, 0.1, 0.2};
-    FrictionLaw table = own_table(4, velocity, mu, true), constant = friction_constant(0.4);
+    FrictionLaw linear = def.law, table = own_table(4, velocity, mu, true);
     for (int32_t i = 0; i < NODES_MAX; i++) {
-        each[i] = i % 4 == 0   ? friction_scaled(&def.law, 0.5)
-                  : i % 4 == 1 ? friction_scaled(&def.law, 2)
-                  : i % 4 == 2 ? constant
-                               : friction_scaled(&table, 1.5);
+        each[i] = i % 4 == 0   ? friction_node(&linear, 0.5)
+                  : i % 4 == 1 ? friction_node(&linear, 2)
+                  : i % 4 == 2 ? friction_constant(0.4)
+                               : friction_node(&table, 1.5);
     }
-    def.law = friction_spread(each, NODES_MAX);
+    Friction friction = friction_of_nodes(each, NODES_MAX);
+    def.friction = &friction;
     check_random_states(&def, 3.4e-4 / 0.28);
 }
 

@@ -5,11 +5,9 @@
 // excluded no rate is real; growth_rates finds what there is. Pressure follows slip in the last
 // two.
 #include "base/memory.h"
-#include "friction/friction_make.h"
-#include "friction/friction_state.h"
-
 #include "certificate_rig.h"
 #include "dense_by_hand.h"
+#include "own_laws.h"
 #include "random_numbers.h"
 #include "stepping/growth.h"
 
@@ -21,6 +19,7 @@ typedef struct Fixture {
     CertificateRig built;
     bool several;   // laws of one's own with one to three states, in place of those built in
     FrictionLaw laws[CONTACTS];
+    FrictionNode nodes[CONTACTS];
     Random random;
     double *stiffness, *damping;   // dense, of the mesh
     int32_t *free, free_count;   // unknowns of the bulk that move
@@ -62,20 +61,19 @@ static FrictionLaw random_law(Random *random)
     static const FrictionKind kinds[] = {FRICTION_AGEING, FRICTION_SLIP_WEAKENING,
                                          FRICTION_RATE_STATE, FRICTION_RATE_STATE};
     int32_t k = random_index(random, 4);
-    FrictionLaw law = {.kind = kinds[k]};
-    FrictionMemory memory = {.kind = k < 2 ? (MemoryKind)k : MEMORY_RATE_STATE,
-                             .mu_static = 0.38,
-                             .mu_kinetic = 0.1,
-                             .critical_velocity = log_between(random, 1e-4, 1e-2),
-                             .slip_distance = log_between(random, 1e-5, 1e-2),
-                             .healing_time = log_between(random, 1, 1e3),
-                             .healing = log_between(random, 3e-3, 0.1),
-                             .direct = log_between(random, 3e-3, 0.03),
-                             .reference = 0.3,
-                             .reference_velocity = 1e-5,
-                             .slip_law = k == 3};
-    friction_make_memory(&memory, &law);
-    return law;
+    FrictionLaw law = {.kind = kinds[k],
+                       .mu_static = 0.38,
+                       .mu_kinetic = 0.1,
+                       .critical_velocity = log_between(random, 1e-4, 1e-2),
+                       .slip_distance = log_between(random, 1e-5, 1e-2),
+                       .healing_time = log_between(random, 1, 1e3),
+                       .healing = log_between(random, 3e-3, 0.1),
+                       .direct_effect = log_between(random, 3e-3, 0.03),
+                       .mu_reference = 0.3,
+                       .reference_velocity = 1e-5,
+                       .slip_law = k == 3};
+    law.evolution_effect = law.healing;
+    return law_with_state(law);
 }
 
 // mu = f_0 + a ln(1 + v/V_0) + sum b_k ln(V_0 theta_k/D_k), V_0 = 1e-5. The first state is theta by
@@ -109,28 +107,27 @@ static void several_rates(const AmontonsFriction *given, double speed, double pr
 // Half of them with states that do not know each other.
 static FrictionLaw several_states(Random *random)
 {
-    FrictionLaw law = {.kind = FRICTION_PLUGIN};
-    FrictionMemory memory = {.kind = MEMORY_PLUGIN,
-                             .states = 1 + random_index(random, STATES),
-                             .mu_static = 0.5,
-                             .mu_kinetic = 0.1,
-                             .critical_velocity = 1e-4,
-                             .plugin.rates = several_rates};
-    double *own = memory.plugin.given.parameters, pull = random_index(random, 2) * 0.3;
+    FrictionLaw law = {.kind = FRICTION_PLUGIN,
+                       .remembers = true,
+                       .states = 1 + random_index(random, STATES),
+                       .mu_static = 0.5,
+                       .mu_kinetic = 0.1,
+                       .critical_velocity = 1e-4,
+                       .plugin.rates = several_rates};
+    double *own = law.plugin.given.parameters, pull = random_index(random, 2) * 0.3;
     *own++ = log_between(random, 3e-3, 0.03);
-    for (int32_t k = 0; k < memory.states; k++, own += 3) {
+    for (int32_t k = 0; k < law.states; k++, own += 3) {
         own[0] = random_between(random, -0.01, 0.04);
         own[1] = log_between(random, 1e-5, 1e-2);
         own[2] = pull * random_between(random, -1, 1);
     }
-    friction_make_memory(&memory, &law);
     return law;
 }
 
 static void several_start(const FrictionLaw *law, Random *random, double speed, double *state)
 {
-    const double *own = law->own.memory.plugin.given.parameters + 1;
-    for (int32_t k = 0; k < law->own.memory.states; k++, own += 3) {
+    const double *own = law->plugin.given.parameters + 1;
+    for (int32_t k = 0; k < law->states; k++, own += 3) {
         double off = random_between(random, -1.5, 1.5);
         state[k] = k == 0 ? own[1] / speed * exp(off) : log(1e-5 / speed) + off;
     }
@@ -146,7 +143,11 @@ static void randomise(Fixture *fixture)
         fixture->laws[i] = fixture->several ? several_states(random) : random_law(random);
         int32_t t = interface_tangent(interface, i);
         double speed = log_between(random, 1e-7, 1e-2);
-        double steady = memory_steady(&fixture->laws[i].own.memory, speed);
+        fixture->nodes[i] = friction_node(&fixture->laws[i], 1);
+        double steady =
+            fixture->several
+                ? 0
+                : friction_operations(&fixture->laws[i])->steady(&fixture->laws[i], speed);
         bool forward = random_index(random, 2) == 0;
         seen->status[i] = random_index(random, 4) == 0 ? CONTACT_STICK
                           : forward                    ? CONTACT_SLIP_FORWARD
@@ -160,7 +161,7 @@ static void randomise(Fixture *fixture)
         seen->reaction[t + 1] = log_between(random, 1e-4, 3e-3);
     }
     memset(seen->rod_touches, 1, (size_t)interface->rod_count);
-    fixture->built.rig.law = friction_spread(fixture->laws, CONTACTS);
+    fixture->built.rig.friction = friction_of_nodes(fixture->nodes, CONTACTS);
 }
 
 // With laws that remember, as a run has them from the start.
@@ -198,18 +199,18 @@ static void list_free(Fixture *fixture)
 
 // mu (row 0) and the rate of each state by what slip rate (x = 0) or state x - 1 changes: by
 // differences.
-static void find_slopes(const FrictionLaw *law, double speed, const double *theta, int32_t x,
+static void find_slopes(const FrictionNode *node, double speed, const double *theta, int32_t x,
                         double slope[1 + STATES])
 {
     double here[1 + STATES_MAX] = {speed}, *at = &here[x], middle;
     FrictionRates rates[2];
     memcpy(here + 1, theta, STATES_MAX * sizeof(double));
     middle = *at;
-    bool small = x == 0 || law->kind == FRICTION_PLUGIN;   // theta, times of any size
+    bool small = x == 0 || node->law->kind == FRICTION_PLUGIN;   // theta, times of any size
     double h = 1e-4 * fmax(fabs(middle), small && x < 2 ? 0 : 1e-2);
     for (int32_t side = 0; side < 2; side++) {
         *at = middle + (side ? h : -h);
-        friction_rates(law, here[0], here + 1, &rates[side]);
+        friction_rates(node, here[0], here + 1, &rates[side]);
     }
     slope[0] = (rates[1].mu - rates[0].mu) / (2 * h);
     for (int32_t k = 0; k < rates[0].states; k++)
@@ -221,15 +222,15 @@ static void add_friction(const Fixture *fixture, int32_t i, int32_t theta, int32
 {
     const BlockRig *rig = &fixture->built.rig;
     const State *seen = &fixture->built.seen;
-    const FrictionLaw *law = &fixture->laws[i];
+    const FrictionNode *node = &fixture->nodes[i];
     int32_t t = interface_tangent(&rig->interface, i), k = rig->interface.dofs[t];
-    int32_t states = law->own.memory.states, v = fixture->free_count + fixture->place[k];
+    int32_t states = node->law->states, v = fixture->free_count + fixture->place[k];
     double d = status_direction(seen->status[i]), slope[1 + STATES];
     double force = seen->reaction[t + 1] / rig->bulk.mass[k], unit[] = {1, 1, 1, 1};
     if (fixture->several) unit[1] = seen->theta[i * STATES_MAX];   // else digits are lost
     for (int32_t x = 0; x <= states; x++) {
         int64_t column = (int64_t)(x == 0 ? v : theta + x - 1) * size;
-        find_slopes(law, fabs(seen->slip_rate[t]), &seen->theta[i * STATES_MAX], x, slope);
+        find_slopes(node, fabs(seen->slip_rate[t]), &seen->theta[i * STATES_MAX], x, slope);
         a[column + v] -= (x == 0 ? 1 : d) * force * unit[x] * slope[0];
         for (int32_t m = 0; m < states; m++)
             a[column + theta + m] = (x == 0 ? d : 1) * unit[x] / unit[1 + m] * slope[1 + m];
@@ -261,7 +262,7 @@ static int32_t find_rates(Fixture *fixture, bool coupled)
         add_friction(fixture, i, 2 * n + STATES * i, size, a);
         int32_t t = interface_tangent(&rig->interface, i), k = rig->interface.dofs[t];
         FrictionRates rates;
-        friction_rates(&fixture->laws[i], fabs(seen->slip_rate[t]), &seen->theta[i * STATES_MAX],
+        friction_rates(&fixture->nodes[i], fabs(seen->slip_rate[t]), &seen->theta[i * STATES_MAX],
                        &rates);
         double mu = status_direction(seen->status[i]) * rates.mu / rig->bulk.mass[k];
         int64_t v = n + fixture->place[k];

@@ -45,7 +45,8 @@ static void random_state(Random *random, double pressure, bool open, Fixture *fi
         double speed = v_c * random_between(random, 0.1, 1.2), *r = fixture->seen.reaction + 3 * i;
         uint8_t status = (uint8_t)random_index(random, 4);
         if (!open && status == CONTACT_OPEN) status = CONTACT_STICK;
-        double mu = status == CONTACT_OPEN ? 0 : friction_coefficient(&fixture->rig.law, speed);
+        double mu =
+            status == CONTACT_OPEN ? 0 : friction_coefficient(NODE_OF(&fixture->rig.law), speed);
         for (int32_t c = 0; c < 2; c++) {
             double along = c == 0 ? cos(angle) : sin(angle);
             fixture->seen.slip_rate[3 * i + c] = status == CONTACT_STICK ? 0 : speed * along;
@@ -72,7 +73,7 @@ static int32_t list_moving(const Fixture *fixture, int32_t *moving)
 static double friction_force(const Fixture *fixture, const double *v, double pressing, int32_t c)
 {
     double speed = hypot(v[0], v[1]);
-    return friction_coefficient(&fixture->rig.law, speed) * pressing * v[c] / speed;
+    return friction_coefficient(NODE_OF(&fixture->rig.law), speed) * pressing * v[c] / speed;
 }
 
 // Column of the derivative of r_t + mu(s) r_n v/s at unknown k by one of unknown l, with r = S v,

@@ -19,7 +19,7 @@ static void run_start(SteppedBlock *block, double step, Run *run)
     Error err = {0};
     ExplicitDef def = {.bulk = &block->bulk,
                        .interface = &block->interface,
-                       .law = &block->law,
+                       .friction = &block->friction,
                        .rod = &block->rod,
                        .step = step};
     assert_true(explicit_reference_create(&def, &run->scheme, &err));
@@ -42,7 +42,7 @@ static double energy_error(const EnergyLedger *ledger)
 static double judge(const SteppedBlock *block, const Run *run)
 {
     ContactProblem problem = {.interface = &block->interface,
-                              .law = &block->law,
+                              .friction = &block->friction,
                               .rod_kind = block->rod.kind,
                               .bound = run->scheme.bound};
     ContactResidual residual =
@@ -73,7 +73,7 @@ static void implicit_smooth(const SteppedDef *def, SteppedBlock *half, double *w
     stepped_block_build(def, half);
     Block parts = {.system = &half->system,
                    .interface = &half->interface,
-                   .law = &half->law,
+                   .friction = &half->friction,
                    .rod = &half->rod};
     double step = SMOOTH_TIME / SMOOTH_STEPS_IMPLICIT;
     StepControlDef control_def = {.tolerance = 1,
@@ -380,8 +380,10 @@ TEST(test_memory)
     SteppedDef def = smooth_block(1);
     SteppedBlock block;
     stepped_block_build(&def, &block);
-    ExplicitDef parts = {
-        .bulk = &block.bulk, .interface = &block.interface, .law = &block.law, .rod = &block.rod};
+    ExplicitDef parts = {.bulk = &block.bulk,
+                         .interface = &block.interface,
+                         .friction = &block.friction,
+                         .rod = &block.rod};
     int64_t live = memory_counters().live;
     bool created = false;
     for (int32_t allowed = 0; !created; allowed++) {

@@ -5,9 +5,9 @@
 
 #include "algebra/dense.h"
 #include "block_mesh.h"
-#include "friction/friction_make.h"
 #include "reduction/symmetry_reduction.h"
 #include "dense_by_hand.h"
+#include "own_laws.h"
 
 #include <complex.h>
 
@@ -22,6 +22,7 @@ typedef struct Case {
     ReducedBulk reduced;
     BulkOperator system;
     FrictionLaw law;
+    Friction friction;   // everywhere by that law
     Rod rod;
     double stiffness;   // of the machine; 0: rigid
     State state;
@@ -49,8 +50,11 @@ static void case_open(Case *test, GrowthDef def)
     if (!test->system.dof_count)
         assert_true(bulk_operator_create(&test->bulk, test->mesh.position, interface->dofs,
                                          interface->count, &test->system, &err));
-    Block block = {
-        .system = &test->system, .interface = interface, .law = &test->law, .rod = &test->rod};
+    test->friction = FRICTION_OF(&test->law);
+    Block block = {.system = &test->system,
+                   .interface = interface,
+                   .friction = &test->friction,
+                   .rod = &test->rod};
     test->system.machine =
         (Machine){.stiffness = test->stiffness, .first = 2 * interface->contact_count};
     assert_true(rod_build(interface, ROD_PUSHES, 0, &test->rod, &err));
@@ -377,11 +381,11 @@ TEST(test_rigid_block)
 //
 // a pair that decays above k = (b - a) N/D_c + m V^2 b/(a D_c^2) about, and grows below.
 static double complex ruina(double complex s, double mass, double spring, double load,
-                            const FrictionMemory *law)
+                            const FrictionLaw *law)
 {
     double speed = law->reference_velocity, fades = speed / law->slip_distance;
-    return (mass * s * s + s * law->direct * load / speed + spring) * (s + fades) -
-           s * law->healing * load / law->slip_distance;
+    return (mass * s * s + s * law->direct_effect * load / speed + spring) * (s + fades) -
+           s * law->evolution_effect * load / law->slip_distance;
 }
 
 static GrowthRate ruina_rate(double spring_part, bool slip_law, double *off)
@@ -389,18 +393,17 @@ static GrowthRate ruina_rate(double spring_part, bool slip_law, double *off)
     Error err = {0};
     const double speed = 1e-3, pressure = 4, load = pressure * 0.8, mass = 1.7 * 0.3 * 0.8;
     Material stiff = {.young = 1e7, .poisson = 0.3, .density = 1.7, .eta1 = 1e4, .eta2 = 1e4};
-    FrictionMemory memory = {.kind = MEMORY_RATE_STATE,
-                             .slip_distance = 5e-3,
-                             .healing = 0.018,
-                             .direct = 0.012,
-                             .reference = 0.6,
-                             .reference_velocity = speed,
-                             .slip_law = slip_law};
-    Case test = {.law = {.kind = FRICTION_RATE_STATE}};
-    friction_make_memory(&memory, &test.law);
+    Case test = {.law = law_with_state((FrictionLaw){.kind = FRICTION_RATE_STATE,
+                                                     .slip_distance = 5e-3,
+                                                     .evolution_effect = 0.018,
+                                                     .direct_effect = 0.012,
+                                                     .mu_reference = 0.6,
+                                                     .reference_velocity = speed,
+                                                     .slip_law = slip_law})};
+    const FrictionLaw *law = &test.law;
     BlockDef def = {ELEMENT_Q4, .nx = 2, .nz = 2, .length = 0.8, .height = 0.3};
     case_build_block(&test, &def, &stiff);
-    double critical = (memory.healing - memory.direct) * load / memory.slip_distance;
+    double critical = (law->evolution_effect - law->direct_effect) * load / law->slip_distance;
     test.stiffness = spring_part * critical;
     case_open(&test, (GrowthDef){.slowest = 0.01, .fastest = 10});
     for (int32_t i = 0; i < 3; i++)
@@ -408,8 +411,8 @@ static GrowthRate ruina_rate(double spring_part, bool slip_law, double *off)
     GrowthRates rates;
     assert_true(growth_rates(test.growth, &test.state, &rates, &err));
     double complex s = rates.rate[0].re + rates.rate[0].im * I, step = 1e-7 * s;
-    double complex here = ruina(s, mass, test.stiffness, load, &memory);
-    *off = cabs(here / (ruina(s + step, mass, test.stiffness, load, &memory) - here) * step / s);
+    double complex here = ruina(s, mass, test.stiffness, load, law);
+    *off = cabs(here / (ruina(s + step, mass, test.stiffness, load, law) - here) * step / s);
     case_close(&test);
     return rates.rate[0];
 }
@@ -560,8 +563,10 @@ TEST(test_memory)
     BlockDef def = {ELEMENT_Q4, .nx = 3, .nz = 2, .length = 1, .height = 0.5};
     case_build_block(&test, &def, &SOFT);
     case_open(&test, growth_def(1, 1.06, 4));
-    Block block = {
-        .system = &test.system, .interface = &test.interface, .law = &test.law, .rod = &test.rod};
+    Block block = {.system = &test.system,
+                   .interface = &test.interface,
+                   .friction = &test.friction,
+                   .rod = &test.rod};
     GrowthDef how = growth_def(1, 1.06, 4);
     int64_t live = memory_counters().live;
     bool done = false;

@@ -4,7 +4,7 @@
 // slab is periodic: unknowns of its right side are those of its left side, in the assembled
 // matrices. Its top is free, so that long waves find it as soft as one likes.
 #include "block_rig.h"
-#include "friction/friction_make.h"
+#include "own_laws.h"
 #include "stepping/growth.h"
 
 #include <complex.h>
@@ -13,14 +13,14 @@ typedef double complex Complex;
 
 static const double SPEED = 4e-5, HEIGHT = 0.5, PRESSURE = 0.04;
 
-static FrictionMemory memory_of_slab(void)
+static FrictionLaw law_of_slab(void)
 {
-    return (FrictionMemory){.kind = MEMORY_RATE_STATE,
-                            .direct = 0.01,
-                            .healing = 0.025,
-                            .slip_distance = 4e-4,
-                            .reference = 0.4,
-                            .reference_velocity = SPEED};
+    return law_with_state((FrictionLaw){.kind = FRICTION_RATE_STATE,
+                                        .direct_effect = 0.01,
+                                        .evolution_effect = 0.025,
+                                        .slip_distance = 4e-4,
+                                        .mu_reference = 0.4,
+                                        .reference_velocity = SPEED});
 }
 
 // --- the exact relation -------------------------------------------------------------------------
@@ -58,10 +58,10 @@ static Complex relation(Complex s, double q)
     Complex trace = elastic.trace + s * viscous.trace, axial = 2 * shear + trace;
     Complex inertia = material.density * s * s;
     Complex alpha = csqrt(q * q + inertia / axial), beta = csqrt(q * q + inertia / shear);
-    FrictionMemory law = memory_of_slab();
+    const FrictionLaw law = law_of_slab();
     double fades = SPEED / law.slip_distance;
-    Complex weakens = PRESSURE *
-                      (law.healing / law.slip_distance / (s + fades) - law.direct / SPEED);
+    Complex weakens = PRESSURE * (law.evolution_effect / law.slip_distance / (s + fades) -
+                                  law.direct_effect / SPEED);
     Complex a[4][4];
     for (int32_t k = 0; k < 4; k++) {
         bool pressure = k < 2;
@@ -73,7 +73,7 @@ static Complex relation(Complex s, double q)
         a[0][k] = sheared * top;
         a[1][k] = pressed * top;
         a[2][k] = uz;
-        a[3][k] = sheared + weakens * s * ux + law.reference * pressed;
+        a[3][k] = sheared + weakens * s * ux + law.mu_reference * pressed;
     }
     return determinant(a);
 }
@@ -95,6 +95,7 @@ typedef struct Slab {
     Interface interface;
     BulkOperator system;
     FrictionLaw law;
+    Friction friction;   // everywhere by that law
     Rod rod;
     State state;
     Growth *growth;
@@ -146,10 +147,9 @@ static void slab_build(double length, int32_t nx, int32_t nz, Slab *slab)
     Error err = {0};
     BlockDef def = {ELEMENT_Q4, .nx = nx, .nz = nz, .length = length, .height = HEIGHT};
     Material material = paper_material();
-    FrictionMemory memory = memory_of_slab();
-    *slab = (Slab){.law = {.kind = FRICTION_RATE_STATE}};
+    *slab = (Slab){.law = law_of_slab()};
+    slab->friction = FRICTION_OF(&slab->law);
     dense_use_one_thread();
-    friction_make_memory(&memory, &slab->law);
     block_build(&def, &slab->mesh);
     assert_true(bulk_create(&slab->mesh, &slab->assembled, &err) &&
                 bulk_assemble(&slab->mesh, &material, &slab->assembled, &err));
@@ -164,7 +164,7 @@ static void slab_build(double length, int32_t nx, int32_t nz, Slab *slab)
     assert_true(
         bulk_operator_create(&slab->bulk, position, interface->dofs, 2 * nx, &slab->system, &err));
     free(position);
-    Block block = {&slab->system, interface, &slab->law, &slab->rod, NULL};
+    Block block = {&slab->system, interface, &slab->friction, &slab->rod, NULL};
     assert_true(rod_build(interface, ROD_AWAY, 0, &slab->rod, &err));
     assert_true(state_create(&slab->system, interface, &slab->state, &err));
     for (int32_t i = 0; i < nx; i++) {

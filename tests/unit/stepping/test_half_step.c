@@ -7,7 +7,7 @@
 typedef struct Pushed {
     BlockRig rig;
     StepControl control;
-    FrictionLaw *laws;   // [contact_count]; owned
+    FrictionNode *nodes;   // [contact_count]; owned
 } Pushed;
 
 // mu is rise[0] x + rise[1] y higher than at the corner.
@@ -15,11 +15,11 @@ static void pushed_vary(const double rise[2], Pushed *pushed)
 {
     Error err = {0};
     const Interface *interface = &pushed->rig.interface;
-    pushed->laws = NEW_ARRAY(FrictionLaw, interface->contact_count, &err);
+    pushed->nodes = NEW_ARRAY(FrictionNode, interface->contact_count, &err);
     for (int32_t i = 0; i < interface->contact_count; i++)
-        pushed->laws[i] = friction_scaled(&pushed->rig.law, 1 + rise[0] * interface->x[i] +
-                                                                rise[1] * interface->y[i]);
-    pushed->rig.law = friction_spread(pushed->laws, interface->contact_count);
+        pushed->nodes[i] = friction_node(&pushed->rig.law,
+                                         1 + rise[0] * interface->x[i] + rise[1] * interface->y[i]);
+    pushed->rig.friction = friction_of_nodes(pushed->nodes, interface->contact_count);
 }
 
 // Half as high as long, the rod along its breadth. rise: of friction; NULL: it is the same
@@ -40,7 +40,7 @@ static void pushed_build(const int32_t cells[3], const double *rise, Pushed *pus
                             .use_certificate = true};
     space_rig_build(&shape, &def, (double[]){0, 0, -0.003}, &pushed->rig);
     BlockRig *rig = &pushed->rig;
-    pushed->laws = NULL;
+    pushed->nodes = NULL;
     if (rise) pushed_vary(rise, pushed);
     assert_true(step_control_create(&rig->block, &steps, &pushed->control, &err));
     RelaxationDef relaxation = {.speed_max = 1e-9, .duration_max = 1e5};
@@ -59,7 +59,7 @@ static void pushed_destroy(Pushed *pushed)
 {
     step_control_destroy(&pushed->control);
     rig_destroy(&pushed->rig);
-    memory_free(pushed->laws);
+    memory_free(pushed->nodes);
 }
 
 static void compare_certificates(StepControl *control)

@@ -3,7 +3,7 @@
 #include "stepping/oscillation_record.h"
 
 #include "block_rig.h"
-#include "friction/friction_make.h"
+#include "own_laws.h"
 #include "plane.h"
 
 static const double LONG = 20, PRESSURE = 1e-3;
@@ -107,15 +107,13 @@ TEST(test_memory)
 {
     Fixture fixture;
     fixture_build(LONG, &fixture);
-    FrictionMemory memory = {.kind = MEMORY_AGEING,
-                             .mu_static = 0.38,
-                             .mu_kinetic = 0.1,
-                             .critical_velocity = 3.4e-4,
-                             .slip_distance = 1e-4,
-                             .healing_time = 10,
-                             .healing = 0.1};
-    fixture.rig.law = (FrictionLaw){.kind = FRICTION_AGEING};
-    friction_make_memory(&memory, &fixture.rig.law);
+    fixture.rig.law = law_with_state((FrictionLaw){.kind = FRICTION_AGEING,
+                                                   .mu_static = 0.38,
+                                                   .mu_kinetic = 0.1,
+                                                   .critical_velocity = 3.4e-4,
+                                                   .slip_distance = 1e-4,
+                                                   .healing_time = 10,
+                                                   .healing = 0.1});
     double theta = 2, speed = 0.05 * 3.4e-4, fades = speed / 1e-4, age = 1.02 * (theta + 1e-3);
     double mu = 0.38 - 0.05 * 0.28;
     for (int32_t k = 0; k < 2; k++) {   // W(1/LONG) of the age seen, and of one 2 % older

@@ -177,7 +177,7 @@ static void move_on_rising_friction(double shear, double thrown)
     StepControl control;
     def.traction[0] = shear * PRESSURE;
     def.law = own_table(2, velocity, mu, true);
-    assert_near("nothing falls", friction_drop(&def.law), 0, 0);
+    assert_near("nothing falls", friction_law_drop(&def.law), 0, 0);
     rig_build(&def, &rig);
     assert_true(step_control_create(&rig.block, &steps, &control, &err));
     rig.law.mu_static = 10;

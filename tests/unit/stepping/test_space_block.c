@@ -21,7 +21,7 @@ static void stiff_build(double young, double step, StiffBlock *block)
     RigDef def = rig_def();
     def.material.young = young;
     def.rod_width = 0;
-    def.law = friction_constant(MU);
+    def.law = (FrictionLaw){.kind = FRICTION_COULOMB, .mu_static = MU};
     StepControlDef steps = {.tolerance = 1, .step_max = step, .step_min = step, .wave_step = 1};
     space_rig_build(&shape, &def, (double[]){0, 0, -PRESSURE}, &block->rig);
     assert_true(step_control_create(&block->rig.block, &steps, &block->control, &err));
@@ -170,7 +170,7 @@ TEST(test_explicit)
     int64_t steps = (int64_t)ceil(0.06 / step);
     ExplicitDef def = {.bulk = &block.rig.bulk,
                        .interface = &block.rig.interface,
-                       .law = &block.rig.law,
+                       .friction = &block.rig.friction,
                        .rod = &block.rig.rod,
                        .step = 0.06 / (double)steps};
     assert_true(explicit_reference_create(&def, &scheme, &err));

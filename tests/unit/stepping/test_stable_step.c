@@ -76,7 +76,7 @@ static bool stays_finite(SteppedBlock *block, double step)
     ExplicitReference scheme;
     ExplicitDef def = {.bulk = &block->bulk,
                        .interface = &block->interface,
-                       .law = &block->law,
+                       .friction = &block->friction,
                        .rod = &block->rod,
                        .step = step};
     Random random = {.state = 7};

@@ -5,6 +5,7 @@
 
 #include "study/stability/stability.h"
 
+#include "friction_by_hand.h"
 #include "near.h"
 
 #include <math.h>
@@ -22,6 +23,7 @@ typedef struct Rig {
     double x[NODES];
     int32_t pads[NODES];
     Scene scene;
+    FrictionLaw law;   // everywhere
     Model model;
     StabilityOptions options;
     StabilityPoint points[POINTS];
@@ -34,7 +36,9 @@ static inline void start(Rig *rig)
 {
     *rig = (Rig){.scene = {.rod.velocity = 1e-4}};
     for (int32_t i = 0; i < NODES; i++) rig->x[i] = 0.2 * i;
-    rig->model = (Model){.scene = &rig->scene, .length = 2, .law.critical_velocity = 1e-3};
+    rig->model = (Model){.scene = &rig->scene, .length = 2};
+    rig->law = (FrictionLaw){.critical_velocity = 1e-3};
+    rig->model.friction = FRICTION_OF(&rig->law);
     rig->model.interface = (Interface){
         .dim = 2, .contact_count = NODES, .x = rig->x, .pad = rig->pads, .pad_count = 1};
     for (int32_t k = 0; k < POINTS; k++)

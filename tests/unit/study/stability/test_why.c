@@ -77,8 +77,8 @@ TEST(test_what_else_is_said)
     expect(&rig, 5, "l_c (scan) is shorter than l_sc");
     rig.summary.steady_contact = 1;   // as much as can be said without memory
     expect(&rig, 6, "would be steady");
-    FrictionLaw laws[NODES] = {0};
-    rig.path.laws = laws;
+    FrictionNode nodes[NODES] = {0};
+    rig.path.nodes = nodes;
     rig.summary.pads[1].critical_stiffness = 1.25;
     rig.summary.pads[1].stiffness = 0.5;
     rig.summary.nucleation_length = NAN;

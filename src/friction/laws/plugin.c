@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "friction/friction_plugin.h"
+// A law whose functions stand in a shared object that somebody else wrote (amontons_friction.h).
+// The object stays open until the program ends: copies of a law may be anywhere. Its code is run
+// only for a scene that is trusted.
+#include "friction/laws/law.h"
 
 #include "base/child_process.h"
 #include "io/files/open_file.h"
@@ -10,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The symbols of a plug-in and where their addresses go; those of laws that remember come last.
+// The symbols of a plug-in and where their addresses go; those of laws with states come last.
 enum { SPEED_ALONE = 2, SYMBOLS = 5, SECONDS_MAX = 20 };
 
 static bool find_symbols(void *handle, const char *path, FrictionPlugin *plugin, Error *err)
@@ -57,7 +60,7 @@ static bool try_load(void *path, FILE *reply, Error *err)
 
 // A plug-in that was cut short ends the process that loads it, and so may one that is whole: a
 // process of its own tries it first, where there may be one.
-bool friction_plugin_open(const char *path, FrictionPlugin *plugin, Error *err)
+static bool open_plugin(const char *path, FrictionPlugin *plugin, Error *err)
 {
     ChildWork work = {.path = path,
                       .reader = "the system's loader",
@@ -69,3 +72,65 @@ bool friction_plugin_open(const char *path, FrictionPlugin *plugin, Error *err)
     if (child_is_wanted() && !child_do(&work, err)) return false;
     return load(path, plugin, err);
 }
+
+static bool make(const FrictionSource *source, FrictionLaw *law, const char **key, Error *err)
+{
+    FrictionPlugin *plugin = &law->plugin;
+    AmontonsFriction *given = &plugin->given;
+    *key = "file";
+    if (source->parameter_count > AMONTONS_FRICTION_PARAMETERS_MAX)
+        return REFUSE(err, "takes at most %d friction.parameters, not %d",
+                      AMONTONS_FRICTION_PARAMETERS_MAX, source->parameter_count);
+    *given = (AmontonsFriction){.mu_static = law->mu_static,
+                                .mu_kinetic = law->mu_kinetic,
+                                .critical_velocity = law->critical_velocity,
+                                .parameter_count = source->parameter_count};
+    for (int32_t k = 0; k < source->parameter_count; k++)
+        given->parameters[k] = source->parameters[k];
+    if (!source->trusted)
+        return REFUSE(
+            err,
+            "%s is a program that would be run: give --trust (in Python trust=True) if you "
+            "know where it comes from",
+            source->file);
+    if (!open_plugin(source->file, plugin, err)) return false;
+    if (!plugin->rates) return true;
+    law->remembers = law->feels_pressure = true;
+    law->states = plugin->states(given);
+    if (law->states < 1 || law->states > STATES_MAX)
+        return REFUSE(err, "%s has %d states; allowed: 1 to %d", source->file, law->states,
+                      STATES_MAX);
+    return true;
+}
+
+static double value(const FrictionLaw *law, double speed, double *slope)
+{
+    *slope = law->plugin.slope(&law->plugin.given, speed);
+    return law->plugin.coefficient(&law->plugin.given, speed);
+}
+
+static void find_rates(const FrictionLaw *law, double speed, double pressure, const double *state,
+                       FrictionRates *rates)
+{
+    law->plugin.rates(&law->plugin.given, speed, pressure, state, rates);
+}
+
+static void start(const FrictionLaw *law, const FrictionSource *source, double *state)
+{
+    law->plugin.start(&law->plugin.given, source->rod_velocity, source->rest, state);
+}
+
+const FrictionOperations friction_plugin = {
+    .must = "file",
+    .may = "mu_static mu_kinetic critical_velocity parameters velocity_max rest",
+    .own = true,
+    .has_drop = true,
+    .spent = 1,
+    .make = make,
+    .value = value,
+    .mu = find_rates,
+    .rate = find_rates,
+    .start = start,
+    .state_key = "file",
+    .mu_key = "file",
+    .state_unit = "its own"};

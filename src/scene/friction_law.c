@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "scene/friction_law.h"
+
+#include "friction/friction_make.h"
+#include "scene/materials.h"
+
+#include <math.h>
+#include <string.h>
+
+// The slip rate up to which a law is asked: friction.velocity_max, or the speed of sound, the
+// fastest of all regions.
+static double fastest_slip(const Scene *scene)
+{
+    double given = scene->own_friction.velocity_max;
+    double fastest = sqrt(scene->material.young / scene->material.density);
+    if (given > 0) return given;
+    for (int32_t i = 0; i < scene->materials.count; i++) {
+        const SceneMaterial *region = &scene->materials.region[i];
+        double young = scene_material_number(scene, region, MATERIAL_YOUNG);
+        double density = scene_material_number(scene, region, MATERIAL_DENSITY);
+        fastest = fmax(fastest, sqrt(young / density));
+    }
+    return fastest;
+}
+
+// Numbers of the map `friction` that a formula may name, and their symbols.
+static const char *const NUMBER_NAMES[][2] = {{"mu_static", "mu_S"},
+                                              {"mu_kinetic", "mu_K"},
+                                              {"critical_velocity", "v_c"},
+#define X(number, symbol) {#number, symbol},
+                                              FRICTION_NUMBERS(X)
+#undef X
+};
+enum { NUMBERS = sizeof NUMBER_NAMES / sizeof NUMBER_NAMES[0] };
+
+int32_t scene_friction_number(const char *name)
+{
+    int32_t k = 0;
+    while (k < NUMBERS && strcmp(name, NUMBER_NAMES[k][0]) != 0 &&
+           strcmp(name, NUMBER_NAMES[k][1]) != 0)
+        k++;
+    return k < NUMBERS ? k : -1;
+}
+
+static bool find_number(const void *context, const char *name, double *value)
+{
+    const FrictionLaw *given = context;
+#define X(number, symbol) given->number,
+    const double values[NUMBERS] = {given->mu_static, given->mu_kinetic, given->critical_velocity,
+                                    FRICTION_NUMBERS(X)};
+#undef X
+    int32_t k = scene_friction_number(name);
+    *value = k < 0 ? 0 : values[k];
+    return *value > 0;
+}
+
+bool scene_friction_law(const Scene *scene, const char *formula, FrictionLaw *law, const char **key,
+                        Error *err)
+{
+    const SceneOwnFriction *own = &scene->own_friction;
+#define X(number, symbol) law->number = own->number;
+    FRICTION_NUMBERS(X)
+#undef X
+    law->slip_law = own->evolution == EVOLUTION_SLIP;
+    FrictionLaw given = *law;   // a formula may name its numbers
+    FrictionSource source = {.velocity = own->velocity.value,
+                             .velocity_count = own->velocity.count,
+                             .mu = own->mu.value,
+                             .mu_count = own->mu.count,
+                             .straight = own->interpolation == INTERPOLATION_LINEAR,
+                             .formula = formula,
+                             .file = own->file,
+                             .trusted = scene->trusted,
+                             .look_up = find_number,
+                             .context = &given,
+                             .state = own->states.state,
+                             .state_count = own->states.count,
+                             .rod_velocity = scene->rod.velocity,
+                             .rest = own->rest,
+                             .pressure = scene->load.pressure,
+                             .parameters = own->parameters.value,
+                             .parameter_count = own->parameters.count,
+                             .end = fastest_slip(scene)};
+    return friction_make(&source, law, key, err);
+}
