@@ -9,8 +9,8 @@
 
 #include <math.h>
 
-// Part of the drive's way over the drops that count: a stretch that lags by more is left behind. A
-// stretch that sticks lags by all of it; in a regime the lag is only scatter, over several rounds.
+// Part of the drive's way over the drops that count: a segment that lags by more is left behind. A
+// segment that sticks lags by all of it; in a regime the lag is only scatter, over several rounds.
 static const double LAG = 0.25;
 enum { TREND_DROPS = 8 };   // that a drift is told from while parts stick
 
@@ -34,10 +34,10 @@ static int32_t count_before_settled(const Drops *drops)
 
 static double U_of(const Drops *drops, const SeriesItem *item)
 {
-    return drops->list[(item->state - drops->states) / (2 * drops->stretches.count)].U;
+    return drops->list[(item->state - drops->states) / (2 * drops->segments.count)].U;
 }
 
-// Some stretch moved by less, or more, than the drive over these drops. Where they are not whole
+// Some segment moved by less, or more, than the drive over these drops. Where they are not whole
 // rounds it may still make good the way of one with the next.
 static bool lags(const Drops *drops, const SeriesItem *items, int32_t count, bool rounds)
 {
@@ -48,9 +48,9 @@ static bool lags(const Drops *drops, const SeriesItem *items, int32_t count, boo
         way += step;
     }
     double allowed = LAG * way + (rounds ? 0 : longest);
-    const double *from = items[0].state + drops->stretches.count;
-    const double *to = items[count - 1].state + drops->stretches.count;
-    for (int32_t s = 0; s < drops->stretches.count; s++)
+    const double *from = items[0].state + drops->segments.count;
+    const double *to = items[count - 1].state + drops->segments.count;
+    for (int32_t s = 0; s < drops->segments.count; s++)
         if (fabs(to[s] - from[s]) > allowed) return true;
     return false;
 }
@@ -128,7 +128,7 @@ Regime regime_of(const Drops *drops)
     int32_t from = settled > 0 ? settled - 1 : 0, count = all - from;   // one belongs to the start
     if (count < 1) from = 0, count = all;
     SeriesRegime found =
-        series_regime(drops->series + from, count, drops->tolerance, drops->stretches.count);
+        series_regime(drops->series + from, count, drops->tolerance, drops->segments.count);
     Regime regime = {.count = found.count, .drift = NAN, .drops_left = NAN};
     const SeriesItem *last = all > 0 ? &drops->series[all - 1] : NULL;
     if (drops->settled < 0) {

@@ -21,7 +21,7 @@ static const Drop NOTHING_SEEN = {
 
 int32_t drops_state_size(const Drops *drops)
 {
-    return 2 * drops->stretches.count;
+    return 2 * drops->segments.count;
 }
 
 Drops drops_none(void)
@@ -44,7 +44,7 @@ bool drops_create(const Interface *interface, const Events *events, double toler
     drops->pad_count = interface->pad_count;
     drops->pad_name = interface->pad_name;
     drops->room = FIRST_ROOM;
-    if (!stretches_create(interface, &drops->stretches, err)) return false;
+    if (!segments_create(interface, &drops->segments, err)) return false;
     drops->list = NEW_ARRAY(Drop, FIRST_ROOM, err);
     drops->series = NEW_ARRAY(SeriesItem, FIRST_ROOM, err);
     drops->slid = NEW_ARRAY(uint8_t, FIRST_ROOM * drops->pad_count, err);
@@ -55,7 +55,7 @@ bool drops_create(const Interface *interface, const Events *events, double toler
 void drops_destroy(Drops *drops)
 {
     memory_free_all(drops->list, drops->series, drops->slid, drops->states);
-    stretches_destroy(&drops->stretches);
+    segments_destroy(&drops->segments);
     *drops = (Drops){0};
 }
 
@@ -95,8 +95,8 @@ static void rise(Drops *drops, const Observation *seen)
     if (seen->mu <= rising->mu) return;
     rising->mu = seen->mu;
     rising->U = seen->U;
-    stretches_read(&drops->stretches, seen,
-                   &drops->states[(int64_t)drops->count * drops_state_size(drops)]);
+    segments_read(&drops->segments, seen,
+                  &drops->states[(int64_t)drops->count * drops_state_size(drops)]);
 }
 
 // Across gaps the place of the front is no length of slip.
@@ -175,8 +175,8 @@ bool drops_record(void *self, const Observation *seen, Error *err)
     bool in_event = events->rapid >= 0 || events->ended;   // the last of the list
     bool sliding = in_event && events->list[events->count - 1].kind == EVENT_LEADING;
     follow_largest(drops, seen->mu);
-    stretches_follow(&drops->stretches, seen);
-    if (drops->settled < 0 && drops->stretches.stuck == 0) drops->settled = drops->count;
+    segments_follow(&drops->segments, seen);
+    if (drops->settled < 0 && drops->segments.stuck == 0) drops->settled = drops->count;
     if (in_event) follow_fall(drops, seen);
     if (events->crossed) {
         if (seen->grows && isnan(drops->rising.front_growth))
@@ -259,7 +259,7 @@ bool drops_archive(Drops *drops, Archive *archive, Error *err)
     }
     archive_octets(archive, drops->slid, drops->count * drops->pad_count);
     archive_numbers(archive, drops->states, (int64_t)(drops->count + 1) * drops_state_size(drops));
-    stretches_archive(&drops->stretches, archive);
+    segments_archive(&drops->segments, archive);
     archive_index(archive, &drops->settled, -1, drops->count + 1);
     drop_archive(&drops->rising, events + 1, archive);   // it has none yet
     archive_numbers_of(archive, &drops->top, &drops->fall, &drops->mu_max, &drops->mu_seen,
