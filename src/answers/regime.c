@@ -24,14 +24,6 @@ const char *run_in_name(RunIn run_in)
     return names[run_in];
 }
 
-// The load drops up to the one in which the last node slipped for the first time.
-static int32_t count_before_settled(const Drops *drops)
-{
-    int32_t before = 0;
-    for (int32_t k = 0; k < drops->count && k <= drops->settled; k++) before += drops->list[k].load;
-    return before;
-}
-
 static double U_of(const Drops *drops, const SeriesItem *item)
 {
     return drops->list[(item->state - drops->states) / (2 * drops->segments.count)].U;
@@ -113,18 +105,12 @@ static void find_trend(const Drops *drops, const SeriesItem *last, int32_t count
         regime->run_in = RUN_IN_TREND;
 }
 
-static int32_t find_first(const Drops *drops, int32_t before)
-{
-    int32_t first = 0;
-    for (; first < drops->count; first++)
-        if (drops->list[first].load && before-- == 0) break;
-    return first;
-}
-
 Regime regime_of(const Drops *drops)
 {
-    int32_t all = drops_series(drops, DROP_LOAD, 0);
-    int32_t settled = drops->settled < 0 ? 0 : count_before_settled(drops);
+    // The load drops up to the one in which the last node slipped for the first time do not count.
+    int32_t all = drops_series(drops, DROP_LOAD, 0), settled = 0;
+    for (int32_t k = 0; k < drops->count && k <= drops->settled; k++)
+        settled += drops->list[k].load;
     int32_t from = settled > 0 ? settled - 1 : 0, count = all - from;   // one belongs to the start
     if (count < 1) from = 0, count = all;
     SeriesRegime found =
@@ -143,6 +129,8 @@ Regime regime_of(const Drops *drops)
         if (found.count > 2) find_trend(drops, last, count - 1, &regime);
         if (regime.run_in != RUN_IN_OVER) regime.period = 0;
     }
-    regime.first = find_first(drops, all - regime.count);
+    int32_t before = all - regime.count;
+    while (regime.first < drops->count && !(drops->list[regime.first].load && before-- == 0))
+        regime.first++;
     return regime;
 }

@@ -5,6 +5,7 @@
 
 // Range of mu, relative to mu: a level with a larger error is not accepted. As in record/steady.
 static const double STEADY_RANGE = 2e-3;
+static const double ARRIVED = 0.02;   // |ln| of a node's velocity over the rod's, at most
 // Relative; steps end at points up to rounding.
 static const double REACHED = 3e-12;
 
@@ -18,7 +19,7 @@ bool program_jumps(const RodCourse *course)
     return over->repeats && over->factor[over->count - 1] != over->factor[0];
 }
 
-// --- what a piece shows -----------------------------------------------------------------------
+// --- what a piece shows -------------------------------------------------------------------------
 
 // Range of mu in the bins where slip is from `from` to `to`, and in the bin before, as steps may be
 // long.
@@ -177,27 +178,6 @@ static void add_to_bin(ProgramPiece *piece, double mu, double slip)
     piece->first[k] = piece->low[k] = piece->high[k] = mu;
 }
 
-// A peak is past where mu has gone back by half of it, and by more than a level may.
-static void follow_peak(ProgramPiece *piece, double mu, double slip)
-{
-    ProgramTop *top = &piece->top;
-    if (piece->fell) return;
-    if (!(mu <= top->mu)) {
-        *top = (ProgramTop){.mu = mu, .slip = slip};
-        return;
-    }
-    if (top->off == 0) top->off = top->mu - mu;
-    double limit = fmax(0.5 * (top->mu - piece->mu), STEADY_RANGE * fabs(top->mu));
-    piece->fell = top->mu - mu > limit;
-}
-
-static void note_arrival(ProgramPiece *piece, double mu, double slip, double off)
-{
-    static const double ARRIVED = 0.02;
-    if (isnan(piece->top.mu) && off <= ARRIVED)
-        piece->top = (ProgramTop){.mu = mu, .slip = slip, .off = off};
-}
-
 static void see_contact(ProgramReadings *readings, const Observation *seen)
 {
     const Interface *interface = seen->interface;
@@ -229,11 +209,21 @@ bool program_readings_record(void *self, const Observation *seen, Error *err)
     see_contact(readings, seen);
     if (!readings->started) begin_piece(readings, 0);
     readings->started = true;
-    add_to_bin(now, readings->mu, readings->slip - now->slip);
-    if (now->reading.kind == READING_HOLD)
-        follow_peak(now, readings->mu, readings->slip - now->slip);
-    else
-        note_arrival(now, readings->mu, readings->slip - now->slip, readings->off);
+    double mu = readings->mu, slip = readings->slip - now->slip;
+    ProgramTop *top = &now->top;
+    add_to_bin(now, mu, slip);
+    if (now->reading.kind != READING_HOLD) {
+        // The first step in which every node slides with the rod's new velocity.
+        if (isnan(top->mu) && readings->off <= ARRIVED)
+            *top = (ProgramTop){.mu = mu, .slip = slip, .off = readings->off};
+    } else if (!now->fell && !(mu <= top->mu)) {
+        *top = (ProgramTop){.mu = mu, .slip = slip};
+    } else if (!now->fell) {
+        // A peak is past where mu has gone back by half of it, and by more than a level may.
+        if (top->off == 0) top->off = top->mu - mu;
+        double limit = fmax(0.5 * (top->mu - now->mu), STEADY_RANGE * fabs(top->mu));
+        now->fell = top->mu - mu > limit;
+    }
     while (now->ends <= seen->t * (1 + REACHED)) begin_piece(readings, now->ends);
     return true;
 }
