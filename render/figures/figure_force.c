@@ -3,7 +3,7 @@
 // own that enlarges the last precursors before a sliding.
 #include "render/figures/figures.h"
 
-#include "render/view/window.h"
+#include "render/view/range.h"
 #include "render/view/zoom.h"
 
 #include <math.h>
@@ -181,34 +181,35 @@ static void outline_draw(const Page *page, const Axes *axes, const Axes *inset)
 }
 
 // Where the zoom lies in what is shown, and the style does not forbid it.
-static bool has_inset(const ResultView *view, const PictureStyle *style, const Window *window)
+static bool has_inset(const ResultView *view, const PictureStyle *style, const ViewRange *shown)
 {
     Zoom zoom = zoom_choose(view);
     bool none = style->inset && strcmp(style->inset, "none") == 0;
     double range[2];
     result_view_mu_range(view, (double[]){zoom.U_low, zoom.U_slide}, range);
-    return !none && zoom.found && !zoom.smooth && zoom.U_low >= window->low &&
-           zoom.U_high <= window->high && range[1] > range[0];
+    return !none && zoom.found && !zoom.smooth && zoom.U_low >= shown->low &&
+           zoom.U_high <= shown->high && range[1] > range[0];
 }
 
 bool figure_force_enlarges(const ResultView *view, const PictureStyle *style)
 {
     Error ignored = {0};   // who draws the figure says it
-    Window window;
-    return window_find(view, style, &window, &ignored) && has_inset(view, style, &window);
+    ViewRange shown;
+    return view_range_find(view, style, &shown, &ignored) && has_inset(view, style, &shown);
 }
 
 // The zoom's U, mu from the first precursor shown to a little above the peak; in a frame above.
-static bool inset_axes(const Page *page, const ResultView *view, const Window *window, Axes *inset)
+static bool inset_axes(const Page *page, const ResultView *view, const ViewRange *shown,
+                       Axes *inset)
 {
     Zoom zoom = zoom_choose(view);
     double range[2];
-    if (!has_inset(view, &page->style, window)) return false;
+    if (!has_inset(view, &page->style, shown)) return false;
     result_view_mu_range(view, (double[]){zoom.U_low, zoom.U_slide}, range);
     double pad = 0.12 * (range[1] - range[0]);
     *inset = (Axes){.color = ZOOM_FORCE};
     inset->x = figure_length_axis(view, "U", zoom.U_low, zoom.U_high);
-    inset->x.factor = figure_length_axis(view, "U", window->low, window->high).factor;
+    inset->x.factor = figure_length_axis(view, "U", shown->low, shown->high).factor;
     inset->x.label[0] = '\0';
     inset->y =
         (Axis){.low = range[0] - pad, .high = range[1] + pad, .factor = 1, .label = FIGURE_MU};
@@ -217,14 +218,14 @@ static bool inset_axes(const Page *page, const ResultView *view, const Window *w
     return true;
 }
 
-// The frame for the window's U, all of mu there and the levels; below `top`. level: [returned].
-static int32_t axes_layout(const Page *page, const ResultView *view, const Window *window,
+// The frame of the U that is shown, all of mu there and the levels; below `top`. level: [returned].
+static int32_t axes_layout(const Page *page, const ResultView *view, const ViewRange *shown,
                            double top, Axes *axes, Level level[LEVELS_MAX])
 {
     double range[2];
     Box room = page->room;
     room.top = top;
-    result_view_mu_range(view, (double[]){window->low, window->high}, range);
+    result_view_mu_range(view, (double[]){shown->low, shown->high}, range);
     if (!(range[1] >= range[0])) range[0] = range[1] = 0;
     int32_t count = levels_list(view, range[1], level);
     bool away = false;
@@ -232,7 +233,7 @@ static int32_t axes_layout(const Page *page, const ResultView *view, const Windo
         if (!level[k].away) range[1] = fmax(range[1], level[k].mu);
         away = away || level[k].away;
     }
-    *axes = (Axes){.x = figure_length_axis(view, "U", window->low, window->high),
+    *axes = (Axes){.x = figure_length_axis(view, "U", shown->low, shown->high),
                    .y = {.low = fmin(0, range[0] * HEADROOM), .factor = 1, .label = FIGURE_MU},
                    .bare_x = page->bare_x};
     axes->y.high = range[1] * HEADROOM;
@@ -241,12 +242,12 @@ static int32_t axes_layout(const Page *page, const ResultView *view, const Windo
     return count;
 }
 
-static void key_of_peaks(Page *page, const ResultView *view, const Window *window,
+static void key_of_peaks(Page *page, const ResultView *view, const ViewRange *shown,
                          const Measured *measured)
 {
     KeyEntry entries[5];
     int32_t count = 0;
-    const Axes axes = {.x = {.low = window->low, .high = window->high}};
+    const Axes axes = {.x = {.low = shown->low, .high = shown->high}};
     bool seen[2] = {false, false};
     for (int32_t k = 0; k < view->peak_count; ++k)
         if (is_shown(&view->peaks[k], &axes)) seen[view->peaks[k].counts] = true;
@@ -257,7 +258,7 @@ static void key_of_peaks(Page *page, const ResultView *view, const Window *windo
     if (slidings_draw(NULL, view, &axes) > 0)
         entries[count++] =
             (KeyEntry){KEY_LINE, ZOOM_FORCE, "ticks at the foot: the whole block slides"};
-    if (window->words[0]) entries[count++] = (KeyEntry){.words = window->words};
+    if (shown->words[0]) entries[count++] = (KeyEntry){.words = shown->words};
     key_draw(page, entries, measured_key(measured, KEY_DISC, entries, count));
 }
 
@@ -275,18 +276,18 @@ static void frames_align(const Page *page, Axes *axes, Axes *inset, bool enlarge
 bool figure_force(const Page *whole, ResultView *view, Error *err)
 {
     Page page = *whole;
-    Window window;
+    ViewRange shown;
     Measured measured = {0};
     Axes axes, inset = {0};
     Level level[LEVELS_MAX];
-    if (!window_find(view, &page.style, &window, err) ||
+    if (!view_range_find(view, &page.style, &shown, err) ||
         !measured_read(page.style.compare, MEASURED_MU, view, &measured, err))
         return false;
-    key_of_peaks(&page, view, &window, &measured);
-    bool enlarged = inset_axes(&page, view, &window, &inset);
+    key_of_peaks(&page, view, &shown, &measured);
+    bool enlarged = inset_axes(&page, view, &shown, &inset);
     double below = inset.box.bottom + (axes_bottom_margin(&inset) + INSET_GAP) * page.point;
     double top = enlarged ? round(below) : page.room.top;
-    int32_t count = axes_layout(&page, view, &window, top, &axes, level);
+    int32_t count = axes_layout(&page, view, &shown, top, &axes, level);
     frames_align(&page, &axes, &inset, enlarged);
     levels_draw(&page, &axes, level, count);
     curve_draw(&page, view, &axes);

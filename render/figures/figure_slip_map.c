@@ -52,25 +52,25 @@ static void zoom_draw(const Page *page, const Zoom *zoom, const Axes *axes)
 }
 
 // The line l_c has its name at its end.
-static void key_of_map(Page *page, const ResultView *view, const Window *window,
+static void key_of_map(Page *page, const ResultView *view, const ViewRange *shown,
                        const Measured *measured)
 {
     KeyEntry entries[3];
-    int32_t count = map_page_key(view, window, entries);
+    int32_t count = map_page_key(view, shown, entries);
     key_draw(page, entries, measured_key(measured, KEY_DISC, entries, count));
 }
 
 bool figure_slip_map(const Page *whole, ResultView *view, Error *err)
 {
     Page page = *whole;
-    Window window;
+    ViewRange shown;
     Measured measured = {0};
     double length = view->number[NUMBER_L_C], V = fabs(view->number[NUMBER_ROD_VELOCITY]);
     Zoom zoom = zoom_choose(view);
     MapPage map = {.mean = page.style.pixels && strcmp(page.style.pixels, "mean") == 0};
     if (!(V > 0)) FAIL(err, ERROR_INPUT, "the result does not say how fast the rod moves");
-    TRY(window_find(view, &page.style, &window, err));
-    bool marked = page.zoom_name && zoom.found && zoom.U_low >= window.low;
+    TRY(view_range_find(view, &page.style, &shown, err));
+    bool marked = page.zoom_name && zoom.found && zoom.U_low >= shown.low;
     if (marked) map.axes.above = ZOOM_ABOVE;
     TRY(result_view_read_slip_rate(view, err));
     if (map.mean) TRY(result_view_read_slip(view, err));
@@ -79,8 +79,8 @@ bool figure_slip_map(const Page *whole, ResultView *view, Error *err)
              map.mean ? "mean" : "largest");
     if (isfinite(length)) map.mark_width = MARK_WIDTH;
     TRY(measured_read(page.style.compare, MEASURED_FRONT, view, &measured, err));
-    key_of_map(&page, view, &window, &measured);
-    TRY(map_page_draw(&page, view, (double[]){window.low, window.high}, &map, err));
+    key_of_map(&page, view, &shown, &measured);
+    TRY(map_page_draw(&page, view, (double[]){shown.low, shown.high}, &map, err));
     if (marked) zoom_draw(&page, &zoom, &map.axes);
     if (isfinite(length))
         critical_length_draw(&page, &map, result_view_trailing_end(view) + length);

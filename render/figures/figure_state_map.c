@@ -13,18 +13,18 @@
 bool figure_state_map(const Page *whole, ResultView *view, Error *err)
 {
     Page page = *whole;
-    Window window;
+    ViewRange shown;
     KeyEntry entries[2];
     double *states = NULL;
     bool largest = page.style.pixels && strcmp(page.style.pixels, "largest") == 0;
     MapPage map = {.sign = largest ? 1 : -1};
-    TRY(window_find(view, &page.style, &window, err));
+    TRY(view_range_find(view, &page.style, &shown, err));
     TRY(result_view_read(view, SERIES_STATE, false, &states, err));
-    TRY(state_scale(view, (const double[2]){window.low, window.high}, states, &page.style, &map.bar,
+    TRY(state_scale(view, (const double[2]){shown.low, shown.high}, states, &page.style, &map.bar,
                     err));
     map.states = states;
-    key_draw(&page, entries, map_page_key(view, &window, entries));
-    TRY(map_page_draw(&page, view, (double[]){window.low, window.high}, &map, err));
+    key_draw(&page, entries, map_page_key(view, &shown, entries));
+    TRY(map_page_draw(&page, view, (double[]){shown.low, shown.high}, &map, err));
     map_page_draw_frame(&page, view, &map);
 cleanup:
     memory_free(states);

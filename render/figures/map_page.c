@@ -205,12 +205,12 @@ bool map_page_draw(const Page *page, const ResultView *view, const double U[2], 
     return true;
 }
 
-int32_t map_page_key(const ResultView *view, const Window *window, KeyEntry entries[2])
+int32_t map_page_key(const ResultView *view, const ViewRange *shown, KeyEntry entries[2])
 {
     int32_t count = 0;
     if (view->pad[view->nodes - 1] > 0)
         entries[count++] = (KeyEntry){KEY_HATCH, {0.5f, 0.5f, 0.52f, 1}, "between pads"};
-    if (window && window->words[0]) entries[count++] = (KeyEntry){.words = window->words};
+    if (shown && shown->words[0]) entries[count++] = (KeyEntry){.words = shown->words};
     return count;
 }
 

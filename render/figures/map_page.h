@@ -9,7 +9,7 @@
 #include "render/canvas/key.h"
 #include "render/figures/figures.h"
 #include "render/view/space_time.h"
-#include "render/view/window.h"
+#include "render/view/range.h"
 
 typedef struct MapPage {
     Axes axes;
@@ -33,8 +33,8 @@ bool map_page_draw(const Page *page, const ResultView *view, const double U[2], 
 // colours ...
 bool map_page_fill(const SpaceTime *data, MapPage *map, Error *err);
 
-// Fills the entries of pads and window in the key; returns how many they are, at most two.
-int32_t map_page_key(const ResultView *view, const Window *window, KeyEntry entries[2]);
+// Fills the entries of pads and shown in the key; returns how many they are, at most two.
+int32_t map_page_key(const ResultView *view, const ViewRange *shown, KeyEntry entries[2]);
 
 // ... and are drawn, with the pads' gaps.
 void map_page_draw_field(const Page *page, const ResultView *view, const MapPage *map);

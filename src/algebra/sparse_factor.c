@@ -2,7 +2,7 @@
 // CHOLMOD (Chen, Davis, Hager, Rajamanickam, ACM TOMS 35, 2008): the factor is supernodal LL', with
 // the border last, and L_bb is read out of its supernodes.
 //
-// A pattern is analysed once and factored for every rung of the ladder (on 80 x 80 cells: 5 ms for
+// A pattern is analysed once and factored for every level of dt (on 80 x 80 cells: 5 ms for
 // the analysis, 25 ms for a factor, 1 ms for a solve). Workspaces of solves belong to the analysis:
 // factors of one analysis must not be used by two threads.
 #include "algebra/sparse_analysis.h"

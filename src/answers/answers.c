@@ -12,12 +12,6 @@
 
 static const double MEAN_ERROR = 0.02;
 
-static bool is_enough(const Regime *regime, const Estimate *mean)
-{
-    bool known = regime->count >= DROPS_ENOUGH && mean->error <= MEAN_ERROR * mean->value;
-    return regime->run_in == RUN_IN_OVER && (regime->period > 0 || known);
-}
-
 // The lowest of the series and the range of its branch.
 static Estimate lowest_branch(const Drops *drops, int32_t count)
 {
@@ -36,66 +30,11 @@ static void add_ahead(const Regime *regime, Estimate *estimate)
     estimate->error = hypot(estimate->error, regime->ahead * estimate->value);
 }
 
-static void answer_drops(const Drops *drops, Answers *answers)
-{
-    int32_t count = drops_series(drops, DROP_LOAD, answers->first);
-    int32_t period = answers->regime.period;
-    answers->mu_drops = series_mean(drops->series, count, period > 0 ? period : 1);
-    answers->enough = is_enough(&answers->regime, &answers->mu_drops);
-    answers->mu_drops.error *= ERROR_BAR;
-    answers->mu_hold = answers->regime.run_in == RUN_IN_STUCK ? (Estimate){NAN, NAN}
-                       : period > 0                           ? lowest_branch(drops, count)
-                                    : series_lowest_decile(drops->series, count);
-    if (period == 0) answers->mu_hold.error *= ERROR_BAR;
-    add_ahead(&answers->regime, &answers->mu_hold);
-    answers->mu_hold_parts = (ErrorParts){NAN, NAN, answers->mu_hold.error};
-}
-
-static void answer_peaks(const Drops *drops, Answers *answers)
-{
-    int32_t count = drops_series(drops, DROP_BULK, answers->first);
-    const Regime *regime = &answers->regime;
-    answers->peaks = drops_count(drops, DROP_BULK);
-    answers->peaks_counted = count;
-    if (regime->period > 0) answers->period = count / (regime->count / regime->period);
-    answers->mu_M = series_mean(drops->series, count, answers->period > 0 ? answers->period : 1);
-    answers->mu_M.error *= ERROR_BAR;
-    add_ahead(regime, &answers->mu_M);
-    answers->mu_M_parts = (ErrorParts){NAN, NAN, answers->mu_M.error};
-    for (int32_t k = 0; k < count; k++) {
-        answers->mu_M_low = fmin(answers->mu_M_low, drops->series[k].value);
-        answers->mu_M_high = fmax(answers->mu_M_high, drops->series[k].value);
-    }
-    if (count > 1) answers->mu_M_spread = answers->mu_M_high - answers->mu_M_low;
-}
-
-// Means over the peaks that count; l_c and l_sc where they were seen at all.
-static void answer_lengths(const Drops *drops, Answers *answers)
-{
-    double critical = 0, part = 0, subcritical = 0;
-    int32_t count = 0, known = 0, seen = 0;
-    for (int32_t k = answers->first; k < drops->count; k++) {
-        if (!drops->list[k].bulk) continue;
-        Drop peak = drops_as(drops, DROP_BULK, k);
-        part += peak.critical_part;
-        count++;
-        if (!isnan(peak.critical_length)) {
-            critical += peak.critical_length;
-            known++;
-        }
-        if (isnan(peak.front_uncertified)) continue;
-        subcritical += peak.front_uncertified;
-        seen++;
-    }
-    if (known > 0) answers->critical_length = critical / known;
-    if (count > 0) answers->critical_part = part / count;
-    if (seen > 0) answers->subcritical_length = subcritical / seen;
-}
-
 Answers answers_of(const Drops *drops)
 {
     double mu_max = isfinite(drops->mu_max) ? drops->mu_max : (double)NAN;   // before any step
-    Answers answers = {.mu_M_low = NAN,
+    Answers answers = {.regime = regime_of(drops),
+                       .mu_M_low = NAN,
                        .mu_M_high = NAN,
                        .mu_M_spread = NAN,
                        .mu_max = mu_max,
@@ -106,11 +45,57 @@ Answers answers_of(const Drops *drops)
                        .critical_length = NAN,
                        .critical_part = NAN,
                        .subcritical_length = NAN};
-    answers.regime = regime_of(drops);
-    answers.first = answers.regime.first;
-    answer_drops(drops, &answers);
-    answer_peaks(drops, &answers);
-    answer_lengths(drops, &answers);
+    const Regime *regime = &answers.regime;
+    answers.first = regime->first;
+
+    // Load drops: their mean, whether more would tell more, what the contact holds for sure.
+    int32_t count = drops_series(drops, DROP_LOAD, answers.first);
+    Estimate *mean = &answers.mu_drops;
+    *mean = series_mean(drops->series, count, regime->period > 0 ? regime->period : 1);
+    bool known = regime->count >= DROPS_ENOUGH && mean->error <= MEAN_ERROR * mean->value;
+    answers.enough = regime->run_in == RUN_IN_OVER && (regime->period > 0 || known);
+    mean->error *= ERROR_BAR;
+    answers.mu_hold = regime->run_in == RUN_IN_STUCK ? (Estimate){NAN, NAN}
+                      : regime->period > 0           ? lowest_branch(drops, count)
+                                                     : series_lowest_decile(drops->series, count);
+    if (regime->period == 0) answers.mu_hold.error *= ERROR_BAR;
+    add_ahead(regime, &answers.mu_hold);
+    answers.mu_hold_parts = (ErrorParts){NAN, NAN, answers.mu_hold.error};
+
+    // Peaks before bulk slidings: mean and range.
+    count = drops_series(drops, DROP_BULK, answers.first);
+    answers.peaks = drops_count(drops, DROP_BULK);
+    answers.peaks_counted = count;
+    if (regime->period > 0) answers.period = count / (regime->count / regime->period);
+    answers.mu_M = series_mean(drops->series, count, answers.period > 0 ? answers.period : 1);
+    answers.mu_M.error *= ERROR_BAR;
+    add_ahead(regime, &answers.mu_M);
+    answers.mu_M_parts = (ErrorParts){NAN, NAN, answers.mu_M.error};
+    for (int32_t k = 0; k < count; k++) {
+        answers.mu_M_low = fmin(answers.mu_M_low, drops->series[k].value);
+        answers.mu_M_high = fmax(answers.mu_M_high, drops->series[k].value);
+    }
+    if (count > 1) answers.mu_M_spread = answers.mu_M_high - answers.mu_M_low;
+
+    // Lengths: means over the peaks that count, of l_c and l_sc where they were seen at all.
+    double critical = 0, part = 0, subcritical = 0;
+    int32_t slid = 0, with_critical = 0, with_subcritical = 0;
+    for (int32_t k = answers.first; k < drops->count; k++) {
+        if (!drops->list[k].bulk) continue;
+        Drop peak = drops_as(drops, DROP_BULK, k);
+        part += peak.critical_part;
+        slid++;
+        if (!isnan(peak.critical_length)) {
+            critical += peak.critical_length;
+            with_critical++;
+        }
+        if (isnan(peak.front_uncertified)) continue;
+        subcritical += peak.front_uncertified;
+        with_subcritical++;
+    }
+    if (with_critical > 0) answers.critical_length = critical / with_critical;
+    if (slid > 0) answers.critical_part = part / slid;
+    if (with_subcritical > 0) answers.subcritical_length = subcritical / with_subcritical;
     return answers;
 }
 
@@ -192,25 +177,6 @@ static void write_drops(const Answers *answers, const Drops *drops, JsonWriter *
     json_end(json);
 }
 
-static void write_run_in(const Regime *regime, JsonWriter *json)
-{
-    json_begin_object(json, "run_in");
-    json_boolean(json, "over", regime->run_in == RUN_IN_OVER);
-    json_text(json, "state", run_in_name(regime->run_in));
-    json_numbers_of(json, {"drift", regime->drift}, {"drops_left", regime->drops_left});
-    json_end(json);
-}
-
-// Lowest mu in the later half of the pad slidings: the effect of the start is gone by then.
-static double lowest_pad_sliding(const Drops *drops)
-{
-    int32_t count = drops_series(drops, DROP_PADS, 0);
-    double low = NAN;
-    for (int32_t k = count / 2; k < count; k++)
-        low = fmin(low, drops->series[k].value);   // fmin of NaN and a number is the number
-    return low;
-}
-
 void error_parts_write(const ErrorParts *parts, JsonWriter *json)
 {
     json_numbers_of(json, {"mesh", parts->mesh}, {"branches", parts->branches},
@@ -244,7 +210,17 @@ void answers_write_json(const Answers *answers, const Drops *drops, double lengt
     if (is_in_space(drops)) json_number(json, "A_c_over_A", answers->critical_part);
     answers_write_peaks(answers, drops, length, json);
     write_drops(answers, drops, json);
-    write_run_in(&answers->regime, json);
-    json_number(json, "mu_first_pad", lowest_pad_sliding(drops));
+    json_begin_object(json, "run_in");
+    json_boolean(json, "over", answers->regime.run_in == RUN_IN_OVER);
+    json_text(json, "state", run_in_name(answers->regime.run_in));
+    json_numbers_of(json, {"drift", answers->regime.drift},
+                    {"drops_left", answers->regime.drops_left});
+    json_end(json);
+    // The lowest of the later half of the pad slidings: the effect of the start is gone by then.
+    int32_t count = drops_series(drops, DROP_PADS, 0);
+    double low = NAN;
+    for (int32_t k = count / 2; k < count; k++)
+        low = fmin(low, drops->series[k].value);   // fmin of NaN and a number is the number
+    json_number(json, "mu_first_pad", low);
     write_list(drops, DROP_PADS, "pad_slidings", json);
 }

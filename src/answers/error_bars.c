@@ -32,21 +32,14 @@ static double mean_of(const Level *level, AnswerKind kind)
     return level->run_count > 0 ? sum / level->run_count : (double)NAN;
 }
 
-static double lowest_of(const Level *level, AnswerKind kind)
-{
-    double low = INFINITY;
-    for (int32_t k = 0; k < level->run_count; k++) {
-        double value = level->runs[k].answer[kind].value;
-        if (isnan(value)) return NAN;
-        low = fmin(low, value);
-    }
-    return level->run_count > 0 ? low : (double)NAN;
-}
-
 // The mean over branches; what the contact holds for sure it holds on the lowest of them.
 double level_value(const Level *level, AnswerKind kind)
 {
-    return kind == ANSWER_MU_HOLD ? lowest_of(level, kind) : mean_of(level, kind);
+    double mean = mean_of(level, kind), low = INFINITY;
+    if (kind != ANSWER_MU_HOLD || isnan(mean)) return mean;
+    for (int32_t k = 0; k < level->run_count; k++)
+        low = fmin(low, level->runs[k].answer[kind].value);
+    return low;
 }
 
 static bool has_value(const Level *level, AnswerKind kind)
@@ -59,15 +52,11 @@ static bool is_known(const Level *level, AnswerKind kind)
     return has_value(level, kind) && !level->other_drops;
 }
 
-// By its last nodes, by more than the bar that is wanted.
-static bool is_held(const Levels *levels, const Level *level, AnswerKind kind)
-{
-    return END_WAITS * level->end_wait > levels->wanted * level_value(level, kind);
-}
-
+// Known, and its last nodes do not hold the block up by more than the bar that is wanted.
 static bool counts(const Levels *levels, const Level *level, AnswerKind kind)
 {
-    return is_known(level, kind) && !is_held(levels, level, kind);
+    bool held = END_WAITS * level->end_wait > levels->wanted * level_value(level, kind);
+    return is_known(level, kind) && !held;
 }
 
 int32_t levels_known(const Levels *levels, AnswerKind kind)
@@ -112,18 +101,6 @@ static double spread_of_runs(const Levels *levels, int32_t from, AnswerKind kind
     return freedoms > 0 ? sqrt(square / freedoms) : (double)NAN;
 }
 
-// Error of the mean over runs, from the error that each run states; a run that states none counts
-// as 0.
-static double drops_part(const Level *level, AnswerKind kind)
-{
-    double square = 0;
-    for (int32_t k = 0; k < level->run_count; k++) {
-        double error = level->runs[k].answer[kind].error;
-        if (!isnan(error)) square += error * error;
-    }
-    return sqrt(square) / level->run_count;
-}
-
 static double difference(const Levels *levels, int32_t level, AnswerKind kind)
 {
     return fabs(level_value(&levels->list[level], kind) -
@@ -140,21 +117,18 @@ static bool is_alone(const Levels *levels, AnswerKind kind)
     return !has_value(last, kind) || first->nodes_along == last->nodes_along;
 }
 
-// Half a cell where a node went from rest to fast slip at once.
-static double cells_of(const Level *level)
-{
-    return isnan(level->slip_cells) ? level->nodes_along - 1 : fmax(level->slip_cells, 0.5);
-}
-
 // Part of the contact that slips where slow slip turns fast, from all meshes that resolve slip: on
 // one of them the smallest part may belong to an unusual event.
 static double slipping_part(const Levels *levels)
 {
     double nodes = 0, cells = 0;
     for (int32_t l = 0; l < levels->count; l++) {
-        if (levels->list[l].undamped) continue;
-        nodes += levels->list[l].nodes_along;
-        cells += cells_of(&levels->list[l]);
+        const Level *level = &levels->list[l];
+        if (level->undamped) continue;
+        nodes += level->nodes_along;
+        cells += isnan(level->slip_cells)
+                     ? level->nodes_along - 1
+                     : fmax(level->slip_cells, 0.5);   // a node went from rest to fast slip at once
     }
     return nodes > 0 ? cells / nodes : 1;
 }
@@ -162,12 +136,6 @@ static double slipping_part(const Levels *levels)
 double levels_cells(const Levels *levels)
 {
     return slipping_part(levels) * levels->list[levels->count - 1].nodes_along;
-}
-
-// Scatter of a level's value, relative to `origin`.
-static double scatter_of(const Level *level, double usual, double origin)
-{
-    return hypot(usual / level->nodes_along, level->end_wait / origin);
 }
 
 // Variance of a level's mean, from the spread of its runs over branches.
@@ -185,12 +153,18 @@ typedef struct Limit {
     double runs, drops;   // of a: variance by branches; error by drops
 } Limit;
 
-// Parts that go along with each level's weight in a.
+// Parts that go along with each level's weight in a. The drops' part is the error of the mean over
+// runs, from the error that each run states; a run that states none counts as 0.
 static void add_level(const Level *level, AnswerKind kind, double weight, double spread,
                       Limit *limit)
 {
+    double square = 0;
+    for (int32_t k = 0; k < level->run_count; k++) {
+        double error = level->runs[k].answer[kind].error;
+        if (!isnan(error)) square += error * error;
+    }
     limit->runs += weight * weight * variance_of_runs(level, spread);
-    limit->drops = hypot(limit->drops, weight * drops_part(level, kind));
+    limit->drops = hypot(limit->drops, weight * (sqrt(square) / level->run_count));
 }
 
 static Limit limit_of(const Levels *levels, AnswerKind kind)
@@ -206,7 +180,8 @@ static Limit limit_of(const Levels *levels, AnswerKind kind)
         if (!is_known(level, kind)) continue;
         spread[l] = spread_of_runs(levels, l, kind);
         double runs = variance_of_runs(level, spread[l]) / (origin * origin);
-        double own = scatter_of(level, usual, origin), w = weight[l] = 1 / (own * own + runs);
+        double own = hypot(usual / level->nodes_along, level->end_wait / origin);   // scatter
+        double w = weight[l] = 1 / (own * own + runs);
         S += w, Sx += w * x, Sxx += w * x * x;
         Sv += w * v, Sxv += w * x * v, Svv += w * v * v;
     }
@@ -226,13 +201,6 @@ static Limit limit_of(const Levels *levels, AnswerKind kind)
     return limit;
 }
 
-static Limit one_level(const Level *level, AnswerKind kind, double spread)
-{
-    Limit limit = {.value = level_value(level, kind), .mesh = NAN};
-    add_level(level, kind, 1, spread, &limit);
-    return limit;
-}
-
 static double known(double part)
 {
     return isnan(part) ? 0 : part;
@@ -244,7 +212,11 @@ static ErrorBar bar_of(const Levels *levels, AnswerKind kind)
     double spread = spread_of_runs(levels, levels->count - 1, kind);
     if (isnan(level_value(last, kind))) return (ErrorBar){NAN, NAN, {NAN, NAN, NAN}, false};
     bool alone = is_alone(levels, kind);
-    Limit limit = alone ? one_level(last, kind, spread) : limit_of(levels, kind);
+    Limit limit = {.value = level_value(last, kind), .mesh = NAN};
+    if (alone)
+        add_level(last, kind, 1, spread, &limit);
+    else
+        limit = limit_of(levels, kind);
     double mesh = fmax(hypot(limit.mesh, END_WAITS * last->end_wait), STEPS * limit.value);
     ErrorBar bar = {.value = limit.value,
                     .parts = {.mesh = alone ? NAN : mesh,
@@ -258,22 +230,16 @@ static ErrorBar bar_of(const Levels *levels, AnswerKind kind)
     return bar;
 }
 
-// Levels coarser than all on which the same pads slide as on the last one.
-static void note_other_drops(Levels *levels)
-{
-    const Level *last = &levels->list[levels->count - 1];
-    bool other = true;
-    for (int32_t l = 0; l < levels->count; l++) {
-        Level *level = &levels->list[l];
-        other = other && patterns_differ(&level->patterns, &last->patterns);
-        level->other_drops = other;
-    }
-}
-
 void levels_estimate(Levels *levels)
 {
     Level *last = &levels->list[levels->count - 1];
-    note_other_drops(levels);
+    // Levels have other drops if they are coarser than all on which the same pads slide as on the
+    // last one.
+    bool other = true;
+    for (int32_t l = 0; l < levels->count; l++) {
+        other = other && patterns_differ(&levels->list[l].patterns, &last->patterns);
+        levels->list[l].other_drops = other;
+    }
     for (AnswerKind kind = 0; kind < ANSWER_KINDS; kind++)
         last->answer[kind] = bar_of(levels, kind);
     bool hold = levels->of_hold || isnan(last->answer[ANSWER_MU_M].value);
@@ -360,14 +326,6 @@ void level_answer_for(const Level *level, Answers *answers)
     answers->mu_max_known_to = hypot(usual * answers->mu_max, answers->mu_max_jump);
 }
 
-// No run of the last level had a peak: its mu_M is that of steady sliding.
-static bool slides_steadily(const Level *last)
-{
-    for (int32_t k = 0; k < last->run_count; k++)
-        if (last->runs[k].peaks > 0) return false;
-    return !isnan(last->answer[ANSWER_MU_M].value);
-}
-
 void levels_answer_for(const Levels *levels, Answers *answers)
 {
     const ErrorBar *mu_M = levels_answer(levels, ANSWER_MU_M);
@@ -381,7 +339,11 @@ void levels_answer_for(const Levels *levels, Answers *answers)
     answers->mu_M_parts = mu_M->parts;
     answers->mu_hold = (Estimate){mu_hold->value, mu_hold->bar};
     answers->mu_hold_parts = mu_hold->parts;
-    answers->steady = slides_steadily(&levels->list[levels->count - 1]);
+    // If no run of the last level had a peak, its mu_M is that of steady sliding.
+    const Level *last = levels_last(levels);
+    answers->steady = !isnan(last->answer[ANSWER_MU_M].value);
+    for (int32_t k = 0; k < last->run_count; k++)
+        answers->steady = answers->steady && last->runs[k].peaks == 0;
     answers->mu_M_known_to = levels_known_to(levels, ANSWER_MU_M);
     answers->mu_hold_known_to = levels_known_to(levels, ANSWER_MU_HOLD);
 }

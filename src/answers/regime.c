@@ -9,8 +9,8 @@
 
 #include <math.h>
 
-// Part of the drive's way over the drops that count: a stretch that lags by more is left behind. A
-// stretch that sticks lags by all of it; in a regime the lag is only scatter, over several rounds.
+// Part of the drive's way over the drops that count: a segment that lags by more is left behind. A
+// segment that sticks lags by all of it; in a regime the lag is only scatter, over several rounds.
 static const double LAG = 0.25;
 enum { TREND_DROPS = 8 };   // that a drift is told from while parts stick
 
@@ -24,20 +24,12 @@ const char *run_in_name(RunIn run_in)
     return names[run_in];
 }
 
-// The load drops up to the one in which the last node slipped for the first time.
-static int32_t count_before_settled(const Drops *drops)
-{
-    int32_t before = 0;
-    for (int32_t k = 0; k < drops->count && k <= drops->settled; k++) before += drops->list[k].load;
-    return before;
-}
-
 static double U_of(const Drops *drops, const SeriesItem *item)
 {
-    return drops->list[(item->state - drops->states) / (2 * drops->stretches.count)].U;
+    return drops->list[(item->state - drops->states) / (2 * drops->segments.count)].U;
 }
 
-// Some stretch moved by less, or more, than the drive over these drops. Where they are not whole
+// Some segment moved by less, or more, than the drive over these drops. Where they are not whole
 // rounds it may still make good the way of one with the next.
 static bool lags(const Drops *drops, const SeriesItem *items, int32_t count, bool rounds)
 {
@@ -48,9 +40,9 @@ static bool lags(const Drops *drops, const SeriesItem *items, int32_t count, boo
         way += step;
     }
     double allowed = LAG * way + (rounds ? 0 : longest);
-    const double *from = items[0].state + drops->stretches.count;
-    const double *to = items[count - 1].state + drops->stretches.count;
-    for (int32_t s = 0; s < drops->stretches.count; s++)
+    const double *from = items[0].state + drops->segments.count;
+    const double *to = items[count - 1].state + drops->segments.count;
+    for (int32_t s = 0; s < drops->segments.count; s++)
         if (fabs(to[s] - from[s]) > allowed) return true;
     return false;
 }
@@ -113,22 +105,16 @@ static void find_trend(const Drops *drops, const SeriesItem *last, int32_t count
         regime->run_in = RUN_IN_TREND;
 }
 
-static int32_t find_first(const Drops *drops, int32_t before)
-{
-    int32_t first = 0;
-    for (; first < drops->count; first++)
-        if (drops->list[first].load && before-- == 0) break;
-    return first;
-}
-
 Regime regime_of(const Drops *drops)
 {
-    int32_t all = drops_series(drops, DROP_LOAD, 0);
-    int32_t settled = drops->settled < 0 ? 0 : count_before_settled(drops);
+    // The load drops up to the one in which the last node slipped for the first time do not count.
+    int32_t all = drops_series(drops, DROP_LOAD, 0), settled = 0;
+    for (int32_t k = 0; k < drops->count && k <= drops->settled; k++)
+        settled += drops->list[k].load;
     int32_t from = settled > 0 ? settled - 1 : 0, count = all - from;   // one belongs to the start
     if (count < 1) from = 0, count = all;
     SeriesRegime found =
-        series_regime(drops->series + from, count, drops->tolerance, drops->stretches.count);
+        series_regime(drops->series + from, count, drops->tolerance, drops->segments.count);
     Regime regime = {.count = found.count, .drift = NAN, .drops_left = NAN};
     const SeriesItem *last = all > 0 ? &drops->series[all - 1] : NULL;
     if (drops->settled < 0) {
@@ -143,6 +129,8 @@ Regime regime_of(const Drops *drops)
         if (found.count > 2) find_trend(drops, last, count - 1, &regime);
         if (regime.run_in != RUN_IN_OVER) regime.period = 0;
     }
-    regime.first = find_first(drops, all - regime.count);
+    int32_t before = all - regime.count;
+    while (regime.first < drops->count && !(drops->list[regime.first].load && before-- == 0))
+        regime.first++;
     return regime;
 }

@@ -5,7 +5,7 @@
 //             (what sticks on is loaded more and more, so nothing can repeat); and while mu at
 //             successive drops shows a trend that stands out from their scatter
 //   period    the state of the whole contact comes back: what slid, mu and the share of the load
-//             that each stretch carries (record/stretches)
+//             that each segment carries (record/segments)
 //
 // Read by answers/answers.
 #ifndef AMONTONS_ANSWERS_REGIME_H

@@ -245,14 +245,6 @@ bool series_trend_stands_out(const SeriesTrend *trend)
     return fabs(trend->slope) > student(trend->freedoms) * trend->error;   // false of NaN
 }
 
-// One of `round` places that are looked at stands out by chance as often as a single one does by
-// Student's factor times sqrt(round), at most.
-static bool place_stands_out(SeriesTrend place, int32_t round)
-{
-    place.error *= sqrt(round);
-    return series_trend_stands_out(&place);
-}
-
 SeriesTrend series_trend(const SeriesItem *items, int32_t count, int32_t round, bool blocks)
 {
     double values[TREND_VALUES];
@@ -280,8 +272,12 @@ SeriesTrend series_trend(const SeriesItem *items, int32_t count, int32_t round, 
     SeriesTrend trend = trend_of(&all, used - round - 1);
     double steepest = series_trend_stands_out(&trend) ? fabs(trend.slope) : 0;
     for (int32_t place = 0; place < round; place++) {
+        // One of `round` places that are looked at stands out by chance as often as a single one
+        // does by Student's factor times sqrt(round), at most.
         const SeriesTrend *own = &place_trend[place];
-        if (!place_stands_out(*own, round) || fabs(own->slope) <= steepest) continue;
+        SeriesTrend wider = *own;
+        wider.error *= sqrt(round);
+        if (!series_trend_stands_out(&wider) || fabs(own->slope) <= steepest) continue;
         trend = *own;
         steepest = fabs(own->slope);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// How a process ended that this one had started. Called by base/child_process, base/program,
+// How a process ended that this one had started. Called by base/child_process, base/child_program,
 // study/sweep/computing/pool.
 #ifndef AMONTONS_BASE_PROCESS_H
 #define AMONTONS_BASE_PROCESS_H

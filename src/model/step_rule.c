@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A driven model needs no step longer than the rod takes to move a part of the slip that the drop
-// of friction drives. Rungs are halvings of the longest step: it is raised so that the wave step,
-// at which most steps are taken, is a rung and not up to twice as long as the next one.
+// of friction drives. Levels of dt halve the longest step: it is raised so that the wave step,
+// at which most steps are taken, is a level and not up to twice as long as the next one.
 #include "model/step_rule.h"
 
 #include "scene/programs.h"
 
 #include <math.h>
 
-static const double STEP_MAX_SLIP = 0.2;   // rung 0: the drive moves this part of that slip, and
+static const double STEP_MAX_SLIP = 0.2;   // level 0: the drive moves this part of that slip, and
     // of what the machine yields meanwhile
 static const double STEPS_LEAST_LIMIT = 50;   // without a rod a run has at least so many
 static const double STEP_RANGE_LIMIT = 1e-10;   // step_min over step_max

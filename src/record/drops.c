@@ -21,7 +21,7 @@ static const Drop NOTHING_SEEN = {
 
 int32_t drops_state_size(const Drops *drops)
 {
-    return 2 * drops->stretches.count;
+    return 2 * drops->segments.count;
 }
 
 Drops drops_none(void)
@@ -44,7 +44,7 @@ bool drops_create(const Interface *interface, const Events *events, double toler
     drops->pad_count = interface->pad_count;
     drops->pad_name = interface->pad_name;
     drops->room = FIRST_ROOM;
-    if (!stretches_create(interface, &drops->stretches, err)) return false;
+    if (!segments_create(interface, &drops->segments, err)) return false;
     drops->list = NEW_ARRAY(Drop, FIRST_ROOM, err);
     drops->series = NEW_ARRAY(SeriesItem, FIRST_ROOM, err);
     drops->slid = NEW_ARRAY(uint8_t, FIRST_ROOM * drops->pad_count, err);
@@ -55,7 +55,7 @@ bool drops_create(const Interface *interface, const Events *events, double toler
 void drops_destroy(Drops *drops)
 {
     memory_free_all(drops->list, drops->series, drops->slid, drops->states);
-    stretches_destroy(&drops->stretches);
+    segments_destroy(&drops->segments);
     *drops = (Drops){0};
 }
 
@@ -95,41 +95,14 @@ static void rise(Drops *drops, const Observation *seen)
     if (seen->mu <= rising->mu) return;
     rising->mu = seen->mu;
     rising->U = seen->U;
-    stretches_read(&drops->stretches, seen,
-                   &drops->states[(int64_t)drops->count * drops_state_size(drops)]);
+    segments_read(&drops->segments, seen,
+                  &drops->states[(int64_t)drops->count * drops_state_size(drops)]);
 }
 
 // Across gaps the place of the front is no length of slip.
 static double front_of_slip(const Observation *seen)
 {
     return seen->interface->pad_count == 1 ? seen->front - seen->trailing : NAN;
-}
-
-// The largest mu is that before the force falls: what it does after that, while the event goes on,
-// says nothing of what the contact holds.
-static void follow_rise(Drops *drops, const Observation *seen)
-{
-    Drop *rising = &drops->rising;
-    if (!has_fallen(drops)) rise(drops, seen);
-    if (!seen->certified && isnan(rising->front_uncertified))
-        rising->front_uncertified = front_of_slip(seen);
-    if (seen->grows && isnan(rising->front_growth)) rising->front_growth = front_of_slip(seen);
-}
-
-static void follow_fall(Drops *drops, const Observation *seen)
-{
-    drops->top = fmax(drops->top, seen->mu);
-    drops->fall = fmax(drops->fall, drops->top - seen->mu);
-    drops->rising.mu_after = fmin(drops->rising.mu_after, seen->mu);
-}
-
-// In a step without an event, and when one has ended: the next may begin in the very next step.
-static void forget_fall(Drops *drops, const Observation *seen)
-{
-    drops->top = seen->mu;
-    drops->fall = 0;
-    drops->rising.mu_after = INFINITY;
-    rise(drops, seen);
 }
 
 // The event of this step makes a drop, of these kinds; but one that began with the run.
@@ -154,42 +127,58 @@ static bool add_drop(Drops *drops, const Observation *seen, bool bulk, Error *er
     return !(rising->load || rising->pads > 0) || push_drop(drops, seen->interface, err);
 }
 
-// The largest mu, and how far it is known: where it is that of a single step, as where the rod hits
-// the block, shorter steps have another.
-static void follow_largest(Drops *drops, double mu)
-{
-    if (mu > drops->mu_max) {
-        drops->mu_max = mu;
-        drops->mu_beside = drops->mu_seen;
-    } else if (drops->mu_seen == drops->mu_max) {
-        drops->mu_beside = fmax(drops->mu_beside, mu);
-    }
-    drops->mu_seen = mu;
-}
-
 // While the whole block slides nothing rises: mu then says nothing of static friction.
 bool drops_record(void *self, const Observation *seen, Error *err)
 {
     Drops *drops = self;
+    Drop *rising = &drops->rising;
     const Events *events = drops->events;
     bool in_event = events->rapid >= 0 || events->ended;   // the last of the list
     bool sliding = in_event && events->list[events->count - 1].kind == EVENT_LEADING;
-    follow_largest(drops, seen->mu);
-    stretches_follow(&drops->stretches, seen);
-    if (drops->settled < 0 && drops->stretches.stuck == 0) drops->settled = drops->count;
-    if (in_event) follow_fall(drops, seen);
+
+    // The largest mu of the run, and how far it is known: where it is that of a single step, as
+    // where the rod hits the block, shorter steps have another.
+    if (seen->mu > drops->mu_max) {
+        drops->mu_max = seen->mu;
+        drops->mu_beside = drops->mu_seen;
+    } else if (drops->mu_seen == drops->mu_max) {
+        drops->mu_beside = fmax(drops->mu_beside, seen->mu);
+    }
+    drops->mu_seen = seen->mu;
+
+    segments_follow(&drops->segments, seen);
+    if (drops->settled < 0 && drops->segments.stuck == 0) drops->settled = drops->count;
+
+    // How far mu falls in the event under way.
+    if (in_event) {
+        drops->top = fmax(drops->top, seen->mu);
+        drops->fall = fmax(drops->fall, drops->top - seen->mu);
+        rising->mu_after = fmin(rising->mu_after, seen->mu);
+    }
+
     if (events->crossed) {
-        if (seen->grows && isnan(drops->rising.front_growth))
-            drops->rising.front_growth = front_of_slip(seen);
+        if (seen->grows && isnan(rising->front_growth)) rising->front_growth = front_of_slip(seen);
         if (!add_drop(drops, seen, true, err)) return false;
     } else if (sliding && drops->count > 0) {
         Drop *drop = &drops->list[drops->count - 1];
         drop->mu_after = fmin(drop->mu_after, seen->mu);
     } else {
-        follow_rise(drops, seen);
+        // The largest mu before a drop is that before the force falls: what it does after that,
+        // while the event goes on, says nothing of what the contact holds.
+        if (!has_fallen(drops)) rise(drops, seen);
+        if (!seen->certified && isnan(rising->front_uncertified))
+            rising->front_uncertified = front_of_slip(seen);
+        if (seen->grows && isnan(rising->front_growth)) rising->front_growth = front_of_slip(seen);
         if (events->ended && !add_drop(drops, seen, false, err)) return false;
     }
-    if (!in_event || events->ended) forget_fall(drops, seen);
+
+    // Without an event, and when one has ended: the next may begin in the very next step.
+    if (!in_event || events->ended) {
+        drops->top = seen->mu;
+        drops->fall = 0;
+        rising->mu_after = INFINITY;
+        rise(drops, seen);
+    }
     return true;
 }
 
@@ -259,7 +248,7 @@ bool drops_archive(Drops *drops, Archive *archive, Error *err)
     }
     archive_octets(archive, drops->slid, drops->count * drops->pad_count);
     archive_numbers(archive, drops->states, (int64_t)(drops->count + 1) * drops_state_size(drops));
-    stretches_archive(&drops->stretches, archive);
+    segments_archive(&drops->segments, archive);
     archive_index(archive, &drops->settled, -1, drops->count + 1);
     drop_archive(&drops->rising, events + 1, archive);   // it has none yet
     archive_numbers_of(archive, &drops->top, &drops->fall, &drops->mu_max, &drops->mu_seen,

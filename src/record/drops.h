@@ -13,7 +13,7 @@
 
 #include "record/events.h"
 #include "record/series.h"
-#include "record/stretches.h"
+#include "record/segments.h"
 
 typedef enum DropKind { DROP_BULK, DROP_LOAD, DROP_PADS } DropKind;
 
@@ -39,11 +39,11 @@ typedef struct Drops {
     int32_t count, room;
     Drop *list;   // [count] in order of time; owned
     SeriesItem *series;   // [room] work of answers/drop_series; owned
-    Stretches stretches;   // of the contact
+    Segments segments;   // of the contact
     uint8_t *slid;   // [room][pad_count] 1: this pad slid over all its length in the drop; owned
     int32_t pad_count;
     char (*pad_name)[GROUP_NAME_SIZE];   // [pad_count], not owned; NULL: they have none
-    double *states;   // [room + 1][2 stretches.count] a row a drop (stretches_read), the next one's
+    double *states;   // [room + 1][2 segments.count] a row a drop (segments_read), the next one's
         // behind the last; owned
     int32_t settled;   // drops on the list when the last node of the contact slipped for the first
         // time; -1: some have not

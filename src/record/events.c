@@ -107,28 +107,21 @@ static void extend_event(Event *event, const Observation *seen, double reach)
     event->peak_slip_rate = fmax(event->peak_slip_rate, seen->max_slip_rate);
 }
 
-// The width of the gaps between pads that lie from one place to another.
-static double gaps_between(const Interface *interface, double from, double to)
-{
-    double width = 0;
-    for (int32_t k = 1; k < interface_line_count(interface); k++) {
-        double before = interface_line_x(interface, k - 1), x = interface_line_x(interface, k);
-        int32_t pad = interface->pad[interface_line_node(interface, k)];
-        bool gap = pad != interface->pad[interface_line_node(interface, k - 1)];
-        if (gap && before >= from && x <= to) width += x - before;
-    }
-    return width;
-}
-
 // The quasi-static event is over; its mean front speed is proportional to V (a plain mean: the
-// front goes by nodes).
+// front goes by nodes), without the gaps between pads that it passed.
 static void end_slow(Events *events, const Interface *interface)
 {
     if (events->slow < 0) return;
     Event *event = &events->list[events->slow];
     double from = event->front_start, to = event->reach, duration = event->t_stop - event->t_start;
-    if (duration > 0 && to > from)
-        event->front_speed = (to - from - gaps_between(interface, from, to)) / duration;
+    double gaps = 0;
+    for (int32_t k = 1; k < interface_line_count(interface); k++) {
+        double before = interface_line_x(interface, k - 1), x = interface_line_x(interface, k);
+        int32_t pad = interface->pad[interface_line_node(interface, k)];
+        bool gap = pad != interface->pad[interface_line_node(interface, k - 1)];
+        if (gap && before >= from && x <= to) gaps += x - before;
+    }
+    if (duration > 0 && to > from) event->front_speed = (to - from - gaps) / duration;
     if (events->in_space)
         event->area_front_speed = front_area_speed(interface, events->slow_arrival, event->t_start);
     events->slow = -1;
@@ -173,20 +166,17 @@ static double pad_reach(const Events *events, const Interface *interface, int32_
     return reach;
 }
 
-// Some node of pad p was fast; a node or two at the ends of the other pads creep.
-static bool takes_part(const Events *events, const Interface *interface, int32_t p)
-{
-    for (int32_t i = 0; i < interface->contact_count; i++)
-        if (interface->pad[i] == p && !isnan(events->path.arrival[i])) return true;
-    return false;
-}
-
+// The farthest that a pad has slipped of those that take part: some node of theirs was fast. A node
+// or two at the ends of the other pads creep.
 static double farthest_reach(const Events *events, const Interface *interface)
 {
     double farthest = interface_line_x(interface, 0);
-    for (int32_t p = 0; p < interface->pad_count; p++)
-        if (takes_part(events, interface, p))
-            farthest = fmax(farthest, pad_reach(events, interface, p));
+    for (int32_t p = 0; p < interface->pad_count; p++) {
+        bool takes_part = false;
+        for (int32_t i = 0; i < interface->contact_count && !takes_part; i++)
+            takes_part = interface->pad[i] == p && !isnan(events->path.arrival[i]);
+        if (takes_part) farthest = fmax(farthest, pad_reach(events, interface, p));
+    }
     return farthest;
 }
 
@@ -211,18 +201,6 @@ static double sum_slipping(const PadSum *pads, int32_t count)
     return sum;
 }
 
-// How much slipped in the step before, on the event's pad and in all. A cell in space is as long as
-// the root of its mean area.
-static void note_slip(const Events *events, const Interface *interface, Event *event)
-{
-    const PadSum *before = &events->pads_before[event->pad];
-    PadSize size = pad_size(interface, event->pad);
-    event->slip_length = before->slipping / size.breadth;
-    event->slip_cells = interface->dim == 2 ? before->slipping_cells
-                                            : event->slip_length / sqrt(size.weight / size.nodes);
-    event->slip_before = sum_slipping(events->pads_before, interface->pad_count);
-}
-
 // Slip has turned fast in this step: where, and how much slipped there before.
 static bool start_rapid(Events *events, const Observation *seen, Error *err)
 {
@@ -232,7 +210,15 @@ static bool start_rapid(Events *events, const Observation *seen, Error *err)
     event->pad = 0;
     for (int32_t p = 1; p < seen->interface->pad_count; p++)
         if (events->pads[p].fastest > events->pads[event->pad].fastest) event->pad = p;
-    note_slip(events, seen->interface, event);
+    // How much slipped in the step before, on the event's pad and in all. A cell in space is as
+    // long as the root of its mean area.
+    const Interface *interface = seen->interface;
+    const PadSum *before = &events->pads_before[event->pad];
+    PadSize size = pad_size(interface, event->pad);
+    event->slip_length = before->slipping / size.breadth;
+    event->slip_cells = interface->dim == 2 ? before->slipping_cells
+                                            : event->slip_length / sqrt(size.weight / size.nodes);
+    event->slip_before = sum_slipping(events->pads_before, interface->pad_count);
     events->began = true;
     front_path_restart(seen->interface, &events->path);
     memset(events->slipped, 0, (size_t)seen->interface->contact_count);
@@ -296,17 +282,6 @@ static void follow_rapid(Events *events, const Observation *seen)
     }
 }
 
-// One step of the quasi-static event under way.
-static void follow_slow(Events *events, const Observation *seen)
-{
-    Event *event = &events->list[events->slow];
-    extend_event(event, seen, seen->front);
-    event->slipped = fmax(event->slipped, sum_slipping(events->pads, seen->interface->pad_count));
-    for (int32_t i = 0; events->in_space && i < seen->interface->contact_count; i++)
-        if (isnan(events->slow_arrival[i]) && status_slips(seen_status(seen, i)))
-            events->slow_arrival[i] = seen->t;
-}
-
 // Slow and rapid events never overlap in a step: while something is rapid, the slow one pauses.
 static bool follow_step(Events *events, const Observation *seen, Error *err)
 {
@@ -327,8 +302,14 @@ static bool follow_step(Events *events, const Observation *seen, Error *err)
         if (!start_event(events, EVENT_QUASI_STATIC, seen, &events->slow, err)) return false;
         for (int32_t i = 0; i < seen->interface->contact_count; i++) events->slow_arrival[i] = NAN;
     }
-    if (events->slow >= 0) follow_slow(events, seen);
-    return error_is_clean(err);
+    if (events->slow < 0) return true;
+    Event *event = &events->list[events->slow];
+    extend_event(event, seen, seen->front);
+    event->slipped = fmax(event->slipped, sum_slipping(events->pads, seen->interface->pad_count));
+    for (int32_t i = 0; events->in_space && i < seen->interface->contact_count; i++)
+        if (isnan(events->slow_arrival[i]) && status_slips(seen_status(seen, i)))
+            events->slow_arrival[i] = seen->t;
+    return true;
 }
 
 // A Recorder, the first of all: began, ended and crossed hold for this step only.

@@ -5,6 +5,7 @@
 
 // Range of mu, relative to mu: a level with a larger error is not accepted. As in record/steady.
 static const double STEADY_RANGE = 2e-3;
+static const double ARRIVED = 0.02;   // |ln| of a node's velocity over the rod's, at most
 // Relative; steps end at points up to rounding.
 static const double REACHED = 3e-12;
 
@@ -18,29 +19,29 @@ bool program_jumps(const RodCourse *course)
     return over->repeats && over->factor[over->count - 1] != over->factor[0];
 }
 
-// --- what a stretch shows -----------------------------------------------------------------------
+// --- what a piece shows -------------------------------------------------------------------------
 
 // Range of mu in the bins where slip is from `from` to `to`, and in the bin before, as steps may be
 // long.
-static void range_of(const ProgramStretch *stretch, double from, double to, double range[2])
+static void range_of(const ProgramPiece *piece, double from, double to, double range[2])
 {
     range[0] = INFINITY;
     range[1] = -INFINITY;
-    for (int32_t k = 0; k < stretch->count && stretch->at[k] <= to; k++) {
-        if (k + 1 < stretch->count && stretch->at[k + 1] < from) continue;
-        range[0] = fmin(range[0], stretch->low[k]);
-        range[1] = fmax(range[1], stretch->high[k]);
+    for (int32_t k = 0; k < piece->count && piece->at[k] <= to; k++) {
+        if (k + 1 < piece->count && piece->at[k + 1] < from) continue;
+        range[0] = fmin(range[0], piece->low[k]);
+        range[1] = fmax(range[1], piece->high[k]);
     }
 }
 
-static Estimate level_of(const ProgramStretch *stretch)
+static Estimate level_of(const ProgramPiece *piece)
 {
     enum { LEAST = 3 };   // bins
     double last[2], earlier[2];
-    if (!stretch->level || stretch->count < LEAST) return NONE;
-    double end = stretch->at[stretch->count - 1];
-    range_of(stretch, 0.75 * end, end, last);
-    range_of(stretch, 0.5 * end, 0.75 * end, earlier);
+    if (!piece->level || piece->count < LEAST) return NONE;
+    double end = piece->at[piece->count - 1];
+    range_of(piece, 0.75 * end, end, last);
+    range_of(piece, 0.5 * end, 0.75 * end, earlier);
     double middle = 0.5 * (last[0] + last[1]);
     double moved = fabs(middle - 0.5 * (earlier[0] + earlier[1]));
     double error = last[1] - last[0] + moved;
@@ -50,10 +51,10 @@ static Estimate level_of(const ProgramStretch *stretch)
 // Error of the reference point. After a velocity step it comes from nodes that are not quite at the
 // rod's velocity (mu may be steeper there than on the way); after a hold, from the length of the
 // step behind the peak.
-static double top_error(const ProgramStretch *stretch)
+static double top_error(const ProgramPiece *piece)
 {
-    const ProgramReading *reading = &stretch->reading;
-    const ProgramTop *top = &stretch->top;
+    const ProgramReading *reading = &piece->reading;
+    const ProgramTop *top = &piece->top;
     if (reading->kind == READING_HOLD) return top->off;
     double slope = (top->mu - reading->before.value) /
                    log(reading->velocity / reading->velocity_before);
@@ -61,13 +62,13 @@ static double top_error(const ProgramStretch *stretch)
 }
 
 // The first bin in which no more than 1/e of the way to `after` is left.
-static Estimate distance_of(const ProgramStretch *stretch, const Estimate *after, double error)
+static Estimate distance_of(const ProgramPiece *piece, const Estimate *after, double error)
 {
-    const ProgramTop *top = &stretch->top;
+    const ProgramTop *top = &piece->top;
     double left = top->mu - after->value, from = top->slip, mu = left;
     if (!(fabs(left) > 2 * (after->error + error))) return NONE;
-    for (int32_t k = 0; k < stretch->count; k++) {
-        double here = stretch->first[k] - after->value, at = stretch->at[k];
+    for (int32_t k = 0; k < piece->count; k++) {
+        double here = piece->first[k] - after->value, at = piece->at[k];
         if (at <= top->slip) continue;
         if (here / left > exp(-1)) {
             from = at;
@@ -83,14 +84,14 @@ static Estimate distance_of(const ProgramStretch *stretch, const Estimate *after
     return NONE;
 }
 
-// Reads the stretch as far as it was seen.
-static ProgramReading read_stretch(const ProgramStretch *stretch)
+// Reads the piece as far as it was seen.
+static ProgramReading read_piece(const ProgramPiece *piece)
 {
-    ProgramReading reading = stretch->reading;
-    const ProgramTop *top = &stretch->top;
-    double error = top_error(stretch);
-    reading.after = level_of(stretch);
-    reading.distance = distance_of(stretch, &reading.after, error);
+    ProgramReading reading = piece->reading;
+    const ProgramTop *top = &piece->top;
+    double error = top_error(piece);
+    reading.after = level_of(piece);
+    reading.distance = distance_of(piece, &reading.after, error);
     double evolved = fabs(top->mu - reading.after.value) *
                      expm1(top->slip / reading.distance.value);
     if (!isnan(evolved)) error += evolved;
@@ -102,8 +103,8 @@ static ProgramReading read_stretch(const ProgramStretch *stretch)
 
 // --- steps --------------------------------------------------------------------------------------
 
-// Begins the reading of a stretch that follows `old` with a jump from velocity `v` to `next`.
-static ProgramReading begin_reading(const ProgramStretch *old, double v, double next)
+// Begins the reading of a piece that follows `old` with a jump from velocity `v` to `next`.
+static ProgramReading begin_reading(const ProgramPiece *old, double v, double next)
 {
     ProgramReading reading = {.kind = READING_NONE, .before = NONE, .velocity = next};
     if (v > 0 && next > 0 && v != next) {
@@ -122,13 +123,13 @@ static ProgramReading begin_reading(const ProgramStretch *old, double v, double 
     return reading;
 }
 
-// The stretch under way is over; the next one begins at `time`, where the step seen last is.
-static void begin_stretch(ProgramReadings *readings, double time)
+// The piece under way is over; the next one begins at `time`, where the step seen last is.
+static void begin_piece(ProgramReadings *readings, double time)
 {
     const RodCourse *course = readings->course;
-    ProgramStretch *now = &readings->now;
+    ProgramPiece *now = &readings->now;
     if (now->reading.kind != READING_NONE && readings->count < PROGRAM_READINGS_MAX)
-        readings->list[readings->count++] = read_stretch(now);
+        readings->list[readings->count++] = read_piece(now);
     double tiny = 1e-9 * fabs(course->velocity);
     double before = rod_course_velocity(course, time);
     double after = rod_course_velocity(course, time * (1 + REACHED));
@@ -138,7 +139,7 @@ static void begin_stretch(ProgramReadings *readings, double time)
     double last = isfinite(ends) ? rod_course_velocity(course, ends) : after;
     reading.t = time;
     reading.U = readings->U;
-    *now = (ProgramStretch){
+    *now = (ProgramPiece){
         .reading = reading,
         .level = fabs(last - after) <= tiny,
         .begins = time,
@@ -150,52 +151,31 @@ static void begin_stretch(ProgramReadings *readings, double time)
 }
 
 // Two bins each become one.
-static void merge_bins(ProgramStretch *stretch)
+static void merge_bins(ProgramPiece *piece)
 {
     for (int32_t bin = 0, one = 0; one < PROGRAM_BINS; bin++, one += 2) {
         int32_t next = one + 1;
-        stretch->at[bin] = stretch->at[one];
-        stretch->first[bin] = stretch->first[one];
-        stretch->low[bin] = fmin(stretch->low[one], stretch->low[next]);
-        stretch->high[bin] = fmax(stretch->high[one], stretch->high[next]);
+        piece->at[bin] = piece->at[one];
+        piece->first[bin] = piece->first[one];
+        piece->low[bin] = fmin(piece->low[one], piece->low[next]);
+        piece->high[bin] = fmax(piece->high[one], piece->high[next]);
     }
-    stretch->count = PROGRAM_BINS / 2;
-    stretch->width = stretch->at[stretch->count - 1] / stretch->count;
+    piece->count = PROGRAM_BINS / 2;
+    piece->width = piece->at[piece->count - 1] / piece->count;
 }
 
-static void add_to_bin(ProgramStretch *stretch, double mu, double slip)
+static void add_to_bin(ProgramPiece *piece, double mu, double slip)
 {
-    int32_t last = stretch->count - 1;
-    if (last >= 0 && slip < stretch->at[last] + stretch->width) {
-        stretch->low[last] = fmin(stretch->low[last], mu);
-        stretch->high[last] = fmax(stretch->high[last], mu);
+    int32_t last = piece->count - 1;
+    if (last >= 0 && slip < piece->at[last] + piece->width) {
+        piece->low[last] = fmin(piece->low[last], mu);
+        piece->high[last] = fmax(piece->high[last], mu);
         return;
     }
-    if (stretch->count == PROGRAM_BINS) merge_bins(stretch);
-    int32_t k = stretch->count++;
-    stretch->at[k] = slip;
-    stretch->first[k] = stretch->low[k] = stretch->high[k] = mu;
-}
-
-// A peak is past where mu has gone back by half of it, and by more than a level may.
-static void follow_peak(ProgramStretch *stretch, double mu, double slip)
-{
-    ProgramTop *top = &stretch->top;
-    if (stretch->fell) return;
-    if (!(mu <= top->mu)) {
-        *top = (ProgramTop){.mu = mu, .slip = slip};
-        return;
-    }
-    if (top->off == 0) top->off = top->mu - mu;
-    double limit = fmax(0.5 * (top->mu - stretch->mu), STEADY_RANGE * fabs(top->mu));
-    stretch->fell = top->mu - mu > limit;
-}
-
-static void note_arrival(ProgramStretch *stretch, double mu, double slip, double off)
-{
-    static const double ARRIVED = 0.02;
-    if (isnan(stretch->top.mu) && off <= ARRIVED)
-        stretch->top = (ProgramTop){.mu = mu, .slip = slip, .off = off};
+    if (piece->count == PROGRAM_BINS) merge_bins(piece);
+    int32_t k = piece->count++;
+    piece->at[k] = slip;
+    piece->first[k] = piece->low[k] = piece->high[k] = mu;
 }
 
 static void see_contact(ProgramReadings *readings, const Observation *seen)
@@ -222,19 +202,29 @@ bool program_readings_record(void *self, const Observation *seen, Error *err)
 {
     (void)err;
     ProgramReadings *readings = self;
-    ProgramStretch *now = &readings->now;
+    ProgramPiece *now = &readings->now;
     if (!readings->course) return true;
     while (readings->started && now->ends < seen->t * (1 - REACHED))
-        begin_stretch(readings, now->ends);
+        begin_piece(readings, now->ends);
     see_contact(readings, seen);
-    if (!readings->started) begin_stretch(readings, 0);
+    if (!readings->started) begin_piece(readings, 0);
     readings->started = true;
-    add_to_bin(now, readings->mu, readings->slip - now->slip);
-    if (now->reading.kind == READING_HOLD)
-        follow_peak(now, readings->mu, readings->slip - now->slip);
-    else
-        note_arrival(now, readings->mu, readings->slip - now->slip, readings->off);
-    while (now->ends <= seen->t * (1 + REACHED)) begin_stretch(readings, now->ends);
+    double mu = readings->mu, slip = readings->slip - now->slip;
+    ProgramTop *top = &now->top;
+    add_to_bin(now, mu, slip);
+    if (now->reading.kind != READING_HOLD) {
+        // The first step in which every node slides with the rod's new velocity.
+        if (isnan(top->mu) && readings->off <= ARRIVED)
+            *top = (ProgramTop){.mu = mu, .slip = slip, .off = readings->off};
+    } else if (!now->fell && !(mu <= top->mu)) {
+        *top = (ProgramTop){.mu = mu, .slip = slip};
+    } else if (!now->fell) {
+        // A peak is past where mu has gone back by half of it, and by more than a level may.
+        if (top->off == 0) top->off = top->mu - mu;
+        double limit = fmax(0.5 * (top->mu - now->mu), STEADY_RANGE * fabs(top->mu));
+        now->fell = top->mu - mu > limit;
+    }
+    while (now->ends <= seen->t * (1 + REACHED)) begin_piece(readings, now->ends);
     return true;
 }
 
@@ -242,7 +232,7 @@ bool program_readings_at(const ProgramReadings *readings, int32_t k, ProgramRead
 {
     bool open = k == readings->count && readings->now.reading.kind != READING_NONE;
     if (k < readings->count) *reading = readings->list[k];
-    if (open) *reading = read_stretch(&readings->now);
+    if (open) *reading = read_piece(&readings->now);
     return k < readings->count || open;
 }
 
@@ -264,20 +254,20 @@ static void archive_reading(ProgramReading *reading, Archive *archive)
     archive_estimate(&reading->distance, archive);
 }
 
-static void archive_stretch(ProgramStretch *stretch, Archive *archive)
+static void archive_piece(ProgramPiece *piece, Archive *archive)
 {
-    ProgramTop *top = &stretch->top;
-    archive_reading(&stretch->reading, archive);
-    archive_flag(archive, &stretch->level);
-    archive_numbers_of(archive, &stretch->begins, &stretch->ends, &stretch->mu, &stretch->slip,
-                       &stretch->width);
-    archive_index(archive, &stretch->count, 0, PROGRAM_BINS + 1);
-    archive_numbers(archive, stretch->at, stretch->count);
-    archive_numbers(archive, stretch->first, stretch->count);
-    archive_numbers(archive, stretch->low, stretch->count);
-    archive_numbers(archive, stretch->high, stretch->count);
+    ProgramTop *top = &piece->top;
+    archive_reading(&piece->reading, archive);
+    archive_flag(archive, &piece->level);
+    archive_numbers_of(archive, &piece->begins, &piece->ends, &piece->mu, &piece->slip,
+                       &piece->width);
+    archive_index(archive, &piece->count, 0, PROGRAM_BINS + 1);
+    archive_numbers(archive, piece->at, piece->count);
+    archive_numbers(archive, piece->first, piece->count);
+    archive_numbers(archive, piece->low, piece->count);
+    archive_numbers(archive, piece->high, piece->count);
     archive_numbers_of(archive, &top->mu, &top->slip, &top->off);
-    archive_flag(archive, &stretch->fell);
+    archive_flag(archive, &piece->fell);
 }
 
 void program_readings_archive(ProgramReadings *readings, Archive *archive)
@@ -286,7 +276,7 @@ void program_readings_archive(ProgramReadings *readings, Archive *archive)
     archive_section(archive, "program readings");
     archive_flag(archive, &readings->started);
     archive_numbers_of(archive, &readings->mu, &readings->slip, &readings->U);
-    archive_stretch(&readings->now, archive);
+    archive_piece(&readings->now, archive);
     archive_index(archive, &readings->count, 0, PROGRAM_READINGS_MAX + 1);
     for (int32_t k = 0; k < readings->count; k++) archive_reading(&readings->list[k], archive);
 }

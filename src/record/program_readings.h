@@ -7,7 +7,7 @@
 //     direct effect   mu in the first step in which every node slides with the rod's new velocity,
 //                     within 2 %, less the level before. (The largest mu of a jump is that of waves
 //                     in the block.)
-//     level           the middle of mu over the last quarter of a stretch's slip, between two
+//     level           the middle of mu over the last quarter of a piece's slip, between two
 //                     points of the program. Its error: all of the range there, and how far it
 //                     moved from the quarter before, which holds if slip goes on for twice the
 //                     slip distance
@@ -45,7 +45,7 @@ typedef struct ProgramTop {
 } ProgramTop;
 
 // Steps between two points of the program, in bins of slip: as many as there is room for.
-typedef struct ProgramStretch {
+typedef struct ProgramPiece {
     ProgramReading reading;   // what began it
     bool level;   // the rod's velocity is the same in all of it
     double begins, ends;   // time
@@ -56,14 +56,14 @@ typedef struct ProgramStretch {
     double low[PROGRAM_BINS], high[PROGRAM_BINS];   // of mu in it
     ProgramTop top;
     bool fell;   // behind a hold's
-} ProgramStretch;
+} ProgramPiece;
 
 typedef struct ProgramReadings {
     const RodCourse *course;   // not owned; NULL: nothing is read. Set at the start, all else 0
     bool started;   // the first step was seen
     double mu, slip, U, off;   // of the step seen last; off: as in ProgramTop
-    ProgramStretch now;
-    int32_t count;   // readings of stretches that are over; later ones are left out
+    ProgramPiece now;
+    int32_t count;   // readings of pieces that are over; later ones are left out
     ProgramReading list[PROGRAM_READINGS_MAX];
 } ProgramReadings;
 

@@ -13,15 +13,6 @@ bool window_is_sought(const Window *window)
     return window->def.around > 0 || window->def.last > 0;
 }
 
-static bool is_open(const Window *window, const Observation *seen)
-{
-    const WindowDef *def = &window->def;
-    if (seen->U < def->from_U || seen->U > def->to_U) return false;
-    if (seen->t < def->from_t || seen->t > def->to_t) return false;
-    if (!window_is_sought(window)) return true;
-    return window->again && seen->t >= window->begin && seen->t <= window->end;
-}
-
 // A sliding goes from the step before its rapid event to the one in which all is slow again.
 static void follow_slidings(Window *window, const Observation *seen)
 {
@@ -41,7 +32,12 @@ static void follow_slidings(Window *window, const Observation *seen)
 
 static bool record_inside(Window *window, const Observation *seen, Error *err)
 {
-    if (!is_open(window, seen)) return true;
+    const WindowDef *def = &window->def;
+    bool open = seen->U >= def->from_U && seen->U <= def->to_U && seen->t >= def->from_t &&
+                seen->t <= def->to_t;
+    if (window_is_sought(window))
+        open = open && window->again && seen->t >= window->begin && seen->t <= window->end;
+    if (!open) return true;
     window->steps++;
     return recorders_record(&window->inside, seen, err);
 }

@@ -24,28 +24,6 @@ static void write_parameters(const Scene *scene, JsonWriter *json, const char *n
     json_end(json);
 }
 
-static void write_numbers(const SceneNumbers *numbers, JsonWriter *json, const char *name)
-{
-    json_begin_list(json, name);
-    for (int32_t i = 0; i < numbers->count; i++) json_number(json, NULL, numbers->value[i]);
-    json_end(json);
-}
-
-static void write_names(const SceneNames *names, JsonWriter *json, const char *name)
-{
-    json_begin_list(json, name);
-    for (int32_t i = 0; i < names->count; i++) json_text(json, NULL, names->name[i]);
-    json_end(json);
-}
-
-// A reader of the document finds it whatever folder the run was started in.
-static void write_file(const char *path, JsonWriter *json, const char *name, const char *folder)
-{
-    char file[SCENE_TEXT_SIZE];
-    folder_relative(folder, path, file, sizeof file);
-    json_text(json, name, file);
-}
-
 static bool is_file(const char *key)
 {
     static const char *const files[] = {"mesh.file", "friction.file", "contact.profile",
@@ -76,6 +54,8 @@ static void write_items(const SceneItems *items, const Scene *scene, JsonWriter 
 void scene_write_value(const SceneKey *key, const Scene *scene, JsonWriter *json, const char *name)
 {
     const void *field = (const char *)scene + key->offset;
+    const SceneNumbers *numbers = field;
+    const SceneNames *names = field;
     switch (key->type) {
     case KEY_NUMBER:
         json_number(json, name, *(const double *)field);
@@ -91,10 +71,14 @@ void scene_write_value(const SceneKey *key, const Scene *scene, JsonWriter *json
         json_text(json, name, key->choices[*(const int32_t *)field]);
         return;
     case KEY_NUMBERS:
-        write_numbers(field, json, name);
+        json_begin_list(json, name);
+        for (int32_t i = 0; i < numbers->count; i++) json_number(json, NULL, numbers->value[i]);
+        json_end(json);
         return;
     case KEY_NAMES:
-        write_names(field, json, name);
+        json_begin_list(json, name);
+        for (int32_t i = 0; i < names->count; i++) json_text(json, NULL, names->name[i]);
+        json_end(json);
         return;
     case KEY_PARAMETERS:
         write_parameters(scene, json, name);
@@ -108,14 +92,6 @@ void scene_write_value(const SceneKey *key, const Scene *scene, JsonWriter *json
     }
 }
 
-// A key that may be left out and was has no value to show.
-static bool is_absent(const SceneKey *key, const Scene *scene, bool given)
-{
-    bool part_of_fields = strncmp(key->name, "output.fields.", 14) == 0;
-    if (key->type == KEY_FIELDS) return scene->output.fields;   // its keys follow instead
-    return (part_of_fields && !scene->output.fields) || (!key->standard && !given);
-}
-
 // Goes through the keys with a stack of the maps that are open: those the next key does not share
 // are closed, those it has more are opened.
 void scene_write_json(const Scene *scene, JsonWriter *json, const char *name, const char *folder)
@@ -125,7 +101,12 @@ void scene_write_json(const Scene *scene, JsonWriter *json, const char *name, co
     char open[LEVELS_MAX][GROUP_NAME_SIZE] = {0};   // names of the maps that are open
     json_begin_object(json, name);
     for (int32_t k = 0; k < count; k++) {
-        if (is_absent(&keys[k], scene, scene->given[k])) continue;
+        // A key that may be left out and was has no value to show.
+        bool part_of_fields = strncmp(keys[k].name, "output.fields.", 14) == 0;
+        bool left_out = !keys[k].standard && !scene->given[k];
+        if (keys[k].type == KEY_FIELDS ? scene->output.fields
+                                       : (part_of_fields && !scene->output.fields) || left_out)
+            continue;
         const char *rest = keys[k].name;
         int32_t shared = 0;
         for (; shared < depth; shared++) {
@@ -140,10 +121,13 @@ void scene_write_json(const Scene *scene, JsonWriter *json, const char *name, co
             json_begin_object(json, open[depth++]);
             rest = dot + 1;
         }
-        if (is_file(keys[k].name))
-            write_file((const char *)scene + keys[k].offset, json, rest, folder);
-        else
+        if (!is_file(keys[k].name)) {
             scene_write_value(&keys[k], scene, json, rest);
+            continue;
+        }
+        char file[SCENE_TEXT_SIZE];   // found from the document, wherever the run was started
+        folder_relative(folder, (const char *)scene + keys[k].offset, file, sizeof file);
+        json_text(json, rest, file);
     }
     for (; depth >= 0; depth--) json_end(json);
 }

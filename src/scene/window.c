@@ -17,31 +17,21 @@ static int32_t read_whole(const char *text, int32_t most, const char **rest)
     return number >= 1 && number <= most && number == floor(number) ? (int32_t)number : 0;
 }
 
-static int32_t read_around(const char *text)
-{
-    const char *rest;
-    size_t length = strlen(AROUND);
-    if (strncmp(text, AROUND, length) != 0) return 0;
-    int32_t number = read_whole(text + length, NUMBER_MAX, &rest);
-    return *rest == 0 ? number : 0;
-}
-
-static int32_t read_last(const char *text)
-{
-    const char *rest;
-    int32_t count = read_whole(text, WINDOW_SLIDINGS_MAX, &rest);
-    return strcmp(rest, count == 1 ? " sliding" : " slidings") == 0 ? count : 0;
-}
-
 WindowDef scene_window(const Scene *scene)
 {
     const SceneWindow *window = &scene->output.window;
     WindowDef def = {.from_U = window->from_U,
                      .to_U = window->to_U > 0 ? window->to_U : INFINITY,
                      .from_t = window->from_t,
-                     .to_t = window->to_t > 0 ? window->to_t : INFINITY,
-                     .around = read_around(window->around),
-                     .last = read_last(window->last)};
+                     .to_t = window->to_t > 0 ? window->to_t : INFINITY};
+    const char *rest;
+    size_t length = strlen(AROUND);
+    if (strncmp(window->around, AROUND, length) == 0) {
+        int32_t number = read_whole(window->around + length, NUMBER_MAX, &rest);
+        if (*rest == 0) def.around = number;
+    }
+    int32_t last = read_whole(window->last, WINDOW_SLIDINGS_MAX, &rest);
+    if (strcmp(rest, last == 1 ? " sliding" : " slidings") == 0) def.last = last;
     def.given = def.around > 0 || def.last > 0 || def.from_U > 0 || def.from_t > 0 ||
                 isfinite(def.to_U) || isfinite(def.to_t);
     return def;

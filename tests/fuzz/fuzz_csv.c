@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A table of measurements: its cells, and what a fit makes of them.
 #include "io/text/csv_reader.h"
-#include "study/search/measured.h"
+#include "study/search/measurements.h"
 #include "tests/fuzz/fuzz.h"
 
 #include <string.h>
@@ -26,7 +26,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     int64_t before = memory_counters().live;
     char fit[64];
     CsvTable table;
-    Measured measured = {0};
+    Measurements measured = {0};
     Error err = {0}, other = {0};
     const char *path = fuzz_file(data, size);
     if (csv_read(path, &table, &err)) look_through(&table);
@@ -35,9 +35,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     snprintf(fit, sizeof fit, "measured: %s", path);
     if (yaml_parse("study", fit, 0, &study->file, &other)) {
         study->search.measured = yaml_look_up(study->file, "measured");
-        measured_read(study, &measured, &other);
+        measurements_read(study, &measured, &other);
     }
-    measured_destroy(&measured);
+    measurements_destroy(&measured);
     yaml_destroy(study->file);
     memory_free(study);
     fuzz_check_freed(before);

@@ -68,7 +68,7 @@ CONSTANTS = [
     *of("stepping/step_control.c",
         ("SAFETY", "part of the tolerance that the error of a longer step must keep", HERE),
         ("LEDGER_SHARE", "part of the ledger's tolerance that long steps may use up", HERE),
-        ("UNCERTIFIED_DROP", "rungs down from a step into a state that is not certified", HERE),
+        ("UNCERTIFIED_DROP", "levels down from a step into a state that is not certified", HERE),
         ("SMALL_OSCILLATION", "part of v_c that an oscillation may reach unseen", HERE)),
     *of("stepping/oscillation_record.c",
         ("SMALL_RATE", "slip rate up to which an oscillation is small, of v_c", HERE),
@@ -158,8 +158,8 @@ NOT_A_CHOICE = {
     "contact/rod.c": {"PI": "pi", "WHOLE": ROUNDING},
     "record/contact_arrays.c": {"SLIGHT": "as in friction/friction_look.c"},
     "stepping/friction_states.c": {"PRESSED": "of mu: the contact problem's own rounding"},
-    "stepping/certificate.c": {"BETWEEN_RUNGS": "(sqrt 2 + 1/sqrt 2)/2: rungs double",
-                               "BETWEEN_MEMORIES": "proven: 1.1242, rungs double",
+    "stepping/certificate.c": {"BETWEEN_RUNGS": "(sqrt 2 + 1/sqrt 2)/2: dt doubles from level to level",
+                               "BETWEEN_MEMORIES": "proven: 1.1242, dt doubles from level to level",
                                "SETTLED": "digits that tell a ratio from 1, with room"},
     "contact/contact_discs.c": {
         "CHORD_GAIN": "as in contact/contact_solver.c", "STEPS": "of 15, 20 and 30 the second: 435 collected problems",
@@ -231,7 +231,7 @@ NOT_A_CHOICE = {
     "answers/statistics.c": {"ROUNDS": "what a period is (head of the file); half and twice changed no period",
                         "REPEATING_PART": "the same", "NEARER": "of run-in: above", "TREND_VALUES": SIZE, "by_freedoms": "Student's, 95 %",
                         "CORRELATED": "items that tell nothing of a correlation", "CORRELATION_MAX": "the root of what follows is finite"},
-    "record/stretches.c": {"STRETCHES": "of run-in: above"},
+    "record/segments.c": {"SEGMENTS": "of run-in: above"},
     "answers/answers.h": {"ERROR_BAR": "95 % of normal deviates"},
     "answers/error_bars_json.c": {"BRANCH_WIDTH": "of branches: the next is twice as far"},
     "answers/error_bars.c": {

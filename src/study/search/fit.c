@@ -35,7 +35,7 @@ static bool take_results(Search *search, int32_t d, int32_t c, const char *repor
         const Datum *datum = &fit->measured.list[k];
         int64_t at = (int64_t)d * count + k;
         if (datum->condition != c) continue;
-        if (!measured_find(datum, report, history, &fit->found[at], &fit->own[at], err))
+        if (!measurements_find(datum, report, history, &fit->found[at], &fit->own[at], err))
             return false;
     }
     return true;
@@ -144,7 +144,7 @@ static bool open_fit(Fit *fit, const char *path, const SweepOptions *options, Er
 {
     Search *search = &fit->search;
     if (!search_open(search, path, options, true, err)) return false;
-    if (!measured_read(search->study, &fit->measured, err)) return false;
+    if (!measurements_read(search->study, &fit->measured, err)) return false;
     if (fit->measured.count < search->study->search.key_count)
         return REFUSE(err, "%s: %d measurements cannot tell %d keys", path, fit->measured.count,
                       search->study->search.key_count);
@@ -203,7 +203,7 @@ bool amontons_fit(const char *path, const SweepOptions *options, FitSummary *sum
 cleanup:
     if (fit) {
         search_close(&fit->search, err);
-        measured_destroy(&fit->measured);
+        measurements_destroy(&fit->measured);
         response_destroy(&fit->response);
         memory_free_all(fit->found, fit->own);
     }

@@ -162,7 +162,7 @@ static bool find_place(const Fit *fit, int32_t datum, double *x, char key[STUDY_
 static bool has_places(const Fit *fit, double *x, char key[STUDY_NAME_SIZE])
 {
     char other[STUDY_NAME_SIZE];
-    const Measured *measured = &fit->measured;
+    const Measurements *measured = &fit->measured;
     for (int32_t k = 0; k < measured->count; k++) {
         if (!find_place(fit, k, &x[k], k ? other : key)) return false;
         if (strcmp(measured->list[k].name, measured->list[0].name) != 0) return false;

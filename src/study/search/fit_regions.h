@@ -4,7 +4,7 @@
 #define AMONTONS_STUDY_SEARCH_FIT_REGIONS_H
 
 #include "amontons_optimise.h"
-#include "study/search/measured.h"
+#include "study/search/measurements.h"
 #include "study/search/response.h"
 #include "study/search/search.h"
 
@@ -17,7 +17,7 @@ typedef struct Region {
 
 typedef struct Fit {
     Search search;
-    Measured measured;   // owned, as all below
+    Measurements measured;   // owned, as all below
     double *found, *own;   // [DESIGNS_MAX][measured.count] of each design, and its error
     Response response;
     double best[STUDY_SEARCH_MAX];   // scaled

@@ -3,7 +3,7 @@
 
 #include "base/memory.h"
 #include "io/text/json_reader.h"
-#include "study/search/front.h"
+#include "study/search/pareto_front.h"
 #include "study/search/search_answer.h"
 #include "study/search/search_figure.h"
 #include "study/sweep/computing/point.h"
@@ -152,7 +152,7 @@ static void print_answer(const Search *search, const OptimiseSummary *summary, i
                                        [OVER_FRONT] = "mean"};
     const Designs *designs = &search->designs;
     Error ignored = {0};
-    if (search->study->search.over == OVER_FRONT) front_print(search, out, &ignored);
+    if (search->study->search.over == OVER_FRONT) pareto_front_print(search, out, &ignored);
     fprintf(out, "%s, %s%s of %d designs", quantity(search),
             search->study->rank.lowest ? "the lowest" : "the highest",
             designs->has_bars ? " for sure (by its bar)" : "", summary->designs);
@@ -247,7 +247,7 @@ bool optimise_report(const Search *search, const OptimiseSummary *summary, Error
     print_answer(search, summary, best, answer.out);
     if (!search_answer_end(search, &answer, err)) return false;
     if (!draw_course(search, err)) return false;
-    if (search->study->search.over == OVER_FRONT && !front_draw(search, err)) return false;
+    if (search->study->search.over == OVER_FRONT && !pareto_front_draw(search, err)) return false;
     for (int32_t k = 0; k < search->study->search.key_count; k++)
         if (!draw_section(search, best, k, err)) return false;
     return search_leave_best(search, best, search->designs.list[best].deciding, err);

@@ -8,7 +8,7 @@
 #ifndef AMONTONS_STUDY_SEARCH_RESPONSE_H
 #define AMONTONS_STUDY_SEARCH_RESPONSE_H
 
-#include "study/search/measured.h"
+#include "study/search/measurements.h"
 
 enum { RESPONSE_KEYS_MAX = 12, RESPONSE_TERMS_MAX = 91 };   // 1 + 12 + 12 * 13 / 2
 

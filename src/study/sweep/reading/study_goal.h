@@ -43,7 +43,7 @@ typedef enum SearchOver {
     OVER_WORST,
     OVER_MEAN,
     OVER_DEVIATION,   // the standard deviation: least is best
-    OVER_FRONT,   // each point is an aim of its own (study/search/front)
+    OVER_FRONT,   // each point is an aim of its own (study/search/pareto_front)
 } SearchOver;
 
 typedef struct StudySearch {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Reads the results that a study asks for: the columns of its table (`record`), the best of its
 // points (`rank`) and figures (`plot`). Called by study_read, after study_vary, and by
-// search/measured.
+// search/measurements.
 #ifndef AMONTONS_STUDY_SWEEP_READING_STUDY_WANTED_H
 #define AMONTONS_STUDY_SWEEP_READING_STUDY_WANTED_H
 

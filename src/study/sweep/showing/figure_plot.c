@@ -9,7 +9,7 @@
 #include "base/order.h"
 #include "io/files/folder.h"
 #include "render/picture_options.h"
-#include "study/sweep/showing/figure_data.h"
+#include "study/sweep/showing/plot_sources.h"
 #include "study/sweep/showing/figure_file.h"
 
 #include <math.h>

@@ -4,7 +4,7 @@
 
 #include "base/memory.h"
 #include "near.h"
-#include "study/search/front.h"
+#include "study/search/pareto_front.h"
 
 static Study study = {
     .axis_count = 1,
@@ -93,13 +93,13 @@ TEST_BETWEEN(test_the_front, begin, end)
     give(designs, 2, 0.29, 0.33);
     give(designs, 3, 0.30, 0.31);
     give(designs, 4, NAN, 0.5);
-    for (int32_t k = 0; k < 5; k++) assert_int_equal(front_holds(designs, k), k < 3);
+    for (int32_t k = 0; k < 5; k++) assert_int_equal(pareto_front_holds(designs, k), k < 3);
     assert_near("mean", designs->list[0].value, 0.31, 1e-15);
     designs->aim = 1;
     designs_judge(designs, 2);
     assert_near("one aim", designs->list[2].value, 0.33, 1e-15);
     study.rank.lowest = true;
-    for (int32_t k = 0; k < 4; k++) assert_int_equal(front_holds(designs, k), k > 1);
+    for (int32_t k = 0; k < 4; k++) assert_int_equal(pareto_front_holds(designs, k), k > 1);
     study.rank.lowest = false, designs->aim = -1;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Data of a plot from each sweep: its quantities, and which points belong together. Called by
 // figure_plot.
-#ifndef AMONTONS_STUDY_SWEEP_SHOWING_FIGURE_DATA_H
-#define AMONTONS_STUDY_SWEEP_SHOWING_FIGURE_DATA_H
+#ifndef AMONTONS_STUDY_SWEEP_SHOWING_PLOT_SOURCES_H
+#define AMONTONS_STUDY_SWEEP_SHOWING_PLOT_SOURCES_H
 
 #include "study/sweep/showing/plot_table.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "render/view/window.h"
+#include "render/view/range.h"
 
 #include "render/view/block.h"
 
@@ -30,26 +30,27 @@ static bool read_moment(const ResultView *view, const char *at, double *U, Error
     return true;
 }
 
-bool window_find(const ResultView *view, const PictureStyle *style, Window *window, Error *err)
+bool view_range_find(const ResultView *view, const PictureStyle *style, ViewRange *shown,
+                     Error *err)
 {
     double low = 0, high = 0;
     int32_t count = 0;
     result_view_range(view, &low, &high);
-    *window = (Window){.low = low, .high = high};
+    *shown = (ViewRange){.low = low, .high = high};
     for (int32_t k = 0; k < view->event_count; ++k)
         if (view->events[k].kind == VIEW_LEADING) ++count;
     double start = count > SLIDINGS_MOST ? find_start(view, count) : NAN;
     if (isfinite(start) && !style->from && !style->to) {
-        window->low = start;
-        snprintf(window->words, sizeof window->words, "the last %d of %d slidings", SLIDINGS_SHOWN,
+        shown->low = start;
+        snprintf(shown->words, sizeof shown->words, "the last %d of %d slidings", SLIDINGS_SHOWN,
                  count);
     }
-    if (style->from && !read_moment(view, style->from, &window->low, err)) return false;
-    if (style->to && !read_moment(view, style->to, &window->high, err)) return false;
-    window->low = fmax(window->low, low);
-    window->high = fmin(window->high, high);
-    if (!(window->high > window->low))
+    if (style->from && !read_moment(view, style->from, &shown->low, err)) return false;
+    if (style->to && !read_moment(view, style->to, &shown->high, err)) return false;
+    shown->low = fmax(shown->low, low);
+    shown->high = fmin(shown->high, high);
+    if (!(shown->high > shown->low))
         return REFUSE(err, "nothing lies from U = %g to U = %g: the history goes from %g to %g",
-                      window->low, window->high, low, high);
+                      shown->low, shown->high, low, high);
     return true;
 }

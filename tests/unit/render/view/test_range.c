@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What of a run is shown: the last slidings of many, or what was asked for, by U or by time.
-#include "render/view/window.h"
+#include "render/view/range.h"
 
 #include "cases.h"
 
@@ -23,22 +23,22 @@ static ResultView view_of(int32_t slidings, double t[ROWS], double U[ROWS], View
         .rows = ROWS, .t = t, .U = U, .event_count = slidings + 1, .events = events};
 }
 
-static Window window_of(int32_t slidings, const char *from, const char *to, Error *err)
+static ViewRange range_of(int32_t slidings, const char *from, const char *to, Error *err)
 {
     double t[ROWS], U[ROWS];
     ViewEvent events[SLIDINGS + 1];
     ResultView view = view_of(slidings, t, U, events);
     PictureStyle style = {.from = from, .to = to};
-    Window window;
-    window_find(&view, &style, &window, err);
-    return window;
+    ViewRange shown;
+    view_range_find(&view, &style, &shown, err);
+    return shown;
 }
 
 TEST(test_last_slidings)
 {
     Error err = {0};
-    Window few = window_of(40, NULL, NULL, &err), many = window_of(SLIDINGS, NULL, NULL, &err);
-    Window asked = window_of(SLIDINGS, NULL, "U=0.5", &err);
+    ViewRange few = range_of(40, NULL, NULL, &err), many = range_of(SLIDINGS, NULL, NULL, &err);
+    ViewRange asked = range_of(SLIDINGS, NULL, "U=0.5", &err);
     assert_true(error_is_clean(&err));
     assert_true(few.low == 0 && few.high == U_LAST && !*few.words);
     assert_true(many.low == 0.02 * 25 && many.high == U_LAST);   // behind the 25th are 20
@@ -49,15 +49,15 @@ TEST(test_last_slidings)
 TEST(test_moments)
 {
     Error err = {0};
-    Window window = window_of(1, "t=21", "t=1000", &err);   // the rod was at 0.1 from t = 20 on
+    ViewRange shown = range_of(1, "t=21", "t=1000", &err);   // the rod was at 0.1 from t = 20 on
     assert_true(error_is_clean(&err));
-    assert_true(window.low == 0.01 * 10 && window.high == U_LAST);
-    window = window_of(1, "t=-5", "U=0.2", &err);
-    assert_true(window.low == 0 && window.high == 0.2);
-    window_of(1, "U=0.3", "t=20", &err);
+    assert_true(shown.low == 0.01 * 10 && shown.high == U_LAST);
+    shown = range_of(1, "t=-5", "U=0.2", &err);
+    assert_true(shown.low == 0 && shown.high == 0.2);
+    range_of(1, "U=0.3", "t=20", &err);
     assert_int_equal(err.code, ERROR_INPUT);
     assert_non_null(strstr(err.message, "nothing lies from U = 0.3 to U = 0.1"));
     err = (Error){0};
-    window_of(1, "0.3", NULL, &err);
+    range_of(1, "0.3", NULL, &err);
     assert_int_equal(err.code, ERROR_INPUT);
 }

@@ -2,7 +2,7 @@
 // posix_spawn in place of fork and exec: it does not copy the page tables of a large process. In a
 // process group of its own the program does not get the terminal's Ctrl-C: sbatch, interrupted,
 // could leave a job that nobody knows of.
-#include "base/program.h"
+#include "base/child_program.h"
 
 #include "base/process.h"
 #include "base/system.h"
@@ -55,7 +55,7 @@ static void take_output(int pipe, char *output, size_t size)
 }
 
 // A program that runs and fails is no error here: its status says so.
-bool program_run(const char *const *words, char *output, size_t size, int *status, Error *err)
+bool child_program_run(const char *const *words, char *output, size_t size, int *status, Error *err)
 {
     int ends[2] = {-1, -1};
     pid_t process = 0;

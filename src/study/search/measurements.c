@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "study/search/measured.h"
+#include "study/search/measurements.h"
 
 #include "base/memory.h"
 #include "base/text.h"
@@ -191,7 +191,7 @@ static void place_of_row(const Table *table, int32_t row, char *place, size_t si
 }
 
 // "load.pressure: 0.003, mesh.set.length: 1"; one that was there before is the same.
-static bool find_condition(Measured *measured, const Table *table, int32_t row, int32_t *found,
+static bool find_condition(Measurements *measured, const Table *table, int32_t row, int32_t *found,
                            Error *err)
 {
     char *text = NULL, origin[SCENE_TEXT_SIZE];
@@ -215,7 +215,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-static bool add_datum(Measured *measured, const Datum *datum, Error *err)
+static bool add_datum(Measurements *measured, const Datum *datum, Error *err)
 {
     if (!memory_grow(&measured->list, measured->count, &measured->room, sizeof *measured->list,
                      err))
@@ -231,7 +231,7 @@ static bool read_number(const Table *table, int32_t row, int32_t column, double 
     return true;
 }
 
-static bool read_row(Measured *measured, const Table *table, int32_t row, Error *err)
+static bool read_row(Measurements *measured, const Table *table, int32_t row, Error *err)
 {
     Datum datum = {0};
     int32_t along = -1;
@@ -265,7 +265,7 @@ static bool read_row(Measured *measured, const Table *table, int32_t row, Error 
     return true;
 }
 
-static bool read_table(Measured *measured, const char *path, Error *err)
+static bool read_table(Measurements *measured, const char *path, Error *err)
 {
     Table table = {.path = path};
     TRY(csv_read(path, &table.csv, err));
@@ -277,7 +277,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-static bool read_named(const Study *study, YamlNode node, Measured *measured, Error *err)
+static bool read_named(const Study *study, YamlNode node, Measurements *measured, Error *err)
 {
     char path[2 * SCENE_TEXT_SIZE];
     const char *given = yaml_text(study->file, node);
@@ -299,10 +299,10 @@ static bool is_same_file(const Study *study, YamlNode one, YamlNode other)
            seen[0].st_ino == seen[1].st_ino;
 }
 
-bool measured_read(const Study *study, Measured *measured, Error *err)
+bool measurements_read(const Study *study, Measurements *measured, Error *err)
 {
     YamlNode node = study->search.measured;
-    *measured = (Measured){0};
+    *measured = (Measurements){0};
     if (yaml_kind(study->file, node) != YAML_LIST) return read_named(study, node, measured, err);
     YAML_EACH (one, study->file, node) {
         if (!read_named(study, one, measured, err)) return false;
@@ -315,12 +315,12 @@ bool measured_read(const Study *study, Measured *measured, Error *err)
     return error_is_clean(err);
 }
 
-void measured_destroy(Measured *measured)
+void measurements_destroy(Measurements *measured)
 {
     for (int32_t k = 0; k < measured->condition_count; k++)
         memory_free_all(measured->conditions[k], measured->origins[k]);
     memory_free_all(measured->conditions, measured->origins, measured->list);
-    *measured = (Measured){0};
+    *measured = (Measurements){0};
 }
 
 // --- what a run came to -------------------------------------------------------------------------
@@ -361,8 +361,8 @@ cleanup:
     return error_is_clean(err);
 }
 
-bool measured_find(const Datum *datum, const char *report, const char *history, double *value,
-                   double *error, Error *err)
+bool measurements_find(const Datum *datum, const char *report, const char *history, double *value,
+                       double *error, Error *err)
 {
     *value = NAN;
     *error = 0;

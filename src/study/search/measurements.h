@@ -8,8 +8,8 @@
 //     series/mu                this value another is read, with an error: a curve, a row a point
 //
 // An empty cell: nothing was measured there. Called by fit.
-#ifndef AMONTONS_STUDY_SEARCH_MEASURED_H
-#define AMONTONS_STUDY_SEARCH_MEASURED_H
+#ifndef AMONTONS_STUDY_SEARCH_MEASUREMENTS_H
+#define AMONTONS_STUDY_SEARCH_MEASUREMENTS_H
 
 #include "study/sweep/computing/point.h"
 
@@ -22,22 +22,22 @@ typedef struct Datum {
     double value, error;   // one standard deviation
 } Datum;
 
-typedef struct Measured {
+typedef struct Measurements {
     int32_t count, room;
     Datum *list;   // [room] owned
     int32_t condition_count, condition_room;
     char **conditions;   // [condition_room] "load.pressure: 0.003, mesh.set.length: 1"; owned
     char **origins;   // [condition_count] file, row and column of each, "measured.csv:3:1"; owned
-} Measured;
+} Measurements;
 
 // The tables that `fit: measured` names, seen from the study.
-bool measured_read(const Study *study, Measured *measured, Error *err);
-void measured_destroy(Measured *measured);   // zeroed is fine
+bool measurements_read(const Study *study, Measurements *measured, Error *err);
+void measurements_destroy(Measurements *measured);   // zeroed is fine
 
 // Finds the result of a run in its run.json, and for a curve in the history.h5 beside it. *value:
 // NaN: the run has none. *error: one standard deviation of the computed value, half of how far it
 // is known; 0: not known, as for curves.
-bool measured_find(const Datum *datum, const char *report, const char *history, double *value,
-                   double *error, Error *err);
+bool measurements_find(const Datum *datum, const char *report, const char *history, double *value,
+                       double *error, Error *err);
 
 #endif

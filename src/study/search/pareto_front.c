@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "study/search/front.h"
+#include "study/search/pareto_front.h"
 
 #include "base/memory.h"
 #include "base/order.h"
@@ -24,7 +24,7 @@ static bool dominates(const Designs *designs, int32_t a, int32_t b)
     return better;
 }
 
-bool front_holds(const Designs *designs, int32_t design)
+bool pareto_front_holds(const Designs *designs, int32_t design)
 {
     bool holds = !isnan(designs->list[design].value);
     for (int32_t other = 0; other < designs->count && holds; other++)
@@ -43,7 +43,7 @@ static bool list_front(const Designs *designs, Placed **front, int32_t *count, E
     *count = 0;
     if (!(*front = NEW_ARRAY(Placed, designs->count, err))) return false;
     for (int32_t d = 0; d < designs->count; d++)
-        if (front_holds(designs, d))
+        if (pareto_front_holds(designs, d))
             (*front)[(*count)++] = (Placed){designs_points(designs, d)->value, d};
     qsort(*front, (size_t)*count, sizeof **front, order_doubles);
     return true;
@@ -61,7 +61,7 @@ static bool aim_words(const Search *search, int32_t aim, char words[POINT_WORDS_
     return true;
 }
 
-bool front_print(const Search *search, FILE *out, Error *err)
+bool pareto_front_print(const Search *search, FILE *out, Error *err)
 {
     const Designs *designs = &search->designs;
     Placed *front = NULL;
@@ -108,7 +108,7 @@ static bool aim_label(const Search *search, int32_t aim, QuantityLabel *label, E
     return true;
 }
 
-bool front_draw(const Search *search, Error *err)
+bool pareto_front_draw(const Search *search, Error *err)
 {
     const Designs *designs = &search->designs;
     int32_t count = 0, all = designs->count;

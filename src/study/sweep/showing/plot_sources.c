@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "study/sweep/showing/figure_data.h"
+#include "study/sweep/showing/plot_sources.h"
 
 #include "base/memory.h"
 #include "base/order.h"

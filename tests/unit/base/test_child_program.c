@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Other programs: what they say, how they end, and that there may be none.
-#include "base/program.h"
+#include "base/child_program.h"
 
 #include "cases.h"
 
@@ -12,7 +12,7 @@ static int shell(const char *script, char *output, size_t size)
     const char *const words[] = {"sh", "-c", script, NULL};
     Error err = {0};
     int status = -1;
-    if (!program_run(words, output, size, &status, &err)) fail_msg("%s", err.message);
+    if (!child_program_run(words, output, size, &status, &err)) fail_msg("%s", err.message);
     return status;
 }
 
@@ -41,7 +41,7 @@ TEST(says_which_program_is_missing)
     char output[10];
     int status = 0;
     Error err = {0};
-    assert_false(program_run(words, output, sizeof output, &status, &err));
+    assert_false(child_program_run(words, output, sizeof output, &status, &err));
     assert_int_equal(err.code, ERROR_LIBRARY);
     assert_non_null(strstr(err.message, "`amontons-no-such-program`: No such file"));
 }
@@ -54,7 +54,7 @@ TEST(says_that_nobody_knows_how_it_ended)
     int status = -1;
     Error err = {0};
     signal(SIGCHLD, SIG_IGN);
-    assert_false(program_run(words, output, sizeof output, &status, &err));
+    assert_false(child_program_run(words, output, sizeof output, &status, &err));
     signal(SIGCHLD, SIG_DFL);
     assert_int_equal(err.code, ERROR_LIBRARY);
     assert_non_null(strstr(err.message, "`sh` ended in a way that nobody can say: SIGCHLD"));
