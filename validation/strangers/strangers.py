@@ -85,11 +85,11 @@ def ask(one, scene):
     with tempfile.TemporaryDirectory() as cache:        # what a user pays who tries this shape for the first time
         ended = run(scene, QUIET, ASK_LIMIT, cache=cache, words=["--to", str(one.wanted), "--within", f"{WITHIN}s"])
     results, found = ended.report.get("results", {}), ended.report.get("accuracy") or {}
-    keep = ("refine", "contact_nodes", "undamped", "slip_cells", "end_wait", "runs", "seconds")
+    keep = ("refine", "contact_nodes", "undamped", "other_drops", "slip_cells", "end_wait", "runs", "seconds", "seconds_expected")
     return {"version": commit(), "status": ended.status, "said": ended.said[-600:], "seconds": ended.seconds,
             "wall": time.monotonic() - began, "wanted": one.wanted,
             **{key: results.get(key) for name in judge.ANSWERS for key in (name, f"{name}_error", f"{name}_error_parts")},
-            "mu_M_is": results.get("mu_M_is"), "met": found.get("met"), "of": found.get("of"), "ended": found.get("ended"),
+            "mu_M_is": results.get("mu_M_is"), "met": found.get("met"), "of": found.get("of"), "ended": found.get("ended"), "cut": found.get("cut"),
             "levels": [{key: level.get(key) for key in keep} | {name: level[name]["value"] for name in judge.ANSWERS}
                        for level in found.get("levels", [])],
             "warnings": ended.report.get("warnings", [])}
