@@ -38,7 +38,7 @@ ROOT = Path(__file__).resolve().parents[2]
 SEED = 36
 COUNT = 700
 FIRST_WIDE = 601        # from here on the draw is wider
-TUNING = 500            # the first: rules have been chosen by them; the others are judged once
+TUNING = 600            # the first: rules have been chosen by them; the others are judged once
 ELEMENTS = {"T3": ("triangle", 1, 0), "T6": ("triangle", 2, 0), "Q4": ("quad", 1, 0), "Q8": ("quad", 2, 1), "Q9": ("quad", 2, 0)}
 SHAPES = ("block", "pads", "layers", "grooves", "block", "feet", "soft pads", "block", "arch", "layers",
           "pads", "block", "wedge", "feet", "block", "soft pads", "grooves", "block", "layers", "pads")   # in turn
