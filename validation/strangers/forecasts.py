@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What the next mesh of a search takes, over what it was expected to take, from the runs of a .jsonl of strangers.py.
 
-    validation/strangers/forecasts.py [FILE]        # default: now.jsonl
+    validation/strangers/forecasts.py [FILE [FIRST]]        # default: now.jsonl, problems from 601 on
 
 A mesh that was cut short counts if it had taken three times what was expected by then, else it tells nothing. Versions that
 did not keep what was expected (`seconds_expected`) are counted by the rule of today, time goes with the square of the cells
@@ -51,9 +51,12 @@ def ratios_of(asked):
     return found
 
 
-def table(path):
+def table(path, first):
+    """Of the problems with this number and higher ones."""
     ratios = {}
     for row in map(json.loads, path.read_text().splitlines()):
+        if row["number"] < first:
+            continue
         for kind in kinds_of(problems.problem(row["number"])):
             ratios.setdefault(kind, []).extend(ratios_of(row["asked"] or {}))
     rows = []
@@ -68,4 +71,5 @@ def table(path):
 
 
 if __name__ == "__main__":
-    print(table(Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).with_name("now.jsonl")))
+    given = sys.argv[1:]
+    print(table(Path(given[0]) if given else Path(__file__).with_name("now.jsonl"), int(given[1]) if given[1:] else 601))
