@@ -62,6 +62,7 @@ typedef struct Level {
     ErrorBar answer[ANSWER_KINDS];
     double seconds;   // wall time
     double making;   // of them for mesh and basis, where these are made once
+    double seconds_expected;   // by the level before, for its first runs; NaN: the first level
 } Level;
 
 // A run that time or the caller ended before its answer was known. It has no part in any bar.
@@ -69,6 +70,7 @@ typedef struct LevelCut {
     double mesh, run;   // numbers of both, from 1; 0: none was
     double contact_nodes;   // 0: there was no mesh yet
     double U, part;   // reached, length; over the longest way that it may go; NaN: no step yet
+    double seconds, seconds_expected;   // of its level so far; as of a Level
     double mu_M, mu_hold;   // so far; NaN: none
 } LevelCut;
 

@@ -17,10 +17,11 @@ void levels_write_json(const Levels *levels, JsonWriter *json)
     json_text(json, "ended", levels->ended);
 
     // All values of the run that was cut are null if none was.
-    static const LevelCut none = {NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+    static const LevelCut none = {NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
     const LevelCut *cut = levels->cut.mesh == 0 ? &none : &levels->cut;
     json_object_of(json, "cut", {"mesh", cut->mesh}, {"run", cut->run},
                    {"contact_nodes", cut->contact_nodes}, {"U", cut->U}, {"part", cut->part},
+                   {"seconds", cut->seconds}, {"seconds_expected", cut->seconds_expected},
                    {"mu_M", cut->mu_M}, {"mu_hold", cut->mu_hold});
     json_number(json, "observed_order", levels_order(levels));
 
@@ -46,7 +47,7 @@ void levels_write_json(const Levels *levels, JsonWriter *json)
         const Level *level = &levels->list[l];
         json_begin_object(json, NULL);
         json_numbers_of(json, {"refine", level->refine}, {"contact_nodes", level->contact_nodes},
-                        {"seconds", level->seconds});
+                        {"seconds", level->seconds}, {"seconds_expected", level->seconds_expected});
         json_boolean(json, "undamped", level->undamped);
         json_boolean(json, "other_drops", level->other_drops);
         json_numbers_of(json, {"slip_cells", level->slip_cells}, {"end_wait", level->end_wait});

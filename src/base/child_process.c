@@ -99,6 +99,7 @@ static bool take_all(const ChildWork *work, pid_t child, int pipe, ChildReply *r
 {
     int64_t room = FIRST_BYTES;
     bool told = !work->stop;   // Ctrl-C comes to both; kill to one
+    const ChildWatch *watch = work->watch;
     struct pollfd ready = {.fd = pipe, .events = POLLIN};
     double started = clock_seconds();
     if (!(reply->bytes = memory_bytes(room, err))) return false;
@@ -109,8 +110,12 @@ static bool take_all(const ChildWork *work, pid_t child, int pipe, ChildReply *r
             return REFUSE(err, "%s: %s was still reading it after %d seconds, and was ended; %s",
                           work->path, work->reader, work->seconds_waited, work->advice);
         }
+        if (watch && !watch->goes_on(watch->self, err)) {
+            kill(child, SIGKILL);
+            return false;
+        }
         // A signal that came before it waited does not interrupt it.
-        if (poll(&ready, 1, told && !work->seconds_waited ? -1 : WAKE_MS) <= 0) continue;
+        if (poll(&ready, 1, told && !work->seconds_waited && !watch ? -1 : WAKE_MS) <= 0) continue;
         if (reply->size == room) {
             if (!memory_resize(&reply->bytes, room, 2 * room, 1, err)) return false;
             room *= 2;

@@ -17,6 +17,12 @@
 #include <stdint.h>
 #include <stdio.h>
 
+// Somebody who may end the child while it is waited for.
+typedef struct ChildWatch {
+    bool (*goes_on)(void *self, Error *err);   // false, with the reason: the child is ended
+    void *self;   // not owned
+} ChildWatch;
+
 typedef struct ChildWork {
     const char *path;   // the file; messages begin with it
     const char *reader;   // whose fault it is when the process crashes: "gmsh"
@@ -25,6 +31,7 @@ typedef struct ChildWork {
     int kept;   // a descriptor that a child which is shut in keeps; below 1: none
     bool shut_in;   // it may only read, and write to `reply`; its standard output goes nowhere
     const char *advice;   // what to do when that is not enough
+    const ChildWatch *watch;   // asked every tenth of a second; NULL: nobody; not owned
     // NULL, or a flag that the caller's handler of SIGINT and SIGTERM sets and `read` looks at: the
     // other process keeps this handler and is passed on SIGTERM, so that it ends in order.
     const volatile sig_atomic_t *stop;

@@ -45,11 +45,11 @@ static bool refuse_across(const Scene *scene, Error *err)
 }
 
 // Where gmsh has to make it, the slowest part of a small run (76 ms to load).
-bool model_read_mesh(Model *model, Error *err)
+bool model_read_mesh(const ChildWatch *watch, Model *model, Error *err)
 {
     const Scene *scene = model->scene;
     double started = clock_seconds();
-    TRY(scene_mesh_read(scene, &model->mesh, &model->mesh_origin, err));
+    TRY(scene_mesh_read(scene, watch, &model->mesh, &model->mesh_origin, err));
     if (model->mesh_origin == MESH_OF_OTHER_FILES && scene->reduction.cache)
         snprintf(model->cache_note, sizeof model->cache_note,
                  "the mesh file draws on more than its own text: meshed anew");

@@ -7,7 +7,7 @@
 #include "model/model.h"
 
 // Each needs the ones before it; the first an empty model (model_of).
-bool model_read_mesh(Model *model, Error *err);
+bool model_read_mesh(const ChildWatch *watch, Model *model, Error *err);
 bool model_lay_bulk(Model *model, Error *err);   // the bulk's loads, and the interface
 bool model_hold_supports(Model *model, Error *err);   // marks their unknowns
 

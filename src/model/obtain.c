@@ -244,7 +244,10 @@ static bool prepare(const StageNotice *notice, Model *model, ReductionBlock *blo
     if (!ask_reducible(model->scene, &model->is_reduced, err)) return false;
     if (model->scene->reduction.cache && !cache_folder_limit(&limit, err)) return false;
     if (notice && !notice->tell(notice->self, "meshing", err)) return false;
-    if (!model_read_mesh(model, err) || !model_lay_bulk(model, err)) return false;
+    ChildWatch watch = {0};
+    if (notice) watch = (ChildWatch){.goes_on = notice->goes_on, .self = notice->self};
+    if (!model_read_mesh(notice ? &watch : NULL, model, err) || !model_lay_bulk(model, err))
+        return false;
     if (!check_rod(model, err) || !model_hold_supports(model, err)) return false;
     if (model->is_reduced && !make_block(model, block, name, &parts, err)) return false;
     return check_memory(model, parts, err);

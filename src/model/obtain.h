@@ -9,7 +9,8 @@
 typedef struct StageNotice {
     // "meshing", "reducing"; static storage
     bool (*tell)(void *self, const char *stage, Error *err);
-    bool (*goes_on)(void *self, Error *err);   // asked while the block is reduced, by any thread
+    bool (*goes_on)(void *self, Error *err);   // asked while a child meshes, and
+        // by any thread while the block is reduced
     void *self;   // not owned
 } StageNotice;
 

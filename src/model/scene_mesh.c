@@ -49,14 +49,15 @@ static bool place_mesh(const Scene *scene, Mesh *mesh, Error *err)
                        mesh_stand_on_floor(contact->name, contact->count, mesh, err), err);
 }
 
-bool scene_mesh_read(const Scene *scene, Mesh *mesh, MeshOrigin *origin, Error *err)
+bool scene_mesh_read(const Scene *scene, const ChildWatch *watch, Mesh *mesh, MeshOrigin *origin,
+                     Error *err)
 {
     MeshFile file = {0};
     const SceneNames *body = &scene->groups.body;
     const char *path = scene->mesh.file;
     *mesh = (Mesh){0};
     bool done = mesh_file_read(path, scene->mesh.parameters, scene->mesh.parameter_count,
-                               scene->trusted, &file, err);
+                               scene->trusted, watch, &file, err);
     if (origin) *origin = file.origin;
     done = done && check_memory(scene, file.node_count, err);
     TRY(scene_blame(scene, "mesh.file", done, err));

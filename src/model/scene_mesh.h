@@ -9,6 +9,7 @@
 
 // *mesh is the caller's to destroy, also on failure. origin: NULL where nobody asks. Errors name
 // the key of the scene that is wrong.
-bool scene_mesh_read(const Scene *scene, Mesh *mesh, MeshOrigin *origin, Error *err);
+bool scene_mesh_read(const Scene *scene, const ChildWatch *watch, Mesh *mesh, MeshOrigin *origin,
+                     Error *err);
 
 #endif

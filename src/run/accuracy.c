@@ -48,9 +48,27 @@ static bool add_runs(Accuracy *accuracy, int32_t count, Error *err)
     return true;
 }
 
+// By what a run takes longer where cells are so many times smaller.
+static double growth_ahead(const Accuracy *accuracy, double step)
+{
+    return pow(step, GROWTH[accuracy->levels.list[accuracy->levels.count - 1].space]);
+}
+
+// Wall time that the next level will take, s.
+static double level_seconds(const Accuracy *accuracy, double step)
+{
+    const Level *level = &accuracy->levels.list[accuracy->levels.count - 1];
+    double now = level->making + seconds_of_run(level) * (accuracy->step == STEP_SPLIT ? 2 : 1);
+    return now * growth_ahead(accuracy, step);
+}
+
 static void begin_level(Accuracy *accuracy, double refine)
 {
-    accuracy->levels.list[accuracy->levels.count++] = (Level){.refine = refine, .slip_cells = NAN};
+    double expected = accuracy->levels.count > 0
+                          ? level_seconds(accuracy, refine / accuracy_last_level(accuracy)->refine)
+                          : NAN;
+    accuracy->levels.list[accuracy->levels.count++] =
+        (Level){.refine = refine, .slip_cells = NAN, .seconds_expected = expected};
 }
 
 // From a mesh that is so many times coarser than the scene's up: one that gmsh refuses or that has
@@ -81,20 +99,6 @@ static bool is_short(const Accuracy *accuracy)
     return answer->bar <= accuracy->levels.wanted * answer->value;
 }
 
-// By what a run takes longer where cells are so many times smaller.
-static double growth_ahead(const Accuracy *accuracy, double step)
-{
-    return pow(step, GROWTH[accuracy->levels.list[accuracy->levels.count - 1].space]);
-}
-
-// Wall time that the next level will take, s.
-static double level_seconds(const Accuracy *accuracy, double step)
-{
-    const Level *level = &accuracy->levels.list[accuracy->levels.count - 1];
-    double now = level->making + seconds_of_run(level) * accuracy_runs_first(accuracy);
-    return now * growth_ahead(accuracy, step);
-}
-
 // With the run in full on it. Of one mesh alone no error is known: a second is begun in any case.
 static bool has_time_for_level(const Accuracy *accuracy, double step)
 {
@@ -105,12 +109,14 @@ static bool has_time_for_level(const Accuracy *accuracy, double step)
 }
 
 // Ratio of cell sizes to the mesh that puts a bar to the test: the farther one where pads may slide
-// otherwise on finer meshes, if there is time for it. 1: none is left.
+// otherwise on finer meshes, or as far towards it as time allows. 1: none is left.
 static double span_left(const Accuracy *accuracy)
 {
     double left = levels_span_left(&accuracy->levels, accuracy->levels.asked);
     double far = levels_confirm_left(&accuracy->levels);
-    return far > left && has_time_for_level(accuracy, far) ? far : left;
+    while (far > left && !has_time_for_level(accuracy, fmax(far, accuracy->step)))
+        far /= accuracy->step;
+    return fmax(far, left);
 }
 
 // Ratio of cell sizes to the next level. From the third level on it is large enough that slip has

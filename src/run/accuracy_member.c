@@ -201,6 +201,8 @@ static void note_cut(Accuracy *accuracy, const Simulation *simulation, Error *er
                       .contact_nodes = level->contact_nodes,
                       .U = NAN,
                       .part = NAN,
+                      .seconds = clock_seconds() - accuracy->begun + level->seconds,
+                      .seconds_expected = level->seconds_expected,
                       .mu_M = NAN,
                       .mu_hold = NAN};
     if (simulation->seen.t > 0) {
@@ -254,6 +256,7 @@ bool accuracy_run_member(Accuracy *accuracy, bool *coarse, Error *err)
     EndWait wait = {.mu = NAN};
     bool first = !levels_have_runs(&accuracy->levels) && accuracy->levels.count == 1;
     double started = clock_seconds(), deadline = accuracy->deadline - accuracy_full(accuracy, 1);
+    accuracy->begun = started;
     double pressure = next_pressure(accuracy);
     Scene *scene = scene_of_run(accuracy, level->refine, pressure, err);
     accuracy->so_far = (Answers){.mu_M = {NAN, NAN}, .mu_hold = {NAN, NAN}};

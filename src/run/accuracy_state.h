@@ -23,6 +23,7 @@ typedef struct Accuracy {
     double step;   // of cell size from level to level
     int32_t members;   // whole runs behind the bar, but for that in full
     double started, deadline;   // wall clock, s; INFINITY: accuracy.within is not given
+    double begun;   // wall clock at which the run under way began, s
     double stepping;   // expected of the run in full, s; 0: no run is whole
     double making;   // likewise of its mesh and basis; 0: the cache has them
     bool out_of_time;

@@ -59,6 +59,10 @@ class Accuracy(unittest.TestCase):
         self.assertAlmostEqual(levels[-1]["refine"], 0.5)
         for level in levels:
             self.assertLessEqual(abs(level["contact_nodes"] - 80 * level["refine"] - 1), 1.01)      # an even number of cells
+        # Of the first mesh nothing was expected; of each other one by the mesh before it.
+        self.assertIsNone(levels[0]["seconds_expected"])
+        for level in levels[1:]:
+            self.assertGreater(level["seconds_expected"], 0)
         short = [level["mu_M"]["bar"] is not None and level["mu_M"]["bar"] <= 0.02 * level["mu_M"]["value"] for level in levels]
         self.assertEqual(short, [False] * (len(levels) - 2) + [True] * 2)
         # Two runs on the first, else one, each at a pressure of its own; on the last that in full, too, where it came to

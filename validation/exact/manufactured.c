@@ -301,7 +301,7 @@ int main(int argc, char **argv)
     if (argc < 2) return 2;
     dense_use_one_thread();
     int32_t count = read_parameters(argc, argv, parameters);
-    TRY(mesh_file_read(argv[1], parameters, count, false, &file, &err));
+    TRY(mesh_file_read(argv[1], parameters, count, false, NULL, &file, &err));
     TRY(mesh_build(&file, argv[1], &problem.mesh, &err));
     problem.material.plane_strain = problem.mesh.dim > 2;   // moduli in space are its
     TRY(bulk_create(&problem.mesh, &problem.bulk, &err));

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Six hundred problems of strangers: scenes over everything that a scene can say, drawn before anything was computed.
+"""Seven hundred problems of strangers: scenes over everything that a scene can say, drawn before anything was computed.
 
 problem(number), number from 1 to COUNT, is the same whatever the machine: only random.Random, seeded with SEED and the
 number, is asked. What a problem must satisfy is decided by these rules of dimensions alone, never by what the program
@@ -19,6 +19,14 @@ of a half-plane.
    estimated.
 8. A mesh has 32 to 64 cells along the contact (a pad at least 6), and its bulk is as fine or coarser.
 
+From 601 on the draw is wider: feet of unequal height, holes, slots, and blocks and pads in space (two problems of twenty); machines of
+1/100 of the block's stiffness up; damping L sqrt(rho E)/eta1 of 0.005 to 12; ramps of the load, and holds of the rod; laws with memory. For them
+
+9. Slip distance: the length over which slip of D_c takes the drop off, G D_c/(D p), of rate-and-state G D_c/(b p), is 0.15 to 1.2 of L.
+10. Time at rest: ageing's theta_0 is 0.01 to 1 of D_c/V, slip-weakening's t_h 0.01 to 0.3, so that a contact heals between two slidings.
+11. Rate-and-state: b is 2 to 8 % of mu, a 0.3 to 0.9 of b; the drop D is that of slip 10^5 times as fast.
+12. In space there are 8 to 14 cells along the block.
+
 Units: E = rho = 1 and either eta1 = 1 (L follows) or L = 1 (eta1 follows); or SI, of a material from a list."""
 import hashlib
 import math
@@ -28,11 +36,20 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 SEED = 36
-COUNT = 600
-TUNING = 500            # the first: rules have been chosen by them; the others are judged once
+COUNT = 700
+FIRST_WIDE = 601        # from here on the draw is wider
+TUNING = 600            # the first: rules have been chosen by them; the others are judged once
 ELEMENTS = {"T3": ("triangle", 1, 0), "T6": ("triangle", 2, 0), "Q4": ("quad", 1, 0), "Q8": ("quad", 2, 1), "Q9": ("quad", 2, 0)}
 SHAPES = ("block", "pads", "layers", "grooves", "block", "feet", "soft pads", "block", "arch", "layers",
           "pads", "block", "wedge", "feet", "block", "soft pads", "grooves", "block", "layers", "pads")   # in turn
+WIDE_SHAPES = ("uneven feet", "hole", "pads", "block", "slot", "space block", "layers", "uneven feet", "grooves", "hole",
+               "soft pads", "block", "feet", "slot", "space pads", "arch", "block", "wedge", "uneven feet", "pads")
+LAWS = (("linear-weakening", 40), ("exponential-weakening", 20), ("table", 20), ("formula", 20))
+WIDE_LAWS = (("linear-weakening", 25), ("exponential-weakening", 12), ("table", 10), ("formula", 13), ("ageing", 15),
+             ("slip-weakening", 12), ("rate-and-state", 13))
+DECADES = math.log(1e5)     # of slip rate, over which rate-and-state drops by (b - a) times this
+MEMORY = ("ageing", "slip-weakening", "rate-and-state")
+PROGRAMS, WIDE_PROGRAMS = (("", 88), ("rod", 8), ("load", 4)), (("", 68), ("rod", 8), ("ramp", 12), ("hold", 12))
 SOLIDS = {"PMMA": (3e9, 0.38, 1190), "rubber": (5e6, 0.49, 1100), "gel": (3e4, 0.48, 1000), "steel": (2e11, 0.29, 7800),
           "glass": (7e10, 0.22, 2500), "brake lining": (1e9, 0.25, 2300), "cork": (2e7, 0.1, 200), "ice": (9e9, 0.33, 917)}
 PRESSURE_MAX = 1e8      # Pa
@@ -79,6 +96,10 @@ class Problem:
         return path
 
 
+def weighted(dice, table):
+    return dice.pick(*(name for name, _ in table), weights=[weight for _, weight in table])
+
+
 class Dice:
     def __init__(self, number):
         self.source = random.Random(f"amontons strangers {SEED} {number}")
@@ -123,6 +144,10 @@ class Shape:
     pads: tuple = ()        # names of the contact curves, where there are several
     region: str = ""        # surface that may have a material of its own, and lies on the floor
     region_height: float = 0
+
+    @property
+    def space(self):
+        return "3d" in self.file
 
 
 def element_of(dice):
@@ -207,6 +232,84 @@ def feet(dice, cells, order):
                  {}, height + leg, leg, first + second, pads=("contact_1", "contact_2"), region="soles", region_height=leg / 2)
 
 
+def uneven_feet(dice, cells, order):
+    first, second, inset = dice.uniform(0.15, 0.4), dice.uniform(0.15, 0.4), dice.uniform(0.03, 0.08)
+    height, touching = dice.uniform(0.35, 0.8), first + second
+    legs = {name: dice.uniform(0.05, 0.15) * dice.pick(1, 1.5) for name in ("leg_first", "leg_second")}
+    room = 1 - 2 * inset - touching
+    return Shape("@/validation/strangers/uneven.geo",
+                  {"length": 1, "height": height, **legs, "first": first, "second": second, "inset": inset,
+                   "step": inset + first + dice.uniform(0.3, 0.7) * room, "size": touching * order / cells},
+                  {}, height, legs["leg_first"], touching, pads=("contact_1", "contact_2"))
+
+
+def cut(dice, cells, order, slot):
+    """A block with a hole or a slot."""
+    height = dice.uniform(0.35, 1)
+    lengths, kind = {"length": 1, "height": height, "size": order / cells}, dice.pick("top", "leading") if slot else "hole"
+    shape = Shape("@/validation/strangers/cut.geo", lengths, {"cut": kind}, height, 0, 1)
+    if kind == "hole":
+        radius = dice.uniform(0.08, 0.3) * height
+        lengths |= {"radius": radius, "x": dice.uniform(0.15 + radius, 0.9 - radius),
+                    "z": dice.uniform(1.3 * radius, height - 1.3 * radius)}
+    else:
+        width = dice.uniform(0.02, 0.08)
+        deep = dice.uniform(0.2, 0.7) * (height if kind == "top" else 0.6)
+        lengths |= {"width": width, "depth": deep, "x": dice.uniform(0.2, 0.8), "z": dice.uniform(0.3, 0.7) * height}
+        shape.loaded = 1 - width if kind == "top" else 1
+    return shape
+
+
+def space_block(dice, order):
+    breadth, height, n = dice.uniform(0.3, 1), dice.uniform(0.3, 0.7), max(4, dice.pick(8, 10, 12, 14) // order)
+    shape = Shape("@/meshes/block3d.geo", {"length": 1, "breadth": breadth, "height": height},
+                  {"nx": n, "ny": max(3, round(n * breadth)), "nz": max(3, round(n * height * dice.pick(0.6, 1)))}, height, 0, 1)
+    if dice.chance(0.4):
+        shape.others["grade_x"] = dice.pick(2, 4)
+    return shape
+
+
+def space_pads(dice, order):
+    n, m = dice.pick(2, 3), dice.pick(1, 2)
+    fill_x, fill_y, breadth, body = dice.uniform(0.4, 0.75), dice.uniform(0.5, 0.8), dice.uniform(0.4, 0.8), dice.uniform(0.25, 0.5)
+    tall = dice.uniform(0.3, 1) * min(fill_x / n, breadth * fill_y / m, 0.1)
+    shape = Shape("@/meshes/pads3d.geo", {"length": 1, "breadth": breadth, "height": body, "pad_height": tall},
+                  {"n": n, "m": m, "fill_x": number_of(fill_x), "fill_y": number_of(fill_y), "cells_x": max(2, 4 // order),
+                   "cells_y": max(2, 4 // order), "nz": 4}, body + tall, tall, fill_x * fill_y,
+                  pads=tuple(f"contact_{k + 1}" for k in range(n * m)))
+    if dice.chance(0.5):
+        shape.region, shape.region_height = "pads", tall
+    return shape
+
+
+def space_element(dice):
+    name = dice.pick("HEX8", "WEDGE6", "HEX27", weights=(65, 25, 10))
+    return name, {"shape": "wedge" if name == "WEDGE6" else "hex", "order": 2 if name == "HEX27" else 1}, 2 if name == "HEX27" else 1
+
+
+def memory_law(dice, name, strength, speeds, softness):
+    """Lines of `friction`, over the scales of the block. strength: (mu_S, mu_K, b); speeds: (v_c, V); softness: p/G."""
+    (static, kinetic, b), (v_c, drive) = strength, speeds
+    lines = {"law": name}
+    if name == "rate-and-state":
+        a = b - (static - kinetic) / DECADES
+        slip = dice.log(0.15, 1.2) * b * softness
+        lines |= {"direct_effect": a, "evolution_effect": b, "mu_reference": static, "reference_velocity": drive * dice.log(0.1, 10),
+                  "slip_distance": slip}
+        once = slip / drive
+    else:
+        slip = dice.log(0.15, 1.2) * (static - kinetic) * softness
+        once = slip / drive * (dice.log(0.01, 1) if name == "ageing" else dice.log(0.01, 0.3))
+        lines |= {"mu_static": static, "mu_kinetic": kinetic, "slip_distance": slip, "healing_time": once}
+        if name == "ageing":
+            lines |= {"critical_velocity": v_c, "healing": dice.uniform(0.01, 0.06)}
+    if dice.chance(0.4):
+        lines["rest"] = once * dice.log(1, 1000)
+    if name == "rate-and-state" and dice.chance(0.3):
+        lines["evolution"] = "slip"
+    return lines
+
+
 def law_of(dice, name, static, kinetic, v_c):
     """Lines of `friction`; v_c is scaled so that the largest -mu' is that of the linear law, (static - kinetic) / v_c."""
     drop = static - kinetic
@@ -260,7 +363,17 @@ def gap_of(dice, kind, shape, pressure, floor, strain, length):
 
 
 def program_of(dice, kind, loading):
-    """loading: time in which the load comes to mu_S. The load's program ends before the first slidings do."""
+    """loading: time in which the load comes to mu_S. The load's program ends before the first slidings do, a ramp during them."""
+    if kind == "ramp":
+        return {"t": f"[0, {number_of(0.2 * loading)}, {number_of(dice.uniform(0.7, 2.5) * loading)}]",
+                "factor": f"[1, 1, {number_of(dice.uniform(0.7, 1.4))}]"}
+    if kind == "hold":
+        moved, held = dice.uniform(0.6, 2.5) * loading, dice.log(0.1, 2) * loading
+        if dice.chance(0.5):
+            times, factors, more = (0, moved, moved, moved + held), "[1, 1, 0, 0]", {"repeat": "true"}
+        else:
+            times, factors, more = (0, moved, moved, moved + held, moved + held), "[1, 1, 0, 0, 1]", {}
+        return {"t": "[" + ", ".join(map(number_of, times)) + "]", "factor": factors} | more
     if kind == "load":
         return {"t": f"[0, {number_of(0.2 * loading)}, {number_of(0.7 * loading)}]",
                 "factor": f"[1, 1, {number_of(dice.uniform(0.7, 1.4))}]"}
@@ -270,6 +383,12 @@ def program_of(dice, kind, loading):
 
 
 def shape_of(dice, kind, cells, order, gap):
+    if kind.startswith("space"):
+        return space_block(dice, order) if kind == "space block" else space_pads(dice, order)
+    if kind in ("hole", "slot"):
+        return cut(dice, cells, order, kind == "slot")
+    if kind == "uneven feet":
+        return uneven_feet(dice, cells, order)
     if kind == "block":
         return block(dice, cells, order, bool(gap))
     if kind in ("pads", "soft pads"):
@@ -295,8 +414,9 @@ def rod_of(dice, shape, static):
     return max(shape.face + 0.55 * width, min(height, shape.top - 0.55 * width)), width
 
 
-def friction_of(dice, shape, name, static, kinetic, v_c, length):
-    lines, marks = law_of(dice, name, static, kinetic, v_c), []
+def friction_of(dice, shape, lines, static, kinetic, length):
+    """Adds to the lines of the law what differs by pad or along the contact. (lines, what is in it)"""
+    name, marks = lines["law"], []
     if shape.pads and dice.chance(0.4):
         which = [pad for pad in shape.pads if dice.chance(0.5)] or [shape.pads[0]]
         entries = []
@@ -314,20 +434,28 @@ def friction_of(dice, shape, name, static, kinetic, v_c, length):
     return lines, marks
 
 
+def is_whole(number):
+    """One in ten; of the wider ones of each shape in turn."""
+    return (number if number < FIRST_WIDE else number + number // 10) % 10 == 7
+
+
 def problem(number):
     dice = Dice(number)
-    kind, strain, si = SHAPES[(number - 1) % len(SHAPES)], dice.chance(0.5), dice.chance(0.3)
-    element, words, order = element_of(dice)
+    wider = number >= FIRST_WIDE
+    kind, strain, si = (WIDE_SHAPES if wider else SHAPES)[(number - 1) % len(SHAPES)], dice.chance(0.5), dice.chance(0.3)
+    element, words, order = space_element(dice) if kind.startswith("space") else element_of(dice)
     gap = dice.pick("", "radius", "edges", "points", "profile", "crown", "edge_radius",
                     weights=(60, 8, 12, 5, 7, 5, 3)) if kind == "block" else ""
     shape = shape_of(dice, kind, dice.pick(32, 40, 48, 64), order, gap)
-    damping = dice.log(0.03, 3)
+    damping = dice.log(0.005, 12) if wider else dice.log(0.03, 3)
     poisson = SOLIDS[solid_name][1] if si and (solid_name := dice.pick(*SOLIDS)) else dice.uniform(0.1, 0.49)
     body = Solid(1, poisson, 1 / damping, (0 if dice.chance(0.15) else dice.log(0.1, 10)) / damping)
     floor = region_of(dice, shape, body, strain)
     static = dice.log(0.2, 1.3)
-    kinetic, name = static * dice.uniform(0.1, 0.8), dice.pick("linear-weakening", "exponential-weakening", "table", "formula",
-                                                               weights=(40, 20, 20, 20))
+    kinetic, name, effect = static * dice.uniform(0.1, 0.8), weighted(dice, WIDE_LAWS if wider else LAWS), 0
+    if name == "rate-and-state":
+        effect = dice.uniform(0.02, 0.08) * static
+        kinetic = static - effect * dice.uniform(0.1, 0.7) * DECADES
     highest = min(0.02 * floor.young, 0.04 * floor.shear / static) * shape.touching / shape.loaded
     if si:
         highest = min(highest, PRESSURE_MAX / SOLIDS[solid_name][0])
@@ -362,11 +490,22 @@ def problem(number):
         shape.lengths["crown"] = dice.uniform(0.2, 1) * pressing * longest / 4 / floor.young
         pressing *= 1.3
         gap = "crown"
+    if kind == "uneven feet" and dice.chance(0.4):
+        tall = max(shape.lengths["leg_first"], shape.lengths["leg_second"])
+        shape.lengths[dice.pick("lift_first", "lift_second")] = dice.uniform(0.1, 0.8) * pressing * tall / floor.young
+        gap = "lifted"
 
     slipping = dice.log(0.08, 1.2)
     v_c = (static - kinetic) * pressing * slipping / floor.viscous
     drive = v_c * dice.log(3e-4, 0.3)
-    friction, marks = friction_of(dice, shape, name, static, kinetic, v_c * velocity, length)
+    if name in MEMORY:
+        scales = {"slip_distance": length, "healing_time": length / velocity, "rest": length / velocity,
+                  "critical_velocity": velocity, "reference_velocity": velocity}
+        lines = memory_law(dice, name, (static, kinetic, effect), (v_c, drive), pressing / floor.shear)
+        lines = {key: value if isinstance(value, str) else number_of(value * scales.get(key, 1)) for key, value in lines.items()}
+    else:
+        lines = law_of(dice, name, static, kinetic, v_c * velocity)
+    friction, marks = friction_of(dice, shape, lines, static, kinetic, length)
 
     height, width = rod_of(dice, shape, static)
     stiff = 1 / (1 - poisson**2) if strain else 1
@@ -377,8 +516,8 @@ def problem(number):
     if dice.chance(0.3):
         rod["kind"] = "bonded"
         marks.append("bonded")
-    if dice.chance(0.25):
-        spring = dice.log(0.05, 10) / yields
+    if dice.chance(0.4 if wider else 0.25):
+        spring = dice.log(0.01 if wider else 0.05, 10) / yields
         rod["stiffness"] = number_of(spring * young)
         yields += 1 / spring
         marks.append("machine")
@@ -386,15 +525,15 @@ def problem(number):
     load = pressure * shape.loaded
     until = (1.6 * static + 14 * 0.6 * (static - kinetic)) * load * yields
 
-    program = dice.pick("", "rod", "load", weights=(88, 8, 4))
+    program = weighted(dice, WIDE_PROGRAMS if wider else PROGRAMS)
     loads = {"pressure": number_of(pressure * young)}
     if si and dice.chance(0.5):
         loads["pressure"] = number_of(pressure * young / 1e3) + " kPa"
         rod["velocity"] = number_of(drive * velocity * 1e6) + " um/s"
     if program:
         text = flow(program_of(dice, program, static * load * yields / drive * length / velocity))
-        (rod if program == "rod" else loads)["program"] = text
-        marks.append(f"program of the {program}")
+        (rod if program in ("rod", "hold") else loads)["program"] = text
+        marks.append({"ramp": "ramp of the load", "hold": "holds of the rod"}.get(program, f"program of the {program}"))
 
     settings = {key: number_of(value * length) for key, value in shape.lengths.items()} | shape.others | (words if kind != "arch" else {})
     if kind == "wedge" or kind == "layers":
@@ -402,6 +541,8 @@ def problem(number):
     material = {"young": number_of(young), "poisson": number_of(body.poisson), "density": number_of(density),
                 "eta1": number_of(body.eta1 * viscosity), "eta2": number_of(body.eta2 * viscosity),
                 "plane": "strain" if strain else "stress"}
+    if shape.space:
+        del material["plane"]
     lines = [f"title: Stranger {number}, {kind}", f"units: {'si' if si else 'normalised'}",
              f"mesh: {{file: {shape.file}, set: {flow(settings)}}}", f"material: {flow(material)}"]
     if floor is not body:
@@ -415,8 +556,8 @@ def problem(number):
         files = {f"{number:03d}.csv": text for text in files.values()}
     lines += [f"load: {flow(loads)}", f"rod: {flow(rod)}", f"time: {{until: {{U: {number_of(until * length)}}}}}", ""]
     features = ("T3" if kind == "arch" else element.replace("Q8", "Q9").replace("Q9", "Q9" if "incomplete" not in settings else "Q8"),
-                "strain" if strain else "stress", "SI" if si else "normalised", name, *([gap] if gap else []), *marks)
-    return Problem(number, kind, (0.01, 0.02, 0.03)[number % 3], number % 10 == 7, "\n".join(lines), files, features)
+                "space" if shape.space else "strain" if strain else "stress", "SI" if si else "normalised", name, *([gap] if gap else []), *marks)
+    return Problem(number, kind, (0.01, 0.02, 0.03)[number % 3], is_whole(number), "\n".join(lines), files, features)
 
 
 def problems():

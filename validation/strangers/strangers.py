@@ -4,10 +4,10 @@
 
     validation/strangers/strangers.py [--set tuning|judging] [--only N[,M]] [-j N] [-o FOLDER]
 
-Six hundred scenes (problems.py) are asked for 1, 2 or 3 % with `--to`, within a minute each; references come from plain runs
+Seven hundred scenes (problems.py) are asked for 1, 2 or 3 % with `--to`, within a minute each; references come from plain runs
 on finer meshes at three pressures (judge.py), until their own error is below a third of the bar, or --limit is used up. Each
 problem is a file of FOLDER (default results/strangers), written after every run: the same command goes on where it was
-stopped. Small meshes first. Leaves table.md and table.csv in FOLDER. The first 500 are for tuning; of
+stopped. Small meshes first. Leaves table.md and table.csv in FOLDER. The first 600 are for tuning; of
 the others only counts are told, unless --show-judging is given. Exit status 1: an acceptance number is not met.
 
 A new program is judged in a new folder; --references FOLDER (or a .jsonl) takes the runs of references from an earlier one,
@@ -85,11 +85,11 @@ def ask(one, scene):
     with tempfile.TemporaryDirectory() as cache:        # what a user pays who tries this shape for the first time
         ended = run(scene, QUIET, ASK_LIMIT, cache=cache, words=["--to", str(one.wanted), "--within", f"{WITHIN}s"])
     results, found = ended.report.get("results", {}), ended.report.get("accuracy") or {}
-    keep = ("refine", "contact_nodes", "undamped", "slip_cells", "end_wait", "runs", "seconds")
+    keep = ("refine", "contact_nodes", "undamped", "other_drops", "slip_cells", "end_wait", "runs", "seconds", "seconds_expected")
     return {"version": commit(), "status": ended.status, "said": ended.said[-600:], "seconds": ended.seconds,
             "wall": time.monotonic() - began, "wanted": one.wanted,
             **{key: results.get(key) for name in judge.ANSWERS for key in (name, f"{name}_error", f"{name}_error_parts")},
-            "mu_M_is": results.get("mu_M_is"), "met": found.get("met"), "of": found.get("of"), "ended": found.get("ended"),
+            "mu_M_is": results.get("mu_M_is"), "met": found.get("met"), "of": found.get("of"), "ended": found.get("ended"), "cut": found.get("cut"),
             "levels": [{key: level.get(key) for key in keep} | {name: level[name]["value"] for name in judge.ANSWERS}
                        for level in found.get("levels", [])],
             "warnings": ended.report.get("warnings", [])}

@@ -2,7 +2,6 @@
 // The reply is the mesh as the cache keeps it.
 #include "io/mesh/mesh_child.h"
 
-#include "base/child_process.h"
 #include "base/module.h"
 #include "io/mesh/mesh_cache.h"
 
@@ -50,7 +49,8 @@ static bool read_by_gmsh(void *context, FILE *reply, Error *err)
     return done;
 }
 
-bool mesh_child_read(const MeshRawRequest *request, MeshFile *mesh, Error *err)
+bool mesh_child_read(const MeshRawRequest *request, const ChildWatch *watch, MeshFile *mesh,
+                     Error *err)
 {
     MeshReading reading = {request, mesh};
     ChildReply reply = {0};
@@ -62,6 +62,7 @@ bool mesh_child_read(const MeshRawRequest *request, MeshFile *mesh, Error *err)
                       .kept = request->descriptor,
                       .advice = "where it is not endless: coarser cells, or mesh it by gmsh itself "
                                 "and name the .msh",
+                      .watch = watch,
                       .read = read_by_gmsh,
                       .context = &reading};
     if (!child_is_wanted()) return read_by_gmsh(&reading, NULL, err);

@@ -4,10 +4,13 @@
 #ifndef AMONTONS_IO_MESH_MESH_CHILD_H
 #define AMONTONS_IO_MESH_MESH_CHILD_H
 
+#include "base/child_process.h"
 #include "io/mesh/mesh_raw.h"
 
 // The mesh, in this process where no child is wanted. The module is opened in this process, once
 // for all meshes: to load it takes a tenth of a second, to hand it on to a child some milliseconds.
-bool mesh_child_read(const MeshRawRequest *request, MeshFile *mesh, Error *err);
+// watch: may end it; NULL: nobody. In this process nothing ends gmsh.
+bool mesh_child_read(const MeshRawRequest *request, const ChildWatch *watch, MeshFile *mesh,
+                     Error *err);
 
 #endif

@@ -5,6 +5,7 @@
 #ifndef AMONTONS_IO_MESH_MESH_FILE_H
 #define AMONTONS_IO_MESH_MESH_FILE_H
 
+#include "base/child_process.h"
 #include "base/error.h"
 
 #include <stdint.h>
@@ -97,9 +98,10 @@ typedef struct MeshParameter {
 // (ERROR_INPUT) name the file: missing, truncated, not a mesh, no elements, an element kind that is
 // not in ELEMENT_KINDS, a parameter the .geo does not know, a name that two
 // groups of one dimension have. A mesh without volumes that is not in the plane z = 0 of gmsh is
-// refused. *mesh is destroyed by the caller.
+// refused. watch: may end gmsh where it works in a child process; NULL: nobody. *mesh is destroyed
+// by the caller.
 bool mesh_file_read(const char *path, const MeshParameter *parameters, int32_t parameter_count,
-                    bool trusted, MeshFile *mesh, Error *err);
+                    bool trusted, const ChildWatch *watch, MeshFile *mesh, Error *err);
 void mesh_file_destroy(MeshFile *mesh);
 
 // The group called `name`. An error (ERROR_INPUT) names `path`, lists the groups that exist with

@@ -207,7 +207,7 @@ static void name_the_file(const char *path, const GeoScript *script, Error *err)
 }
 
 bool mesh_file_read(const char *path, const MeshParameter *parameters, int32_t parameter_count,
-                    bool trusted, MeshFile *mesh, Error *err)
+                    bool trusted, const ChildWatch *watch, MeshFile *mesh, Error *err)
 {
     char key[HASH_TEXT_SIZE];
     bool found = false;
@@ -245,7 +245,7 @@ bool mesh_file_read(const char *path, const MeshParameter *parameters, int32_t p
     TRY(mesh_cache_key(path, parameters, parameter_count, key, err));
     TRY(mesh_cache_load(key, mesh, &found, err));
     if (!found) {
-        if (!mesh_child_read(&request, mesh, err)) {
+        if (!mesh_child_read(&request, watch, mesh, err)) {
             name_the_file(path, &script, err);
             goto cleanup;
         }

@@ -17,7 +17,7 @@
 static bool info_scene_mesh(const Scene *scene, const InfoOptions *options, FILE *out, Error *err)
 {
     Mesh mesh = {0};
-    TRY(scene_mesh_read(scene, &mesh, NULL, err));
+    TRY(scene_mesh_read(scene, NULL, &mesh, NULL, err));
     info_write_mesh(&mesh, out);
     double middle = 0, width = 0;
     model_rod_strip(scene, mesh.z_max - mesh.z_min, &middle, &width);

@@ -140,7 +140,8 @@ bool info_mesh(const char *path, const InfoOptions *options, FILE *out, Error *e
     if (!parameters) goto cleanup;
     for (int32_t k = 0; k < options->override_count; k++)
         TRY(read_parameter(options->overrides[k], &parameters[k], err));
-    TRY(mesh_file_read(path, parameters, options->override_count, options->trust, &file, err));
+    TRY(mesh_file_read(path, parameters, options->override_count, options->trust, NULL, &file,
+                       err));
     TRY(mesh_build_parts(&file, path, &mesh, &parts, err));
     if (parts.count == 1) TRY(stand(&mesh, err));
     info_write_mesh(&mesh, out);

@@ -289,7 +289,7 @@ bool amontons_static(const Scene *scene, const char *folder, bool overwrite, Sta
              "`amontons run`",
              scene->path, friction_law_name(&scene->friction));
     TRY(result_folder_claim(folder, overwrite, &place, err));
-    TRY(model_read_mesh(&model, err));
+    TRY(model_read_mesh(NULL, &model, err));
     TRY(model_lay_bulk(&model, err));
     TRY(static_solve(&model, &solution, err));
     *summary = static_summarise(&model, &solution);

@@ -112,7 +112,7 @@ static bool measure_block(const Scene *scene, Model1d *model, Error *err)
 {
     Mesh mesh = {0};
     MeshContact contact = {0};
-    TRY(scene_mesh_read(scene, &mesh, NULL, err));
+    TRY(scene_mesh_read(scene, NULL, &mesh, NULL, err));
     if (mesh.dim > 2)
         FAIL(err, ERROR_INPUT,
              "%s: is a mesh in space, and the 1D model a line along a block in the plane",

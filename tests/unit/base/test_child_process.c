@@ -251,6 +251,30 @@ TEST(test_waiting)
     }
 }
 
+// Goes on twice, then no longer.
+static bool goes_on_twice(void *self, Error *err)
+{
+    int *asked = self;
+    if (++*asked <= 2) return true;
+    error_set(err, ERROR_INTERRUPT, __FILE__, __LINE__, "time is up");
+    return false;
+}
+
+TEST(test_watch_ends_it)
+{
+    Error err = {0};
+    ChildReply reply = {0};
+    int asked = 0;
+    ChildWatch watch = {.goes_on = goes_on_twice, .self = &asked};
+    ChildWork work = {
+        .path = "p", .reader = "r", .seconds = 7, .watch = &watch, .read = wait_for_ever};
+    double started = clock_seconds();
+    assert_false(child_read(&work, &reply, &err));
+    assert_true(clock_seconds() - started < 5);
+    assert_int_equal(asked, 3);
+    assert_int_equal(err.code, ERROR_INTERRUPT);
+}
+
 // --- shut in ------------------------------------------------------------------------------------
 
 // OTHER is there, OUTSIDE is not: both in the folder of this test.

@@ -18,7 +18,7 @@ static void draw(const char *name, const MeshParameter *parameters, int32_t coun
     MeshFile file;
     const InterfaceDef def = {.has_rod = true, .rod_name = "rod", .rod_whole = true};
     snprintf(path, sizeof path, "%s/meshes/%s", getenv("AMONTONS_SOURCE"), name);
-    if (!mesh_file_read(path, parameters, count, false, &file, &err) ||
+    if (!mesh_file_read(path, parameters, count, false, NULL, &file, &err) ||
         !mesh_build(&file, path, &drawn->mesh, &err) ||
         !interface_build(&drawn->mesh, &def, &drawn->interface, &err))
         fail_msg("%s", err.message);

@@ -247,7 +247,7 @@ static void mesh_geo(const char *name, const MeshParameter *parameters, int32_t 
     MeshFile file;
     Error err = {0};
     snprintf(path, sizeof path, "%s/meshes/%s", getenv("AMONTONS_SOURCE"), name);
-    if (!mesh_file_read(path, parameters, count, false, &file, &err) ||
+    if (!mesh_file_read(path, parameters, count, false, NULL, &file, &err) ||
         !mesh_build(&file, path, mesh, &err))
         fail_msg("%s", err.message);
 }

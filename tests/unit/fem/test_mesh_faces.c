@@ -72,7 +72,7 @@ TEST(test_euler)
         MeshFaces table;
         snprintf(parameters[2].text, GROUP_NAME_SIZE, "%s", shapes[k % 2]);
         snprintf(path, sizeof path, "%s/meshes/block.geo", getenv("AMONTONS_SOURCE"));
-        if (!mesh_file_read(path, parameters, 5, false, &file, &err) ||
+        if (!mesh_file_read(path, parameters, 5, false, NULL, &file, &err) ||
             !mesh_build(&file, path, &mesh, &err) || !mesh_faces_build(&mesh, &table, &err))
             fail_msg("%s", err.message);
         int32_t edges = 0, middles = 0, boundary = 0, centres = 0;

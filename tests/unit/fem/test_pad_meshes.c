@@ -35,7 +35,7 @@ static void draw(const char *name, const MeshParameter *parameters, Drawn *drawn
     Error err = {0};
     MeshFile file;
     path_of(name, path);
-    if (!mesh_file_read(path, parameters, count_of(parameters), false, &file, &err) ||
+    if (!mesh_file_read(path, parameters, count_of(parameters), false, NULL, &file, &err) ||
         !mesh_build(&file, path, &drawn->mesh, &err) ||
         !mesh_contact(&drawn->mesh, NULL, 0, &drawn->contact, &err))
         fail_msg("%s", err.message);
@@ -381,7 +381,7 @@ TEST(test_refused)
         MeshFile file;
         path_of(rows[k].mesh, path);
         assert_false(mesh_file_read(path, rows[k].parameters, count_of(rows[k].parameters), false,
-                                    &file, &err));
+                                    NULL, &file, &err));
         assert_int_equal(err.code, ERROR_INPUT);
         if (!strstr(err.message, rows[k].message))
             fail_msg("%s\nlacks: %s", err.message, rows[k].message);

@@ -33,7 +33,7 @@ static bool read_mesh(const char *name, const char *const *more, Mesh *mesh, Err
     while (*more) settings[count++] = *more++;
     settings[count] = NULL;
     Scene *scene = small_scene(settings);
-    bool done = scene_mesh_read(scene, mesh, NULL, err);
+    bool done = scene_mesh_read(scene, NULL, mesh, NULL, err);
     amontons_scene_destroy(scene);
     return done;
 }

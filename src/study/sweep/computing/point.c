@@ -39,7 +39,7 @@ static bool hash_mesh(const Scene *scene, PointMesh *mesh, Error *err)
     } else {
         Error failed = {0};   // it will be this point's own, when it is computed
         if (mesh_file_read(scene->mesh.file, scene->mesh.parameters, scene->mesh.parameter_count,
-                           scene->trusted, &made, &failed))
+                           scene->trusted, NULL, &made, &failed))
             mesh_file_hash(&made, &mesh->hash);
     }
 cleanup:

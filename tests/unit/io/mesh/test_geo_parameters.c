@@ -174,7 +174,7 @@ TEST(test_shipped)
             MeshFile mesh;
             memcpy(wrong.name, known.items[k].name, sizeof wrong.name);
             if (known.items[k].is_text) snprintf(wrong.text, sizeof wrong.text, "wrong");
-            assert_false(mesh_file_read(path, &wrong, 1, false, &mesh, &found));
+            assert_false(mesh_file_read(path, &wrong, 1, false, NULL, &mesh, &found));
             mesh_file_destroy(&mesh);
             assert_non_null(strstr(found.message, known.items[k].name));
             assert_non_null(strstr(found.message, wrong.text[0] ? "wrong" : "-7.5"));

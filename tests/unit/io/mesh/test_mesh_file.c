@@ -58,7 +58,7 @@ static void read_well(const char *path, const MeshParameter *parameters, int32_t
                       MeshFile *mesh)
 {
     Error err = {0};
-    bool done = mesh_file_read(path, parameters, count, false, mesh, &err);
+    bool done = mesh_file_read(path, parameters, count, false, NULL, mesh, &err);
     if (!done) fail_msg("%s", err.message);
 }
 
@@ -69,7 +69,7 @@ static void read_badly(const char *path, const MeshParameter *parameter, const c
     Error err = {0};
     MeshFile mesh;
     int64_t live = memory_counters().live;
-    bool done = mesh_file_read(path, parameter, parameter ? 1 : 0, false, &mesh, &err);
+    bool done = mesh_file_read(path, parameter, parameter ? 1 : 0, false, NULL, &mesh, &err);
     mesh_file_destroy(&mesh);
     assert_false(done);
     assert_int_equal(err.code, ERROR_INPUT);
@@ -610,7 +610,7 @@ static void exhaust(const char *path, const MeshParameter *parameters, int32_t c
         Error err = {0};
         MeshFile mesh;
         memory_fail_after(k);
-        done = mesh_file_read(path, parameters, count, false, &mesh, &err);
+        done = mesh_file_read(path, parameters, count, false, NULL, &mesh, &err);
         memory_fail_after(-1);
         if (!done) assert_int_equal(err.code, ERROR_MEMORY);
         mesh_file_destroy(&mesh);
