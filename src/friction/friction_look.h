@@ -6,8 +6,8 @@
 
 #include "friction/friction.h"
 
-// law: kind, end and functions are set; mu_static, mu_kinetic and critical_velocity as the scene gives
-// them, 0 where it does not. Sets these three, and what else of its shape is kept:
+// law: kind, end and functions are set; mu_static, mu_kinetic and critical_velocity as the scene
+// gives them, 0 where it does not. Sets these three, and what else of its shape is kept:
 //
 //   mu_S   mu(0)
 //   mu_K   the lowest coefficient

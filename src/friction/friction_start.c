@@ -222,8 +222,8 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Looks at the law at the start and in steady slip at all speeds: steady gets mu of steady slip, NaN
-// where none is found, *lost the most that mu loses in a unit of slip by its states.
+// Looks at the law at the start and in steady slip at all speeds: steady gets mu of steady slip,
+// NaN where none is found, *lost the most that mu loses in a unit of slip by its states.
 static bool look_along(const FrictionSource *source, FrictionNode *node, FrictionLaw *law,
                        double *steady, double *lost, const char **key, Error *err)
 {

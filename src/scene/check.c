@@ -115,7 +115,8 @@ static bool check_friction_keys(const Check *check)
     return true;
 }
 
-// The coefficient at rest is the largest: mu_K <= mu_S. One's own law is checked by scene/friction_law.
+// The coefficient at rest is the largest: mu_K <= mu_S. One's own law is checked by
+// scene/friction_law.
 static bool check_friction(const Check *check)
 {
     if (!check_friction_keys(check)) return false;

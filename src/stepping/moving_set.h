@@ -29,8 +29,8 @@
 //     w = -mu_v r_n,   memory = -r_n mu_theta g_v,   fading = -g_theta:
 //
 // a damper or weakening as before, and a spring of negative stiffness that gives way at the rate
-// `fading`. Of several states w(s) - w is that of a small system (friction/friction_response), as of
-// one that grows by itself.
+// `fading`. Of several states w(s) - w is that of a small system (friction/friction_response), as
+// of one that grows by itself.
 //
 // A soft rod node that touches has a spring and a damper of its own
 // (contact/rod).
