@@ -80,7 +80,7 @@ typedef struct RunCounters {
     int64_t contact_fallbacks;   // contact problems that the plain iteration did not settle
     int64_t contact_rescued;   // of these: solved after sweeps only
     int64_t certificates;   // factorisations to judge states
-    int64_t loop_allocations;   // arrays allocated in the time loop (0 but new rungs, output)
+    int64_t loop_allocations;   // arrays allocated in the time loop (0 but new levels of dt, output)
 } RunCounters;
 typedef struct RunPhase {   // of a run, for --profile
     const char *name;   // "contact"; static storage
@@ -135,7 +135,8 @@ typedef struct RunSummary {
     int32_t field_files, figures;   // VTU files written, pictures drawn
     RunWarnings warnings;   // also where the run failed
     int32_t phase_count;
-    RunPhase phases[RUN_PHASES_MAX];   // rungs, contact, certificate, bulk: of relax and solve
+    RunPhase phases[RUN_PHASES_MAX];   // rungs (making levels of dt), contact, certificate,
+        // bulk: of relax and solve
     char folder[AMONTONS_PATH_SIZE];   // where everything lies
 } RunSummary;
 

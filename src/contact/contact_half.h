@@ -10,7 +10,7 @@
 // is the sum of both: no term joins them, so that a matrix is positive definite where both of its
 // halves are. On the middle line nothing moves across in the symmetric part, nor along or up in the
 // antisymmetric one. Such an unknown stays with a 1 x 1 block of its own, that nothing pushes.
-// Found by stepping/half_step; S is asked for its halves by stepping/ladder.
+// Found by stepping/half_step; S is asked for its halves by stepping/dt_levels.
 #ifndef AMONTONS_CONTACT_CONTACT_HALF_H
 #define AMONTONS_CONTACT_CONTACT_HALF_H
 

@@ -7,8 +7,8 @@
 //
 // Blocks on pads have most of their nodes open while few slip. A node that opens or closes changes
 // S' by two sweeps, which cost as much as a few products with S; factoring S_OO in every linear
-// system costs far more. Made by stepping/ladder for each step size and by stepping/certificate for
-// the damping alone; used by contact/contact_newton.
+// system costs far more. Made by stepping/dt_levels for each step size and by stepping/certificate
+// for the damping alone; used by contact/contact_newton.
 #ifndef AMONTONS_CONTACT_CONTACT_MATRIX_H
 #define AMONTONS_CONTACT_CONTACT_MATRIX_H
 

@@ -6,7 +6,7 @@
 //
 // Recorders see one recording interval, many explicit steps long, as one step, so that a benchmark
 // does not measure the recording. RunCounters.accepted counts the explicit steps, and run.json's
-// `rungs` has one entry, the explicit step size. Called by run/simulation.
+// `levels` has one entry, the explicit step size. Called by run/simulation.
 #ifndef AMONTONS_RUN_EXPLICIT_LOOP_H
 #define AMONTONS_RUN_EXPLICIT_LOOP_H
 

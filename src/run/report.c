@@ -45,15 +45,15 @@ static void write_kernels(JsonWriter *json)
     json_end(json);
 }
 
-// Rungs on which a step was accepted, the longest first.
-static void write_rungs(JsonWriter *json, const Ladder *ladder)
+// Levels on which a step was accepted, the longest first.
+static void write_dt_levels(JsonWriter *json, const DtLevels *dt_levels)
 {
     json_begin_list(json, "rungs");
-    for (int32_t k = 0; k < ladder->rung_count; k++) {
-        if (ladder->accepted[k] == 0) continue;
+    for (int32_t k = 0; k < dt_levels->level_count; k++) {
+        if (dt_levels->accepted[k] == 0) continue;
         json_begin_object(json, NULL);
-        json_number(json, "dt", ladder_step(ladder, k));
-        json_integer(json, "accepted", ladder->accepted[k]);
+        json_number(json, "dt", dt_level_step(dt_levels, k));
+        json_integer(json, "accepted", dt_levels->accepted[k]);
         json_end(json);
     }
     json_end(json);
@@ -205,7 +205,7 @@ static void write_all(JsonWriter *json, const char *folder, const RunReport *rep
     write_warnings(json, &simulation->warnings);
     scene_write_json(&simulation->scene, json, "scene", folder);
     write_steps(json, report->counters);
-    write_rungs(json, &simulation->control.ladder);
+    write_dt_levels(json, &simulation->control.dt_levels);
     write_timing(json, &simulation->model, &simulation->timing);
     write_model(json, &simulation->model, simulation->relaxation_steps);
     write_results(json, report);

@@ -164,7 +164,7 @@ static bool archive_parts(Simulation *simulation, Archive *archive, Error *err)
     int64_t factorisations = simulation->model.system.factorisations;
     rod_archive(&simulation->rod, archive);
     if (!step_control_archive(&simulation->control, archive, err)) return false;
-    simulation->model.system.factorisations = factorisations;   // rungs made again do not count
+    simulation->model.system.factorisations = factorisations;   // levels made again do not count
     archive_end(simulation, archive);
     explicit_reference_archive(&simulation->explicit_reference, archive);
     if (!events_archive(&simulation->events, interface, archive, err)) return false;

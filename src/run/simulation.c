@@ -301,7 +301,7 @@ bool simulation_is_finished(const Simulation *simulation)
     return finished || simulation_has_event(simulation);
 }
 
-// Steps end at the points of programs, but for what is too short to be worth a rung: that is
+// Steps end at the points of programs, but for what is too short to be worth a level: that is
 // stepped over while waves are resolved.
 static bool advance_implicit(Simulation *simulation, Error *err)
 {
@@ -389,7 +389,7 @@ bool simulation_finish(Simulation *simulation, const Error *failure, RunSummary 
     if (!failure) output_warn_of_window(simulation);
     events_close(&simulation->events, &simulation->seen);
     if (simulation->recorders.count > 0)
-        simulation->errors.reduction = ladder_reduction_error(&simulation->control.ladder);
+        simulation->errors.reduction = dt_levels_reduction_error(&simulation->control.dt_levels);
     Answers answers = simulation_answers(simulation);
     double own_mu_M = answers.mu_M.value;
     const Event *least = drops_least_resolved(&simulation->drops, answers.first);

@@ -37,7 +37,7 @@ bool simulation_loop(Simulation *simulation, Error *err)
     return true;
 }
 
-// The loop itself allocates nothing but rungs and output. A failure anywhere is written into
+// The loop itself allocates nothing but levels and output. A failure anywhere is written into
 // run.json with what there was until then.
 bool simulation_run(const Scene *scene, const RunOptions *options, RunSummary *summary, Error *err)
 {

@@ -87,10 +87,10 @@ struct Simulation {
     double figures_seconds;
 };
 
-// Arrays allocated so far, but for those of rungs.
+// Arrays allocated so far, but for those of levels.
 static inline int64_t simulation_allocations(const Simulation *simulation)
 {
-    return memory_counters().allocations - simulation->control.ladder.allocations;
+    return memory_counters().allocations - simulation->control.dt_levels.allocations;
 }
 
 // These functions make up amontons_run and run/accuracy, beside the pieces in amontons.h.

@@ -68,7 +68,7 @@ static void list_phases(const Simulation *simulation, RunSummary *summary)
     const Model *model = &simulation->model;
     bool cached = model->from_cache, reduced = model->reduced.count > 0;
     bool fields = simulation->fields.written > 0;
-    double inside = solver->seconds + certificate->seconds + control->ladder.seconds;
+    double inside = solver->seconds + certificate->seconds + control->dt_levels.seconds;
     char note[96], written[96];
     add_phase(summary, "mesh", model->seconds_mesh, model->mesh.element_count,
               model->mesh_origin == MESH_OF_CACHE ? "elements, from the cache"
@@ -80,7 +80,7 @@ static void list_phases(const Simulation *simulation, RunSummary *summary)
                        : ": not reduced");
     add_phase(summary, "assemble, reduce", model->seconds_reduce, model->system.dof_count, note);
     add_phase(summary, "relax", timing->relax, simulation->relaxation_steps, "steps before t = 0");
-    add_phase(summary, "rungs", control->ladder.seconds, simulation->model.system.factorisations,
+    add_phase(summary, "rungs", control->dt_levels.seconds, simulation->model.system.factorisations,
               "factorisations, each when first used");
     add_phase(summary, "contact", solver->seconds, solver->iterations, "Newton steps");
     add_phase(summary, "certificate", certificate->seconds, certificate->checks,

@@ -11,10 +11,10 @@
 
 #include <math.h>
 
-// Rungs double: where s lies half way between two of them in log s, s m + k/s at the nearest is
+// Levels double: where s lies half way between two of them in log s, s m + k/s at the nearest is
 // this times its least, (sqrt 2 + 1/sqrt 2)/2. With matrices of both: s M + K/s there is a sum of
 // theirs with weights that make at least 1/this together.
-static const double BETWEEN_RUNGS = 1.0606601717798212;
+static const double BETWEEN_LEVELS = 1.0606601717798212;
 // N is at most this times such a sum: N is log-convex in s^2, so that it is at most
 // N_1^(1 - x) N_2^x, x = (s^2 - 1)/3 for s from 1 to 2; beside the sum that is at most 1.1242.
 static const double BETWEEN_MEMORIES = 1.125;
@@ -84,23 +84,23 @@ static const double *close_matrix(const Certificate *certificate, const State *s
                                 certificate->moving.interface->dim);
 }
 
-// S_C + narrow (S - S_C)/BETWEEN_RUNGS - W - N on F is positive definite; S that of `rung` (NULL:
+// S_C + narrow (S - S_C)/BETWEEN_LEVELS - W - N on F is positive definite; S that of `level` (NULL:
 // narrow is 0), N of what is remembered at 1/reach and faster. Parts of condensed operators are
 // less than their parts condensed: with open nodes the test is a little stricter between its ends.
-static bool is_definite(Certificate *certificate, const State *state, ContactMatrix *rung,
+static bool is_definite(Certificate *certificate, const State *state, ContactMatrix *level,
                         double narrow, double reach)
 {
     MovingSet *moving = &certificate->moving;
     moving_set_find(moving, state, false);
     if (!moving->weakens && !moving->remembers) return true;   // S itself is never indefinite
     const double *damping = NULL, *own = NULL;
-    double part = narrow / BETWEEN_RUNGS, factor = rung ? BETWEEN_MEMORIES : 1;
+    double part = narrow / BETWEEN_LEVELS, factor = level ? BETWEEN_MEMORIES : 1;
     if (certificate->damping_contact.schur)
         damping = close_matrix(certificate, state, &certificate->damping_contact);
-    if (rung) own = close_matrix(certificate, state, rung);
-    if (!damping || (rung && !own)) return false;
+    if (level) own = close_matrix(certificate, state, level);
+    if (!damping || (level && !own)) return false;
     moving_set_gather(moving, damping, 1 - part, 0, certificate->matrix);
-    if (rung) moving_set_gather(moving, own, part, 1, certificate->matrix);
+    if (level) moving_set_gather(moving, own, part, 1, certificate->matrix);
     moving_set_turn(moving, true, certificate->matrix);
     moving_set_add_dampers(moving, 0, certificate->matrix);
     moving_set_subtract_weakening(moving, 0, certificate->matrix);
@@ -118,21 +118,23 @@ bool certificate_holds(Certificate *certificate, const State *state, double reac
 }
 
 // a = cos(arctan(pi/log g)) of the header is ratio/sqrt(1 + ratio^2), ratio = log g/pi.
-bool certificate_oscillates_less(Certificate *certificate, const State *state, Ladder *ladder,
-                                 RungRange range, double growth)
+bool certificate_oscillates_less(Certificate *certificate, const State *state, DtLevels *dt_levels,
+                                 LevelRange range, double growth)
 {
     double started = clock_seconds(), ratio = log(growth) / M_PI;
     double narrow = ratio / sqrt(1 + ratio * ratio);
-    bool less = ladder_fill(ladder, certificate->part);   // BETWEEN_RUNGS is that of neighbours
+    bool less =
+        dt_levels_fill(dt_levels, certificate->part);   // BETWEEN_LEVELS is that of neighbours
     for (int32_t k = range.first; less && k < range.end; k++) {
-        ContactMatrix *rung = ladder_contact(ladder, k, certificate->part);
-        if (rung) less = is_definite(certificate, state, rung, narrow, ladder_reach(ladder, k));
+        ContactMatrix *level = dt_level_contact(dt_levels, k, certificate->part);
+        if (level)
+            less = is_definite(certificate, state, level, narrow, dt_level_reach(dt_levels, k));
     }
     certificate->seconds += clock_seconds() - started;
     return less;
 }
 
-// certificate->matrix = J + W of what moves, S that of a rung, open nodes condensed out.
+// certificate->matrix = J + W of what moves, S that of a level, open nodes condensed out.
 static void fill_coupled(Certificate *certificate, const double *closed)
 {
     moving_set_gather(&certificate->moving, closed, 1, 0, certificate->matrix);
@@ -153,12 +155,12 @@ static bool is_positive(Certificate *certificate, const double *closed, double r
     return dense_cholesky(certificate->matrix, moving->count);
 }
 
-// det J > 0 at the s of `rung`; what moves has been found. false, too: nothing holds the open
+// det J > 0 at the s of `level`; what moves has been found. false, too: nothing holds the open
 // nodes.
-static bool is_resolved(Certificate *certificate, const State *state, ContactMatrix *rung,
+static bool is_resolved(Certificate *certificate, const State *state, ContactMatrix *level,
                         double reach)
 {
-    const double *closed = close_matrix(certificate, state, rung);
+    const double *closed = close_matrix(certificate, state, level);
     int32_t *pivots = certificate->pivots, count = certificate->moving.count;
     if (!closed || !moving_set_is_calm(&certificate->moving, reach)) return false;
     certificate->checks++;
@@ -169,36 +171,37 @@ static bool is_resolved(Certificate *certificate, const State *state, ContactMat
            dense_lu_sign(certificate->matrix, count, pivots) > 0;
 }
 
-bool certificate_step_resolves(Certificate *certificate, const State *state, ContactMatrix *rung,
+bool certificate_step_resolves(Certificate *certificate, const State *state, ContactMatrix *level,
                                double reach)
 {
     double started = clock_seconds();
     moving_set_find(&certificate->moving, state, false);
-    bool resolves = is_resolved(certificate, state, rung, reach);
+    bool resolves = is_resolved(certificate, state, level, reach);
     certificate->seconds += clock_seconds() - started;
     return resolves;
 }
 
-bool certificate_finds_runaway(Certificate *certificate, const State *state, Ladder *ladder,
+bool certificate_finds_runaway(Certificate *certificate, const State *state, DtLevels *dt_levels,
                                int32_t resolved)
 {
     double started = clock_seconds();
     bool found = false;
     moving_set_find(&certificate->moving, state, false);
-    for (int32_t k = 0; k < ladder->rung_count && !found; k++) {
-        ContactMatrix *rung = k == resolved ? NULL : ladder_contact(ladder, k, certificate->part);
-        found = rung && !is_resolved(certificate, state, rung, ladder_reach(ladder, k));
+    for (int32_t k = 0; k < dt_levels->level_count && !found; k++) {
+        ContactMatrix *level = k == resolved ? NULL
+                                             : dt_level_contact(dt_levels, k, certificate->part);
+        found = level && !is_resolved(certificate, state, level, dt_level_reach(dt_levels, k));
     }
     certificate->seconds += clock_seconds() - started;
     return found;
 }
 
-double certificate_ratio(Certificate *certificate, const State *state, ContactMatrix *rung,
+double certificate_ratio(Certificate *certificate, const State *state, ContactMatrix *level,
                          double reach)
 {
     double started = clock_seconds(), ratio = INFINITY;
     int32_t *pivots = certificate->pivots;
-    const double *closed = close_matrix(certificate, state, rung);
+    const double *closed = close_matrix(certificate, state, level);
     if (closed) {
         moving_set_find(&certificate->moving, state, false);
         bool calm = moving_set_is_calm(&certificate->moving, reach);
@@ -213,16 +216,17 @@ double certificate_ratio(Certificate *certificate, const State *state, ContactMa
     return ratio;
 }
 
-bool certificate_excludes_runaway(Certificate *certificate, const State *state, Ladder *ladder,
-                                  RungRange range)
+bool certificate_excludes_runaway(Certificate *certificate, const State *state, DtLevels *dt_levels,
+                                  LevelRange range)
 {
     double ratio[3] = {0}, octaves;
-    if (!ladder_fill(ladder, certificate->part)) return false;   // so is the parabola
+    if (!dt_levels_fill(dt_levels, certificate->part)) return false;   // so is the parabola
     for (int32_t k = range.first; k < range.end; k++) {
-        ContactMatrix *rung = ladder_contact(ladder, k, certificate->part);
+        ContactMatrix *level = dt_level_contact(dt_levels, k, certificate->part);
         ratio[0] = ratio[1];
         ratio[1] = ratio[2];
-        ratio[2] = rung ? certificate_ratio(certificate, state, rung, ladder_reach(ladder, k)) : 0;
+        ratio[2] =
+            level ? certificate_ratio(certificate, state, level, dt_level_reach(dt_levels, k)) : 0;
         // Each by itself: fmax would lose a ratio that is not a number.
         if (!(ratio[2] < 1) || !(weakening_ratio_top(ratio, &octaves) < 1)) return false;
     }

@@ -6,7 +6,7 @@
 //   * S_C[F,F] - W positive definite, S_C the Schur complement of the damping C alone: viscosity
 //     takes more out of any slip than weakening puts in. No perturbation can gain energy, and any
 //     step that accuracy allows may be taken. First lost at about l_sc.
-//   * det J(s) > 0, s = 1/(gamma dt) of a rung. J, the rows of slipping nodes with the pressure
+//   * det J(s) > 0, s = 1/(gamma dt) of a level. J, the rows of slipping nodes with the pressure
 //     that follows slip,
 //
 //         J(s) = (S(s)_t + sign(v) mu S(s)_n)[F,F] - W,    S(s) = (M s + C + K/s) condensed,
@@ -45,7 +45,7 @@
 #ifndef AMONTONS_STEPPING_CERTIFICATE_H
 #define AMONTONS_STEPPING_CERTIFICATE_H
 
-#include "stepping/ladder.h"
+#include "stepping/dt_levels.h"
 #include "stepping/moving_set.h"
 
 typedef struct Certificate {
@@ -72,32 +72,33 @@ void certificate_destroy(Certificate *certificate);
 // that grows, reach: gamma dt of a step, time.
 bool certificate_holds(Certificate *certificate, const State *state, double reach);
 
-// det J > 0: no single real rate of growth lies above 1/reach, reach: gamma dt of `rung`.
-bool certificate_step_resolves(Certificate *certificate, const State *state, ContactMatrix *rung,
+// det J > 0: no single real rate of growth lies above 1/reach, reach: gamma dt of `level`.
+bool certificate_step_resolves(Certificate *certificate, const State *state, ContactMatrix *level,
                                double reach);
 
-// det J > 0 fails on some rung that is built; on rung `resolved` it is known to hold (-1: on none).
-bool certificate_finds_runaway(Certificate *certificate, const State *state, Ladder *ladder,
+// det J > 0 fails on some level that is built; on level `resolved` it is known to hold (-1: on
+// none).
+bool certificate_finds_runaway(Certificate *certificate, const State *state, DtLevels *dt_levels,
                                int32_t resolved);
 
-// The next two ask rungs from `first` to before `end`; of these all between the first and the last
-// of the ladder that are built, where those that lack are built.
-typedef struct RungRange {
+// The next two ask levels from `first` to before `end`; of these all between the first and the last
+// of the levels of dt that are built, where those that lack are built.
+typedef struct LevelRange {
     int32_t first, end;
-} RungRange;
+} LevelRange;
 
-// A disturbance that oscillates, at the s of these rungs, grows by less than `growth` > 1 in half a
-// period.
-bool certificate_oscillates_less(Certificate *certificate, const State *state, Ladder *ladder,
-                                 RungRange range, double growth);
+// A disturbance that oscillates, at the s of these levels, grows by less than `growth` > 1 in half
+// a period.
+bool certificate_oscillates_less(Certificate *certificate, const State *state, DtLevels *dt_levels,
+                                 LevelRange range, double growth);
 
-// No real rate of growth lies within the range of the rungs, those between included.
-bool certificate_excludes_runaway(Certificate *certificate, const State *state, Ladder *ladder,
-                                  RungRange range);
+// No real rate of growth lies within the range of the levels, those between included.
+bool certificate_excludes_runaway(Certificate *certificate, const State *state, DtLevels *dt_levels,
+                                  LevelRange range);
 
-// Weakening over what the block withstands at s = 1/reach of `rung`, the pressure that follows slip
-// included (stepping/weakening_ratio); INFINITY where S is singular.
-double certificate_ratio(Certificate *certificate, const State *state, ContactMatrix *rung,
+// Weakening over what the block withstands at s = 1/reach of `level`, the pressure that follows
+// slip included (stepping/weakening_ratio); INFINITY where S is singular.
+double certificate_ratio(Certificate *certificate, const State *state, ContactMatrix *level,
                          double reach);
 
 // Moves the counts of another certificate into this one.

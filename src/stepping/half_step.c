@@ -186,36 +186,37 @@ bool parts_hold(CertifiedParts parts, const State *state, double reach, bool *an
 }
 
 // The answer of one certificate.
-static bool answer(Certificate *certificate, const State *state, Ladder *ladder, PartsAsked asked,
-                   RungRange range, double growth)
+static bool answer(Certificate *certificate, const State *state, DtLevels *dt_levels,
+                   PartsAsked asked, LevelRange range, double growth)
 {
     int32_t k = range.first;
     switch (asked) {
     case PARTS_RESOLVE: {
-        ContactMatrix *rung = ladder_contact(ladder, k, certificate->part);
-        return rung && certificate_step_resolves(certificate, state, rung, ladder_reach(ladder, k));
+        ContactMatrix *level = dt_level_contact(dt_levels, k, certificate->part);
+        return level &&
+               certificate_step_resolves(certificate, state, level, dt_level_reach(dt_levels, k));
     }
     case PARTS_FIND_NO_RUNAWAY:
-        return !certificate_finds_runaway(certificate, state, ladder, k);
+        return !certificate_finds_runaway(certificate, state, dt_levels, k);
     case PARTS_OSCILLATE_LESS:
-        return certificate_oscillates_less(certificate, state, ladder, range, growth);
+        return certificate_oscillates_less(certificate, state, dt_levels, range, growth);
     case PARTS_EXCLUDE_RUNAWAY:
-        return certificate_excludes_runaway(certificate, state, ladder, range);
+        return certificate_excludes_runaway(certificate, state, dt_levels, range);
     }
     return false;
 }
 
-bool parts_ask(CertifiedParts parts, const State *state, PartsAsked asked, RungRange range,
+bool parts_ask(CertifiedParts parts, const State *state, PartsAsked asked, LevelRange range,
                double growth)
 {
     HalfStep *half = parts.half;
-    Ladder *ladder = parts.ladder;
-    if (!parts.halved) return answer(parts.whole, state, ladder, asked, range, growth);
+    DtLevels *dt_levels = parts.dt_levels;
+    if (!parts.halved) return answer(parts.whole, state, dt_levels, asked, range, growth);
     const State *one = half_step_fold(half, state);
-    bool yes = answer(&half->symmetric, one, ladder, asked, range, growth);
+    bool yes = answer(&half->symmetric, one, dt_levels, asked, range, growth);
     if (yes && !half->antisymmetric_decays)
-        yes = answer(&half->antisymmetric, one, ladder, asked, range, growth);
+        yes = answer(&half->antisymmetric, one, dt_levels, asked, range, growth);
     certificate_take_counts(parts.whole, &half->symmetric);
     certificate_take_counts(parts.whole, &half->antisymmetric);
-    return yes && ladder->half;   // else a rung was found that is not its own mirror image
+    return yes && dt_levels->half;   // else a level was found that is not its own mirror image
 }

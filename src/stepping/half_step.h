@@ -55,7 +55,7 @@ void half_step_archive(HalfStep *half, Archive *archive);
 typedef struct CertifiedParts {
     Certificate *whole;
     HalfStep *half;
-    Ladder *ladder;
+    DtLevels *dt_levels;
     bool halved;   // the parts are asked
 } CertifiedParts;
 
@@ -63,16 +63,16 @@ typedef struct CertifiedParts {
 // asked. The questions that follow are about the state that this was asked about last.
 bool parts_hold(CertifiedParts parts, const State *state, double reach, bool *antisymmetric_decays);
 
-// Questions about the rungs of a range; the first two are about its first rung alone.
+// Questions about the levels of a range; the first two are about its first level alone.
 typedef enum PartsAsked {
     PARTS_RESOLVE,   // certificate_step_resolves
-    PARTS_FIND_NO_RUNAWAY,   // not certificate_finds_runaway, known to hold on that rung
+    PARTS_FIND_NO_RUNAWAY,   // not certificate_finds_runaway, known to hold on that level
     PARTS_OSCILLATE_LESS,   // certificate_oscillates_less than `growth`
     PARTS_EXCLUDE_RUNAWAY   // certificate_excludes_runaway
 } PartsAsked;
 
 // Whether the whole, or both parts, are so.
-bool parts_ask(CertifiedParts parts, const State *state, PartsAsked asked, RungRange range,
+bool parts_ask(CertifiedParts parts, const State *state, PartsAsked asked, LevelRange range,
                double growth);
 
 #endif

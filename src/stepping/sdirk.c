@@ -7,7 +7,8 @@
 #include <math.h>
 #include <string.h>
 
-bool sdirk_create(const Block *block, TableauKind kind, Ladder *ladder, Sdirk *scheme, Error *err)
+bool sdirk_create(const Block *block, TableauKind kind, DtLevels *dt_levels, Sdirk *scheme,
+                  Error *err)
 {
     const BulkOperator *system = block->system;
     const Interface *interface = block->interface;
@@ -16,12 +17,12 @@ bool sdirk_create(const Block *block, TableauKind kind, Ladder *ladder, Sdirk *s
                       .interface = interface,
                       .friction = block->friction,
                       .rod = block->rod,
-                      .ladder = ladder};
+                      .dt_levels = dt_levels};
     scheme->rhs = NEW_ARRAY(double, system->dof_count, err);
     scheme->force = NEW_ARRAY(double, system->dof_count, err);
     scheme->viscous = NEW_ARRAY(double, system->dof_count, err);
     int64_t earlier = scheme->tableau.stages - 1, dofs = system->dof_count;
-    ladder->gamma = scheme->tableau.gamma;
+    dt_levels->gamma = scheme->tableau.gamma;
     scheme->stage_velocity = NEW_ARRAY(double, earlier *dofs, err);
     scheme->stage_impulse = NEW_ARRAY(double, earlier *dofs, err);
     scheme->stage_elastic = NEW_ARRAY(double, scheme->tableau.stages *dofs, err);
@@ -99,13 +100,13 @@ static double end_residual(const Sdirk *scheme, State *to)
     return dense_max_abs(viscous, to->dof_count);
 }
 
-// Solves stage i of a step with rung k: v_i, and what later stages, the ledger and, of the last
+// Solves stage i of a step with level k: v_i, and what later stages, the ledger and, of the last
 // stage, the end state need of it.
 static bool solve_stage(Sdirk *scheme, int32_t k, int32_t i, const State *from, State *to,
                         StepOutcome *outcome, Error *err)
 {
     BulkOperator *system = scheme->system;
-    InterfaceOperator *bulk = scheme->ladder->rung[k];
+    InterfaceOperator *bulk = scheme->dt_levels->level[k];
     const Interface *interface = scheme->interface;
     const Tableau *tableau = &scheme->tableau;
     Rod *rod = scheme->rod;
@@ -116,7 +117,8 @@ static bool solve_stage(Sdirk *scheme, int32_t k, int32_t i, const State *from, 
     double *velocity = last ? to->velocity : scheme->stage_velocity + (int64_t)i * dofs;
     double *momentum = last ? to->momentum : scheme->stage_impulse + (int64_t)i * dofs;
     double *elastic = scheme->stage_elastic + (int64_t)i * dofs;
-    double step = ladder_step(scheme->ladder, k), scaled = ladder_reach(scheme->ladder, k);
+    double step = dt_level_step(scheme->dt_levels, k),
+           scaled = dt_level_reach(scheme->dt_levels, k);
     double rate = 1 / scaled;   // 1/(gamma dt)
     double time = from->time + tableau->c[i] * step;
     double factor = load_factor(scheme->course, time);
@@ -174,7 +176,7 @@ static bool solve_stage(Sdirk *scheme, int32_t k, int32_t i, const State *from, 
                               .rod_softness = rod->softness,
                               .rod_lag = rod->lag,
                               .rod_reach = scheme->reach,
-                              .matrix = ladder_contact(scheme->ladder, k, scheme->part),
+                              .matrix = dt_level_contact(scheme->dt_levels, k, scheme->part),
                               .g = scheme->g,
                               .bound = scheme->bound};
     outcome->solved = solve_contact(scheme, &problem, &contact, &outcome->asymmetric);
@@ -232,11 +234,12 @@ bool sdirk_step(Sdirk *scheme, int32_t k, const State *from, State *to, StepOutc
 {
     *outcome = (StepOutcome){0};
     // The matrices of the contact. That of the antisymmetric part comes before the stages, as it
-    // may make the rung anew.
-    if (!ladder_rung(scheme->ladder, k, scheme->part, err)) goto cleanup;
+    // may make the level anew.
+    if (!dt_level_operator(scheme->dt_levels, k, scheme->part, err)) goto cleanup;
     bool both = scheme->part != PART_WHOLE && scheme->antisymmetric_acts;
-    scheme->antisymmetric = both ? ladder_contact(scheme->ladder, k, PART_ANTISYMMETRIC) : NULL;
-    if (!scheme->ladder->half) scheme->part = PART_WHOLE;   // S is not its own mirror image
+    scheme->antisymmetric = both ? dt_level_contact(scheme->dt_levels, k, PART_ANTISYMMETRIC)
+                                 : NULL;
+    if (!scheme->dt_levels->half) scheme->part = PART_WHOLE;   // S is not its own mirror image
     if (both && !scheme->antisymmetric && scheme->part != PART_WHOLE) goto cleanup;
 
     // The contact as it was is the first guess of the stages.
@@ -251,7 +254,7 @@ bool sdirk_step(Sdirk *scheme, int32_t k, const State *from, State *to, StepOutc
         if (!outcome->solved) goto cleanup;
     }
 
-    double step = ladder_step(scheme->ladder, k);
+    double step = dt_level_step(scheme->dt_levels, k);
     outcome->error = estimate_error(scheme, from, to, step);
     double forgets = friction_states_error(&scheme->memory, &scheme->tableau, step);
     if (forgets > outcome->error) outcome->error = forgets;

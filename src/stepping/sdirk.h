@@ -16,14 +16,14 @@
 #include "stepping/energy.h"
 #include "stepping/friction_states.h"
 #include "stepping/half_step.h"
-#include "stepping/ladder.h"
+#include "stepping/dt_levels.h"
 #include "stepping/load_course.h"
 #include "stepping/tableau.h"
 
 typedef struct Sdirk {
     Tableau tableau;
     BulkOperator *system;   // not owned, like the next four
-    Ladder *ladder;
+    DtLevels *dt_levels;
     const Interface *interface;
     const Friction *friction;
     Rod *rod;
@@ -58,11 +58,12 @@ typedef struct StepOutcome {
     double load_work;   // of the step
 } StepOutcome;
 
-// Sets the ladder's gamma, before its first rung is built.
-bool sdirk_create(const Block *block, TableauKind kind, Ladder *ladder, Sdirk *scheme, Error *err);
+// Sets the levels' gamma, before the first of them is built.
+bool sdirk_create(const Block *block, TableauKind kind, DtLevels *dt_levels, Sdirk *scheme,
+                  Error *err);
 void sdirk_destroy(Sdirk *scheme);
 
-// From `from` with rung k of the ladder to `to`. false: a library failed (err says what); an
+// From `from` with level k of dt to `to`. false: a library failed (err says what); an
 // unsolved contact problem is no error but an outcome.
 bool sdirk_step(Sdirk *scheme, int32_t k, const State *from, State *to, StepOutcome *outcome,
                 Error *err);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The rung follows the error as dt ~ error^(-1/(p + 1)), p the scheme's order (Hairer and Wanner,
-// Solving ODEs II, IV.8), rounded down to the ladder.
+// The level follows the error as dt ~ error^(-1/(p + 1)), p the scheme's order (Hairer and Wanner,
+// Solving ODEs II, IV.8), rounded down to the levels of dt.
 //
 // A trial costs the scheme's stages and, in a state that is not certified, some small
 // factorisations. What is undone is only `next`: `now` is not touched before a step is accepted,
@@ -20,7 +20,7 @@ static const double SAFETY = 0.5;
 // nodes that hit, however short the step; still shorter ones only drive the force of the blow up.)
 static const double LEDGER_SHARE = 0.5;
 
-// Rungs down from a long step into a state that is not certified, at most as far as waves are
+// Levels down from a long step into a state that is not certified, at most as far as waves are
 // resolved: where slip first goes too far is closed in on by eighths.
 enum { UNCERTIFIED_DROP = 3 };
 
@@ -40,20 +40,20 @@ static const double ANTISYMMETRIC_LIMIT = 1e-12;
 // and cost a minute.
 static const double STEPS_LEFT_MAX = 1e8;
 
-// The ladder begins at step_max doubled as often as relaxing may need; which rung a run may take at
+// The first level is step_max, doubled as often as relaxing may need; which level a run may take at
 // the longest is `coarsest`.
 bool step_control_create(const Block *block, const StepControlDef *def, StepControl *control,
                          Error *err)
 {
     *control = (StepControl){.def = *def, .certified = true, .antisymmetric_decays = true};
     double longest = def->step_max;
-    while (longest < def->relax_step) longest *= 2;   // so that step_max is a rung
-    ladder_init(block->system, longest, def->step_min, &control->ladder);
-    TRY(sdirk_create(block, def->scheme, &control->ladder, &control->scheme, err));
+    while (longest < def->relax_step) longest *= 2;   // so that step_max is a level
+    dt_levels_init(block->system, longest, def->step_min, &control->dt_levels);
+    TRY(sdirk_create(block, def->scheme, &control->dt_levels, &control->scheme, err));
     TRY(certificate_create(block, &control->certificate, err));
     if (def->use_certificate && !control->scheme.memory.node)
         TRY(half_step_create(block, &control->certificate, &control->half, err));
-    if (control->half.exists) control->ladder.half = &control->half.half;
+    if (control->half.exists) control->dt_levels.half = &control->half.half;
     control->scheme.half = &control->half;
     TRY(oscillation_record_create(block, def->watch_time, &control->oscillations, err));
     TRY(state_create(block->system, block->interface, &control->now, err));
@@ -67,7 +67,7 @@ cleanup:
 
 void step_control_destroy(StepControl *control)
 {
-    ladder_destroy(&control->ladder);
+    dt_levels_destroy(&control->dt_levels);
     sdirk_destroy(&control->scheme);
     certificate_destroy(&control->certificate);
     half_step_destroy(&control->half);
@@ -90,20 +90,21 @@ void step_control_restart(StepControl *control)
     control->counters = (StepCounters){0};
     control->looked_steps = 0;
     control->looked_time = 0;
-    for (int32_t k = 0; k < LADDER_RUNGS_MAX; k++) control->ladder.accepted[k] = 0;
+    for (int32_t k = 0; k < DT_LEVELS_MAX; k++) control->dt_levels.accepted[k] = 0;
     control->ledger = energy_open(&control->now);
     oscillation_record_clear(&control->oscillations);
-    control->coarsest = ladder_find(&control->ladder, control->def.step_max);
+    control->coarsest = dt_level_find(&control->dt_levels, control->def.step_max);
     int32_t first =
-        ladder_find(&control->ladder, fmin(control->def.wave_step, control->def.step_max));
-    control->rung = first < control->ladder.rung_count ? first : control->ladder.rung_count - 1;
+        dt_level_find(&control->dt_levels, fmin(control->def.wave_step, control->def.step_max));
+    control->level = first < control->dt_levels.level_count ? first
+                                                            : control->dt_levels.level_count - 1;
 }
 
 static CertifiedParts parts_of(StepControl *control)
 {
     return (CertifiedParts){.whole = &control->certificate,
                             .half = &control->half,
-                            .ladder = &control->ladder,
+                            .dt_levels = &control->dt_levels,
                             .halved = control->scheme.part != PART_WHOLE};
 }
 
@@ -119,21 +120,21 @@ typedef enum Verdict {
 static EnergyLedger book_step(const StepControl *control, int32_t k, const StepOutcome *outcome)
 {
     EnergyLedger ledger = control->ledger;
-    sdirk_add_energy(&control->scheme, outcome, ladder_step(&control->ladder, k), &ledger);
+    sdirk_add_energy(&control->scheme, outcome, dt_level_step(&control->dt_levels, k), &ledger);
     energy_store(&control->next, &ledger);
     return ledger;
 }
 
 // The longest step that resolves waves.
-static int32_t wave_rung(const StepControl *control)
+static int32_t wave_level(const StepControl *control)
 {
-    return ladder_find(&control->ladder, control->def.wave_step);
+    return dt_level_find(&control->dt_levels, control->def.wave_step);
 }
 
 static bool step_balances(const StepControl *control, int32_t k, const StepOutcome *outcome)
 {
     double part = LEDGER_SHARE * control->def.energy_tolerance;
-    if (part == 0 || control->settles || k > wave_rung(control)) return true;
+    if (part == 0 || control->settles || k > wave_level(control)) return true;
     EnergyLedger after = book_step(control, k, outcome);
     double missing = fabs(energy_imbalance(&after));
     return missing <=
@@ -142,14 +143,14 @@ static bool step_balances(const StepControl *control, int32_t k, const StepOutco
 
 void step_control_disturb(StepControl *control)
 {
-    int32_t resolving = wave_rung(control), last = control->ladder.rung_count - 1;
+    int32_t resolving = wave_level(control), last = control->dt_levels.level_count - 1;
     oscillation_record_clear(&control->oscillations);
-    if (control->rung < resolving) control->rung = resolving < last ? resolving : last;
+    if (control->level < resolving) control->level = resolving < last ? resolving : last;
 }
 
-// No oscillation that a disturbance as fast as slip itself starts, at the s of these rungs, comes
+// No oscillation that a disturbance as fast as slip itself starts, at the s of these levels, comes
 // near v_c in half a period.
-static bool oscillations_stay_small(StepControl *control, const State *state, RungRange range)
+static bool oscillations_stay_small(StepControl *control, const State *state, LevelRange range)
 {
     double fastest = 0;
     for (int32_t i = 0; i < state->contact_count; i++)
@@ -158,18 +159,18 @@ static bool oscillations_stay_small(StepControl *control, const State *state, Ru
     return growth > 1 && parts_ask(parts_of(control), state, PARTS_OSCILLATE_LESS, range, growth);
 }
 
-// May `state` be left or reached by a step of rung k, which does not resolve waves? What oscillates
-// on is small, as certified or as seen so far, and nothing grows without oscillating. Where
+// May `state` be left or reached by a step of level k, which does not resolve waves? What
+// oscillates on is small, as certified or as seen so far, and nothing grows without oscillating. Where
 // friction remembers, what grows more slowly than the step and than anything that could be seen is
 // resolved by it; what is slower than the time that was watched has not been seen.
 static bool may_skip_waves(StepControl *control, const State *state, int32_t k)
 {
-    const Ladder *ladder = &control->ladder;
+    const DtLevels *dt_levels = &control->dt_levels;
     double watched = control->oscillations.duration;
     if (watched == 0) return false;
-    int32_t slowest = ladder_find(ladder, watched / ladder->gamma);   // that was seen
-    RungRange all = {k < slowest ? k : slowest, ladder->rung_count};
-    RungRange unseen = {all.first, slowest + 1};
+    int32_t slowest = dt_level_find(dt_levels, watched / dt_levels->gamma);   // that was seen
+    LevelRange all = {k < slowest ? k : slowest, dt_levels->level_count};
+    LevelRange unseen = {all.first, slowest + 1};
     bool seen = oscillation_record_covers(&control->oscillations, state), small = seen;
     if (control->scheme.memory.act)
         small = seen && k >= slowest;
@@ -189,15 +190,15 @@ static Verdict judge_step(StepControl *control, int32_t k, const StepOutcome *ou
     if (!outcome->solved || !isfinite(outcome->error)) return STEP_UNSOLVED;
     if (outcome->error > control->def.tolerance) return STEP_INACCURATE;
     // Where no shorter step is left the run's own ledger decides (run/simulation).
-    bool last = k + 1 >= control->ladder.rung_count;
+    bool last = k + 1 >= control->dt_levels.level_count;
     if (!last && !step_balances(control, k, outcome)) return STEP_UNBALANCED;
     if (!control->def.use_certificate) return STEP_ACCEPTED;
-    double reach = ladder_reach(&control->ladder, k);
+    double reach = dt_level_reach(&control->dt_levels, k);
     *certified = parts_hold(parts_of(control), &control->next, reach, antisymmetric_decays);
     if (*certified) return STEP_ACCEPTED;
-    if (k < wave_rung(control))
+    if (k < wave_level(control))
         return may_skip_waves(control, &control->next, k) ? STEP_ACCEPTED : STEP_UNCERTIFIED;
-    RungRange own = {k, k + 1};
+    LevelRange own = {k, k + 1};
     bool resolved = parts_ask(parts_of(control), &control->next, PARTS_RESOLVE, own, 0);
     return resolved ? STEP_ACCEPTED : STEP_UNCERTIFIED;
 }
@@ -208,30 +209,30 @@ static double estimate_order(const StepControl *control)
     return control->scheme.tableau.order + 1;
 }
 
-// The rung after a rejection: at least one further down.
-static int32_t smaller_rung(const StepControl *control, int32_t k, Verdict verdict,
-                            const StepOutcome *outcome)
+// The level after a rejection: at least one further down.
+static int32_t shorter_level(const StepControl *control, int32_t k, Verdict verdict,
+                             const StepOutcome *outcome)
 {
     int32_t target = k + 1;
     if (verdict == STEP_INACCURATE) {
         double allowed = SAFETY * control->def.tolerance / outcome->error;
         double shrink = pow(allowed, 1 / estimate_order(control));
-        target = ladder_find(&control->ladder, ladder_step(&control->ladder, k) * shrink);
+        target = dt_level_find(&control->dt_levels, dt_level_step(&control->dt_levels, k) * shrink);
     }
     // With memory what a state withstands goes by the step: one half as long may do.
     if (verdict == STEP_UNCERTIFIED && !control->scheme.memory.act) {
-        int32_t resolving = wave_rung(control);
+        int32_t resolving = wave_level(control);
         target = resolving < k + UNCERTIFIED_DROP ? resolving : k + UNCERTIFIED_DROP;
     }
     return target > k ? target : k + 1;
 }
 
-// The rung after an accepted step: one up when the error allows it and the certificate does.
-static int32_t next_rung(StepControl *control, int32_t k, double error, bool retried)
+// The level after an accepted step: one up when the error allows it and the certificate does.
+static int32_t next_level(StepControl *control, int32_t k, double error, bool retried)
 {
     double expected = error * exp2(estimate_order(control));
     bool grows = !retried && k > control->coarsest && expected < SAFETY * control->def.tolerance;
-    int32_t next = grows ? k - 1 : k, resolving = wave_rung(control);
+    int32_t next = grows ? k - 1 : k, resolving = wave_level(control);
     // A state that a step longer than the waves led to was examined already.
     bool free = k < resolving || next >= resolving || control->certified ||
                 may_skip_waves(control, &control->now, next);
@@ -240,29 +241,29 @@ static int32_t next_rung(StepControl *control, int32_t k, double error, bool ret
                   control->def.use_certificate;
     bool stays = longer &&
                  !certificate_holds(&control->certificate, &control->now,
-                                    ladder_reach(&control->ladder, next)) &&
+                                    dt_level_reach(&control->dt_levels, next)) &&
                  !may_skip_waves(control, &control->now, next);
     return stays ? k : next;
 }
 
-// The coarsest built rung that does not overshoot; the chosen one when none is, or one is made.
-static int32_t fit_rung(const StepControl *control, int32_t k, double remaining)
+// The coarsest built level that does not overshoot; the chosen one when none is, or one is made.
+static int32_t fit_level(const StepControl *control, int32_t k, double remaining)
 {
-    const Ladder *ladder = &control->ladder;
+    const DtLevels *dt_levels = &control->dt_levels;
     remaining *= 1 + 1e-9;   // rounding must not cost the last step
-    if (ladder_step(ladder, k) <= remaining) return k;
-    for (int32_t fit = k + 1; fit < ladder->rung_count; fit++) {
-        if (ladder->rung[fit] && ladder_step(ladder, fit) <= remaining) return fit;
+    if (dt_level_step(dt_levels, k) <= remaining) return k;
+    for (int32_t fit = k + 1; fit < dt_levels->level_count; fit++) {
+        if (dt_levels->level[fit] && dt_level_step(dt_levels, fit) <= remaining) return fit;
     }
-    int32_t made = ladder_find(ladder, remaining);
-    return control->lands && made < ladder->rung_count ? made : k;
+    int32_t made = dt_level_find(dt_levels, remaining);
+    return control->lands && made < dt_levels->level_count ? made : k;
 }
 
 bool step_control_fits(const StepControl *control, double remaining)
 {
-    const Ladder *ladder = &control->ladder;
-    for (int32_t k = ladder->rung_count - 1; k >= 0; k--) {
-        if (ladder->rung[k]) return ladder_step(ladder, k) <= remaining * (1 + 1e-9);
+    const DtLevels *dt_levels = &control->dt_levels;
+    for (int32_t k = dt_levels->level_count - 1; k >= 0; k--) {
+        if (dt_levels->level[k]) return dt_level_step(dt_levels, k) <= remaining * (1 + 1e-9);
     }
     return remaining > 0;
 }
@@ -289,9 +290,9 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Looks for real growth in `now`, accepted at rung k, on the rungs that are built: some small
+// Looks for real growth in `now`, accepted at level k, on the levels that are built: some small
 // factorisations, so only when the slip set is larger than all that were looked at since the last
-// certified state. judge_step has looked at rung k where that resolves waves.
+// certified state. judge_step has looked at level k where that resolves waves.
 static void scan_growth(StepControl *control, int32_t k)
 {
     int32_t slipping = 0;
@@ -305,11 +306,11 @@ static void scan_growth(StepControl *control, int32_t k)
                                                       : 0;
     if (control->certified || slipping <= control->scanned + more) return;
     control->scanned = slipping;
-    RungRange known = {k < wave_rung(control) ? -1 : k, k + 1};
+    LevelRange known = {k < wave_level(control) ? -1 : k, k + 1};
     control->grows = !parts_ask(parts_of(control), &control->now, PARTS_FIND_NO_RUNAWAY, known, 0);
 }
 
-// A step that was shortened only to end where the run ends does not choose the next rung.
+// A step that was shortened only to end where the run ends does not choose the next level.
 bool step_control_advance(StepControl *control, double remaining, Error *err)
 {
     static const char *const reasons[] = {
@@ -318,20 +319,20 @@ bool step_control_advance(StepControl *control, double remaining, Error *err)
         [STEP_UNBALANCED] = "its energies do not balance",
         [STEP_UNCERTIFIED] = "slip grows faster than it resolves"};
     StepCounters *counters = &control->counters;
-    Ladder *ladder = &control->ladder;
+    DtLevels *dt_levels = &control->dt_levels;
     StepOutcome outcome;
     bool certified = true, antisymmetric_decays, retried = false;
-    int32_t k = fit_rung(control, control->rung, remaining);
-    bool shortened = k != control->rung;
+    int32_t k = fit_level(control, control->level, remaining);
+    bool shortened = k != control->level;
 
-    // Steps are tried with smaller and smaller rungs until one is accepted.
+    // Steps are tried that are shorter and shorter until one is accepted.
     for (;;) {
         // A path through the contact problem costs as much as some hundred steps on a large
         // interface, and shorter steps need none: only where none is left.
-        control->scheme.solver.sweeps_on = k == ladder->rung_count - 1;
+        control->scheme.solver.sweeps_on = k == dt_levels->level_count - 1;
         // The whole contact is solved, or its symmetric part alone, with the antisymmetric one
         // where that does not decay.
-        bool halved = ladder->half && !control->asymmetric &&
+        bool halved = dt_levels->half && !control->asymmetric &&
                       half_step_take_friction(&control->half, control->scheme.friction);
         control->scheme.part = halved ? PART_SYMMETRIC : PART_WHOLE;
         control->scheme.antisymmetric_acts = !control->antisymmetric_decays ||
@@ -350,8 +351,8 @@ bool step_control_advance(StepControl *control, double remaining, Error *err)
         counters->rejected_energy += verdict == STEP_UNBALANCED;
         counters->rejected_uncertified += verdict == STEP_UNCERTIFIED;
         retried = true;
-        k = smaller_rung(control, k, verdict, &outcome);
-        if (k < ladder->rung_count) continue;
+        k = shorter_level(control, k, verdict, &outcome);
+        if (k < dt_levels->level_count) continue;
         double speed, mu;
         if (!friction_states_hold(&control->scheme.memory, control->now.slip_rate, &speed, &mu))
             FAIL(err, ERROR_COMPUTE,
@@ -368,32 +369,32 @@ bool step_control_advance(StepControl *control, double remaining, Error *err)
     control->next = control->now;
     control->now = accepted;
     control->outcome = outcome;
-    control->last_step = ladder_step(ladder, k);
+    control->last_step = dt_level_step(dt_levels, k);
     control->certified = certified;
     control->antisymmetric_decays = antisymmetric_decays;
     counters->accepted++;
-    ladder->accepted[k]++;
-    if (k >= wave_rung(control))
+    dt_levels->accepted[k]++;
+    if (k >= wave_level(control))
         oscillation_record_add(&control->oscillations, &control->now, control->last_step,
                                certified);
     else
         counters->stepped_over_oscillations += !certified;
 
-    // What the next step needs: whether slip runs away, and the rung.
+    // What the next step needs: whether slip runs away, and the level.
     scan_growth(control, k);
-    if (!shortened || retried) control->rung = next_rung(control, k, outcome.error, retried);
+    if (!shortened || retried) control->level = next_level(control, k, outcome.error, retried);
 cleanup:
     return error_is_clean(err);
 }
 
-// One rung, which needs no matrix.
+// One level, which needs no matrix.
 void step_control_use_explicit(StepControl *control, const ExplicitReference *scheme)
 {
-    BulkOperator *system = control->ladder.system;
-    ladder_destroy(&control->ladder);
-    ladder_init(system, scheme->def.step, scheme->def.step, &control->ladder);
+    BulkOperator *system = control->dt_levels.system;
+    dt_levels_destroy(&control->dt_levels);
+    dt_levels_init(system, scheme->def.step, scheme->def.step, &control->dt_levels);
     control->def.step_max = control->def.step_min = scheme->def.step;
-    control->rung = control->coarsest = 0;
+    control->level = control->coarsest = 0;
 }
 
 static bool slips_faster(const Interface *interface, const State *state, double rate)
@@ -415,7 +416,7 @@ bool step_control_advance_explicit(StepControl *control, ExplicitReference *sche
         TRY(explicit_reference_advance(scheme, part, &control->now, &control->ledger, err));
     } while (scheme->steps < end && !slips_faster(scheme->def.interface, &control->now, rate));
     control->last_step = scheme->def.step;
-    control->counters.accepted = control->ladder.accepted[0] = scheme->steps;
+    control->counters.accepted = control->dt_levels.accepted[0] = scheme->steps;
     control->outcome.residual = scheme->residual;
     memcpy(control->scheme.bound, scheme->bound,
            (size_t)control->now.interface_count * sizeof(double));
@@ -443,8 +444,8 @@ bool step_control_archive(StepControl *control, Archive *archive, Error *err)
     archive_flag(archive, &control->grows);
     archive_flag(archive, &control->settles);
     archive_integer(archive, &control->scanned);
-    archive_index(archive, &control->rung, 0, control->ladder.rung_count);
-    archive_index(archive, &control->coarsest, 0, control->ladder.rung_count + 1);
+    archive_index(archive, &control->level, 0, control->dt_levels.level_count);
+    archive_index(archive, &control->coarsest, 0, control->dt_levels.level_count + 1);
     archive_count(archive, &control->looked_steps);
     archive_number(archive, &control->looked_time);
     StepCounters *counters = &control->counters;
@@ -453,5 +454,5 @@ bool step_control_archive(StepControl *control, Archive *archive, Error *err)
                       &counters->unsolved, &counters->stepped_over_oscillations);
     int64_t last = control->scheme.solver.newton.factorisations;
     int64_t last_halved = control->half.solver.newton.factorisations;
-    return ladder_archive(&control->ladder, last, last_halved, archive, err);
+    return dt_levels_archive(&control->dt_levels, last, last_halved, archive, err);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Chooses the rung, tries it, and accepts a step only when
+// Chooses a level of dt, tries it, and accepts a step only when
 //   1. both its contact problems were solved,
 //   2. the estimated local error is within tolerance,
 //   3. numerics take or give no more energy than a part of what the run's ledger may miss,
@@ -7,7 +7,7 @@
 //      single real rate of growth lies above 1/(gamma dt) (stepping/certificate), or what
 //      oscillates there stays small, as certified or as seen before (stepping/oscillation_record),
 //      and nothing grows without oscillating.
-// Otherwise it goes back to the old state with a smaller rung. Used by stepping/relaxation and
+// Otherwise it goes back to the old state with a shorter one. Used by stepping/relaxation and
 // run/simulation.
 #ifndef AMONTONS_STEPPING_STEP_CONTROL_H
 #define AMONTONS_STEPPING_STEP_CONTROL_H
@@ -41,7 +41,7 @@ typedef struct StepCounters {
 
 typedef struct StepControl {
     StepControlDef def;
-    Ladder ladder;   // owned, like all that follows
+    DtLevels dt_levels;   // owned, like all that follows
     Sdirk scheme;
     Certificate certificate;   // of the whole contact
     HalfStep half;   // of its parts, where it is its own mirror image
@@ -54,13 +54,13 @@ typedef struct StepControl {
     bool certified;   // `now` is dissipative
     bool antisymmetric_decays;   // its antisymmetric part cannot gain energy
     bool asymmetric;   // a problem was not its own mirror image: all are solved whole from then on
-    bool grows;   // slip runs away in `now`: real growth rates stand on both sides of some rung's
+    bool grows;   // slip runs away in `now`: real growth rates stand on both sides of some level's
         // 1/(gamma dt); looked at when more nodes slip than ever since it was certified
     int32_t scanned;   // nodes that slipped then
-    int32_t rung;   // to try next
-    int32_t coarsest;   // rung of the longest step allowed
+    int32_t level;   // to try next
+    int32_t coarsest;   // level of the longest step allowed
     bool settles;   // see step_control_settle
-    bool lands;   // steps end where `remaining` does, on rungs made for it, down to an eighth of
+    bool lands;   // steps end where `remaining` does, on levels made for it, down to an eighth of
         // the wave step
     int64_t looked_steps;   // accepted when step_control_gets_on looked last
     double looked_time;   // reached then
@@ -71,11 +71,11 @@ bool step_control_create(const Block *block, const StepControlDef *def, StepCont
                          Error *err);   // `control` must not be moved afterwards
 void step_control_destroy(StepControl *control);
 
-// One accepted step, at most `remaining` long if a rung that is built already fits (so that a run
+// One accepted step, at most `remaining` long if a level that is built already fits (so that a run
 // ends where it should). ERROR_COMPUTE when even step_min is not accepted: the message says why.
 bool step_control_advance(StepControl *control, double remaining, Error *err);
 
-// Whether a rung that is built is at most `remaining` long: what is less is not worth a new one.
+// Whether a level that is built is at most `remaining` long: what is less is not worth a new one.
 bool step_control_fits(const StepControl *control, double remaining);
 
 // After each accepted step. ERROR_COMPUTE: at the pace of the last STEPS_LOOKED (of the whole run
@@ -87,8 +87,8 @@ bool step_control_gets_on(StepControl *control, double end, Error *err);
 // relax_step, and nothing is asked of energy.
 void step_control_settle(StepControl *control);
 
-// Explicit steps of one length in place of those that step_control_advance chooses; the ladder
-// so far is freed. `scheme` is at `now`.
+// Explicit steps of one length in place of those that step_control_advance chooses; the levels of
+// dt so far are freed. `scheme` is at `now`.
 void step_control_use_explicit(StepControl *control, const ExplicitReference *scheme);
 // To the next whole multiple of `steps`, or less: to where slip is faster than `rate`, looked at
 // as often as implicit steps would resolve waves.

@@ -53,7 +53,7 @@ static double force_scale(const BlockRig *rig, const State *now)
 
 static void check_contact(const BlockRig *rig, const Sdirk *scheme, const State *now)
 {
-    const double *schur = interface_operator_schur(scheme->ladder->rung[0]);
+    const double *schur = interface_operator_schur(scheme->dt_levels->level[0]);
     int32_t count = rig->interface.count;
     double force = force_scale(rig, now), stiffest = 0;
     for (int32_t k = 0; k < count; k++) stiffest = fmax(stiffest, schur[k * count + k]);
@@ -89,17 +89,17 @@ TEST(test_every_step)
     for (int32_t b = 0; b < BLOCKS; b++) {
         RigDef def = random_def(&random);
         BlockRig rig;
-        Ladder ladder;
+        DtLevels dt_levels;
         Sdirk scheme;
         State now, next;
         rig_build(&def, &rig);
         double duration = exp(random_between(&random, -4, 1)) * def.block.length *
                           sqrt(def.material.density);
-        ladder_init(&rig.system, duration, duration * 1e-5, &ladder);
-        assert_true(sdirk_create(&rig.block, TABLEAU_SDIRK2, &ladder, &scheme, &err));
+        dt_levels_init(&rig.system, duration, duration * 1e-5, &dt_levels);
+        assert_true(sdirk_create(&rig.block, TABLEAU_SDIRK2, &dt_levels, &scheme, &err));
         assert_true(state_create(&rig.system, &rig.interface, &now, &err));
         assert_true(state_create(&rig.system, &rig.interface, &next, &err));
-        assert_non_null(ladder_rung(&ladder, 0, PART_WHOLE, &err));
+        assert_non_null(dt_level_operator(&dt_levels, 0, PART_WHOLE, &err));
         for (int32_t s = 0; s < STEPS; s++) {
             StepOutcome outcome;
             assert_true(sdirk_step(&scheme, random_index(&random, 3), &now, &next, &outcome, &err));
@@ -125,7 +125,7 @@ TEST(test_every_step)
         state_destroy(&now);
         state_destroy(&next);
         sdirk_destroy(&scheme);
-        ladder_destroy(&ladder);
+        dt_levels_destroy(&dt_levels);
         rig_destroy(&rig);
     }
     assert_true(solved > 100 * unsolved);

@@ -49,9 +49,9 @@ def main():
     for cells in options.cells:
         for tolerance in options.tolerance:
             m, r, stages, rungs, found = measure(options.program, cells, tolerance)
-            rung = found["ladder_rung"] / rungs
+            rung = found["dt_level_operator"] / rungs
             products = sum(found[name] for name in PRODUCTS) / stages
-            stage = (found["step_control_advance"] - found["ladder_rung"]) / stages
+            stage = (found["step_control_advance"] - found["dt_level_operator"]) / stages
             rows.append([cells, f"{tolerance:g}", m, r, f"{stage / 1e3:.0f}", f"{found['contact_solve'] / stages / 1e3:.0f}",
                          f"{products / 1e3:.1f}", f"{rung / 1e6:.2f}", stages, rungs])
             of_products.append(([1, m * m, m * r, r * r], products))

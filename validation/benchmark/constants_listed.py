@@ -179,7 +179,7 @@ NOT_A_CHOICE = {
     "stepping/half_step.c": {"ALIKE": "rounding of a state that was stepped as a whole"},
     "stepping/step_control.c": {"STEPS_LEFT_MAX": "steps to go at which a run is given up",
                                 "SCANNED_PARTS": "of a contact in space: what its critical area is known to"},
-    "stepping/ladder.h": {"LADDER_RUNGS_MAX": SIZE},
+    "stepping/dt_levels.h": {"DT_LEVELS_MAX": SIZE},
     "stepping/tableau.c": {"VALUES_MAX": "stages and v_n"},
     "stepping/tableau.h": {"TABLEAU_STAGES_MAX": "of SDIRK3"},
     "reduction/far_patches.h": {"NO_PATCH": "near"},

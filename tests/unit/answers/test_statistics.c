@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Series of letters, whose periods are told by eye; of random ones, which repeat by chance as often
 // as combinatorics says; and of numbers whose mean, decile and errors are known: an arithmetic
-// ladder, a constant, and an autoregressive series of first order, whose mean has
+// dt_levels, a constant, and an autoregressive series of first order, whose mean has
 // sqrt((1 + a) / (1 - a)) times the error of independent items.
 #include "answers/statistics.h"
 
@@ -165,7 +165,7 @@ TEST(test_no_trend)
 // --- mean and decile ----------------------------------------------------------------------------
 
 // 0, 1, ..., 10 in any order: quantiles are linear in between.
-TEST(test_ladder)
+TEST(test_dt_levels)
 {
     set_values((double[]){7, 0, 10, 3, 5, 1, 9, 2, 8, 4, 6}, 11);
     Estimate mean = series_mean(items, 11, 1), decile = series_lowest_decile(items, 11);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What small disturbances of slip meet: the critical stiffness of one state and of two by closed
 // forms, of any number by all rates of the body on its spring; the bound of what coupled states
-// weaken against their worst s, and between two rungs; poles on the right.
+// weaken against their worst s, and between two levels; poles on the right.
 #include "friction/friction_response.h"
 
 #include "algebra/dense.h"
@@ -145,7 +145,7 @@ static double complex weakens(const FrictionRates *rates, double complex s)
 }
 
 // On the boundary of where |s| >= 1/reach and Re s >= 0, where the real part is largest: it is no
-// less. Between two rungs it is at most 1.125 times a sum of theirs, weighed as s M + K/s is.
+// less. Between two levels it is at most 1.125 times a sum of theirs, weighed as s M + K/s is.
 TEST(test_bound_of_weakening)
 {
     Random random = {.state = 5};

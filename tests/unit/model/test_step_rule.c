@@ -40,15 +40,15 @@ TEST(test_driven)
     assert_true(def.step_max == 5 && def.step_min == 1e-3 && def.scheme == TABLEAU_EULER);
 }
 
-// For a slow rod or a fast one the wave step stays a rung: their ratio is a power of 2.
-TEST(test_the_wave_step_is_a_rung)
+// For a slow rod or a fast one the wave step stays a level: their ratio is a power of 2.
+TEST(test_the_wave_step_is_a_level)
 {
     Scene scene = scene_by_hand();
     for (double V = 1e-9; V < 1e3; V *= 3.7) {
         scene.rod.velocity = V;
         StepControlDef def = step_rule(&scene, &SIZES);
-        double rungs = log2(def.step_max / def.wave_step), longest = 0.2 * SIZES.slip / V;
-        assert_near("rungs", rungs, round(rungs), 1e-9);
+        double levels = log2(def.step_max / def.wave_step), longest = 0.2 * SIZES.slip / V;
+        assert_near("rungs", levels, round(levels), 1e-9);
         assert_true(def.step_max >= longest * (1 - 1e-12) && def.step_max < 2 * longest);
     }
 }

@@ -112,10 +112,10 @@ static inline double *full_schur(ReducedBlock *block, OperatorTerms terms)
     double *schur = hand_matrix(m, m);
     assert_true(
         bulk_operator_create(&block->bulk, block->mesh.position, block->dofs, m, &system, &err));
-    InterfaceOperator *rung = interface_operator_create(&system, terms, &err);
-    if (!rung) fail_msg("%s", err.message);
-    memcpy(schur, interface_operator_schur(rung), (size_t)(m * m) * sizeof *schur);
-    interface_operator_destroy(rung);
+    InterfaceOperator *level = interface_operator_create(&system, terms, &err);
+    if (!level) fail_msg("%s", err.message);
+    memcpy(schur, interface_operator_schur(level), (size_t)(m * m) * sizeof *schur);
+    interface_operator_destroy(level);
     bulk_operator_destroy(&system);
     return schur;
 }
@@ -127,10 +127,10 @@ static inline double *reduced_schur(const ReducedBulk *reduced, OperatorTerms te
     int32_t m = reduced->interface_count;
     double *schur = hand_matrix(m, m);
     assert_true(bulk_operator_reduce(reduced, 1, 1, &system, &err));
-    InterfaceOperator *rung = interface_operator_create(&system, terms, &err);
-    if (!rung) fail_msg("%s", err.message);
-    memcpy(schur, interface_operator_schur(rung), (size_t)(m * m) * sizeof *schur);
-    interface_operator_destroy(rung);
+    InterfaceOperator *level = interface_operator_create(&system, terms, &err);
+    if (!level) fail_msg("%s", err.message);
+    memcpy(schur, interface_operator_schur(level), (size_t)(m * m) * sizeof *schur);
+    interface_operator_destroy(level);
     bulk_operator_destroy(&system);
     return schur;
 }

@@ -65,14 +65,14 @@ static inline void check_operator(const ReducedBlock *block, uint64_t seed)
         free(dense[which]);
     }
     OperatorTerms terms = {.mass = 20, .damping = 1, .stiffness = 0.05};
-    InterfaceOperator *rung = interface_operator_create(&system, terms, &err);
-    assert_true(interface_operator_condense(rung, sum, g, &err));
-    hand_apply(interface_operator_schur(rung), m, m, x, y);
+    InterfaceOperator *level = interface_operator_create(&system, terms, &err);
+    assert_true(interface_operator_condense(level, sum, g, &err));
+    hand_apply(interface_operator_schur(level), m, m, x, y);
     assert_all_near("S x_b", y, g, m, 1e-11);
-    assert_true(interface_operator_expand(rung, x, y, &err));
+    assert_true(interface_operator_expand(level, x, y, &err));
     assert_all_near("x", y, x, count, 1e-11);
     assert_int_equal(system.solves, 1);
-    interface_operator_destroy(rung);
+    interface_operator_destroy(level);
     bulk_operator_destroy(&system);
     free(x), free(y), free(full), free(image), free(wanted), free(sum), free(g);
     free(modes);

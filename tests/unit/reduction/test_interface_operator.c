@@ -69,12 +69,12 @@ TEST(test_schur)
             double wanted[INTERFACE_COUNT * INTERFACE_COUNT];
             double *a = dense_sum(&fixture.bulk, tried[t]);   // as it is, not lifted
             hand_schur(a, fixture.bulk.dof_count, fixture.dofs, INTERFACE_COUNT, wanted);
-            InterfaceOperator *rung = interface_operator_create(&fixture.system, tried[t], &err);
-            assert_non_null(rung);
-            assert_all_near("S", interface_operator_schur(rung), wanted,
+            InterfaceOperator *level = interface_operator_create(&fixture.system, tried[t], &err);
+            assert_non_null(level);
+            assert_all_near("S", interface_operator_schur(level), wanted,
                             INTERFACE_COUNT * INTERFACE_COUNT, 2e-13);
             assert_int_equal(fixture.system.factorisations, t + 1);
-            interface_operator_destroy(rung);
+            interface_operator_destroy(level);
             free(a);
         }
         fixture_destroy(&fixture);
@@ -90,19 +90,19 @@ TEST(test_whole_solve)
     fixture_build(ELEMENT_Q4, &fixture);
     int32_t n = fixture.bulk.dof_count;
     OperatorTerms terms = {.mass = 3, .damping = 1, .stiffness = 1. / 3};
-    InterfaceOperator *rung = interface_operator_create(&fixture.system, terms, &err);
+    InterfaceOperator *level = interface_operator_create(&fixture.system, terms, &err);
     double *a = dense_sum(&fixture.bulk, terms), *b = hand_matrix(n, 1), *v = hand_matrix(n, 1);
     double *out = hand_matrix(n, 1), schur[INTERFACE_COUNT * INTERFACE_COUNT], g[INTERFACE_COUNT];
     for (int32_t k = 0; k < n; k++) b[k] = random_between(&random, -1, 1);
-    assert_true(interface_operator_condense(rung, b, g, &err));
+    assert_true(interface_operator_condense(level, b, g, &err));
     for (int32_t k = 0; k < INTERFACE_COUNT; k++) {
         double reaction = random_between(&random, -1, 1);
         g[k] += reaction;
         b[fixture.dofs[k]] += reaction;
     }
-    memcpy(schur, interface_operator_schur(rung), sizeof schur);
+    memcpy(schur, interface_operator_schur(level), sizeof schur);
     assert_true(hand_solve(schur, INTERFACE_COUNT, g, 1));
-    assert_true(interface_operator_expand(rung, g, v, &err));
+    assert_true(interface_operator_expand(level, g, v, &err));
     assert_int_equal(fixture.system.solves, 1);
     hand_apply(a, n, n, v, out);
     assert_all_near("A v", out, b, n, 1e-12);
@@ -121,7 +121,7 @@ TEST(test_whole_solve)
     free(b);
     free(v);
     free(out);
-    interface_operator_destroy(rung);
+    interface_operator_destroy(level);
     fixture_destroy(&fixture);
 }
 
@@ -177,14 +177,14 @@ TEST(test_memory_faults)
         Error err = {0};
         BulkOperator system;
         memory_fail_after(k);
-        InterfaceOperator *rung = NULL;
+        InterfaceOperator *level = NULL;
         if (bulk_operator_create(&fixture.bulk, fixture.mesh.position, fixture.dofs,
                                  INTERFACE_COUNT, &system, &err))
-            rung = interface_operator_create(&system, (OperatorTerms){.mass = 1}, &err);
+            level = interface_operator_create(&system, (OperatorTerms){.mass = 1}, &err);
         memory_fail_after(-1);
-        done = rung != NULL;
+        done = level != NULL;
         assert_int_equal(err.code, done ? ERROR_NONE : ERROR_MEMORY);
-        interface_operator_destroy(rung);
+        interface_operator_destroy(level);
         bulk_operator_destroy(&system);
         assert_int_equal(memory_counters().live, live);
     }

@@ -140,9 +140,9 @@ TEST(test_static_load_is_exact)
         double *k = dense_matrix(&block.bulk, block.bulk.stiffness), *wanted = hand_matrix(n, 1);
         assert_true(bulk_operator_reduce(reduced, 1, 1, &system, &err));
         OperatorTerms terms = {.stiffness = 1};
-        InterfaceOperator *rung = interface_operator_create(&system, terms, &err);
-        assert_true(interface_operator_condense(rung, system.load, g, &err));
-        assert_true(interface_operator_expand(rung, still, u, &err));
+        InterfaceOperator *level = interface_operator_create(&system, terms, &err);
+        assert_true(interface_operator_condense(level, system.load, g, &err));
+        assert_true(interface_operator_expand(level, still, u, &err));
         recover_state(reduced, u, full);
         memcpy(wanted, block.bulk.load, (size_t)n * sizeof *wanted);
         for (int32_t i = 0; i < m; i++) {
@@ -152,7 +152,7 @@ TEST(test_static_load_is_exact)
         }
         assert_true(hand_solve(k, n, wanted, 1));
         assert_all_near("u", full, wanted, n, 1e-11);
-        interface_operator_destroy(rung);
+        interface_operator_destroy(level);
         bulk_operator_destroy(&system);
         free(still), free(g), free(full), free(u), free(k), free(wanted);
         reduced_block_destroy(&block);
@@ -221,15 +221,15 @@ TEST(test_memory_faults)
         Error err = {0};
         BulkOperator system = {0};
         memory_fail_after(k);
-        InterfaceOperator *rung = NULL;
+        InterfaceOperator *level = NULL;
         done = symmetry_reduction_build(&block.bulk, block.dofs, block.interface_count, &block.def,
                                         &block.reduced, &err) &&
                bulk_operator_reduce(&block.reduced, 1, 1, &system, &err) &&
-               (rung = interface_operator_create(
+               (level = interface_operator_create(
                     &system, (OperatorTerms){.mass = 1, .damping = 1, .stiffness = 1}, &err));
         memory_fail_after(-1);
         assert_int_equal(err.code, done ? ERROR_NONE : ERROR_MEMORY);
-        interface_operator_destroy(rung);
+        interface_operator_destroy(level);
         bulk_operator_destroy(&system);
         reduced_bulk_destroy(&block.reduced);
         assert_int_equal(memory_counters().live, live);

@@ -346,15 +346,15 @@ TEST(test_memory_faults)
     for (int32_t k = 0; !done; k++) {
         Error err = {0};
         BulkOperator system = {0};
-        InterfaceOperator *rung = NULL;
+        InterfaceOperator *level = NULL;
         memory_fail_after(k);
         done = reduce(&block, image, &err) &&
                bulk_operator_reduce(&block.reduced, 1, 1, &system, &err) &&
-               (rung = interface_operator_create(
+               (level = interface_operator_create(
                     &system, (OperatorTerms){.mass = 1, .damping = 1, .stiffness = 1}, &err));
         memory_fail_after(-1);
         assert_int_equal(err.code, done ? ERROR_NONE : ERROR_MEMORY);
-        interface_operator_destroy(rung);
+        interface_operator_destroy(level);
         bulk_operator_destroy(&system);
         reduced_bulk_destroy(&block.reduced);
         assert_int_equal(memory_counters().live, live);

@@ -97,7 +97,7 @@ TEST(test_views)
         assert_true(view->mu >= 0 && view->front >= 0 && view->front <= 1);
         largest = fmax(largest, view->mu);
     }
-    assert_near("end", last->fraction, 1, 1e-3);   // less than the shortest rung is missing
+    assert_near("end", last->fraction, 1, 1e-3);   // less than the shortest level is missing
     assert_true(last->U <= 0.0055 * (1 + 1e-9));
     assert_int_equal(last->slidings, summary.leading);
     assert_int_equal(last->events, summary.leading + summary.bounded);
@@ -120,7 +120,7 @@ TEST(test_reduced_and_full_agree)
     assert_near("mu_M", summary[0].mu_M, summary[1].mu_M, 1e-4 * summary[1].mu_M);
 }
 
-// In the time loop memory is asked for where a rung is built, and nowhere else.
+// In the time loop memory is asked for where a level is built, and nowhere else.
 TEST(test_allocations)
 {
     Error err = {0};
@@ -138,7 +138,7 @@ TEST(test_allocations)
         if (asked) assert_true(simulation->model.system.factorisations > built);
         growing += asked;
     }
-    assert_true(growing <= simulation->control.ladder.rung_count);
+    assert_true(growing <= simulation->control.dt_levels.level_count);
     amontons_simulation_destroy(simulation);
     amontons_simulation_destroy(NULL);
     amontons_scene_destroy(scene);

@@ -179,12 +179,13 @@ TEST(test_extreme_speeds)
         simulation_of((const char *const[]){"time.until={t: 1e-7}", "rod.kind=none", NULL});
     assert_true(simulation->relaxation_steps < 200);
     const StepControl *control = &simulation->control;
-    assert_near("longest step", ladder_step(&control->ladder, control->coarsest), 2e-9, 1e-20);
+    assert_near("longest step", dt_level_step(&control->dt_levels, control->coarsest), 2e-9, 1e-20);
     amontons_simulation_destroy(simulation);
     simulation = simulation_of((const char *const[]){"rod.velocity=1e-16", NULL});
     assert_true(simulation->control.def.step_min < 1e-9 * simulation->control.def.wave_step);
-    assert_near("shortest rung",
-                ladder_step(&simulation->control.ladder, simulation->control.ladder.rung_count - 1),
+    assert_near("shortest level",
+                dt_level_step(&simulation->control.dt_levels,
+                              simulation->control.dt_levels.level_count - 1),
                 simulation->control.def.step_min, simulation->control.def.step_min);
     amontons_simulation_destroy(simulation);
 }

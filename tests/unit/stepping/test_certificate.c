@@ -180,6 +180,6 @@ TEST(test_no_viscosity)
     on.seen.reaction[plane_normal(2)] = 1e-9;
     assert_false(certificate_holds(&on.certificate, &on.seen, 0));
     assert_true(
-        certificate_step_resolves(&on.certificate, &on.seen, certificate_rig_rung(&on, 0), 0));
+        certificate_step_resolves(&on.certificate, &on.seen, certificate_rig_level(&on, 0), 0));
     certificate_rig_destroy(&on);
 }

@@ -132,14 +132,14 @@ TEST(test_random_states)
     certificate_rig_build(&def, 1, 1e-2, &on);
     int32_t cleared = 0, refused = 0, definite = 0, hidden = 0;
     for (int32_t trial = 0; trial < 600; trial++) {
-        ContactMatrix *rung = certificate_rig_rung(&on, trial % on.ladder.rung_count);
-        const double *schur = rung->schur;
+        ContactMatrix *level = certificate_rig_level(&on, trial % on.dt_levels.level_count);
+        const double *schur = level->schur;
         // Weakening of the size of S's diagonal.
         double weak = schur[0] * def.law.critical_velocity * random_between(&random, 0.2, 4);
         random_state(&random, &on.rig, weak, &on.seen);
         Slip slip = {.rig = &on.rig, .seen = &on.seen, .schur = schur};
         list_moving(&slip);
-        bool resolves = certificate_step_resolves(&on.certificate, &on.seen, rung, 0);
+        bool resolves = certificate_step_resolves(&on.certificate, &on.seen, level, 0);
         int sign = sign_by_differences(&slip);
         if (resolves != (sign > 0)) fail_msg("trial %d: the sign is %d", trial, sign);
         bool positive = is_definite(&slip);
@@ -156,27 +156,27 @@ TEST(test_random_states)
     certificate_rig_destroy(&on);
 }
 
-// On all rungs that are built, but for one that is known: by the signs of its differences.
-TEST(test_all_rungs)
+// On all levels that are built, but for one that is known: by the signs of its differences.
+TEST(test_all_levels)
 {
     Random random = {.state = 78};
     RigDef def = rig_def();
     CertificateRig on;
     int32_t found = 0, passed_by = 0;
     certificate_rig_build(&def, 1, 1e-2, &on);
-    for (int32_t k = 1; k < on.ladder.rung_count; k += 2) certificate_rig_rung(&on, k);
+    for (int32_t k = 1; k < on.dt_levels.level_count; k += 2) certificate_rig_level(&on, k);
     for (int32_t trial = 0; trial < 100; trial++) {
-        double weak = ladder_contact(&on.ladder, 3, PART_WHOLE)->schur[0] *
+        double weak = dt_level_contact(&on.dt_levels, 3, PART_WHOLE)->schur[0] *
                       def.law.critical_velocity;
         random_state(&random, &on.rig, weak * random_between(&random, 0.2, 8), &on.seen);
-        int32_t known = trial % (on.ladder.rung_count + 1) - 1, left = 0, at_known = 0;
-        for (int32_t k = 1; k < on.ladder.rung_count; k += 2) {
-            const double *schur = ladder_contact(&on.ladder, k, PART_WHOLE)->schur;
+        int32_t known = trial % (on.dt_levels.level_count + 1) - 1, left = 0, at_known = 0;
+        for (int32_t k = 1; k < on.dt_levels.level_count; k += 2) {
+            const double *schur = dt_level_contact(&on.dt_levels, k, PART_WHOLE)->schur;
             Slip slip = {.rig = &on.rig, .seen = &on.seen, .schur = schur};
             list_moving(&slip);
             *(k == known ? &at_known : &left) += sign_by_differences(&slip) <= 0;
         }
-        assert_int_equal(certificate_finds_runaway(&on.certificate, &on.seen, &on.ladder, known),
+        assert_int_equal(certificate_finds_runaway(&on.certificate, &on.seen, &on.dt_levels, known),
                          left > 0);
         found += left > 0;
         passed_by += left == 0 && at_known;
@@ -217,13 +217,13 @@ TEST(test_load)
     certificate_rig_build(&def, 1, 1e-2, &on);
     int32_t above = 0, below = 0;
     for (int32_t trial = 0; trial < 100; trial++) {
-        ContactMatrix *rung = certificate_rig_rung(&on, trial % on.ladder.rung_count);
-        const double *schur = rung->schur;
+        ContactMatrix *level = certificate_rig_level(&on, trial % on.dt_levels.level_count);
+        const double *schur = level->schur;
         double weak = schur[0] * def.law.critical_velocity * random_between(&random, 0.2, 12);
         random_state(&random, &on.rig, weak, &on.seen);
         Slip slip = {.rig = &on.rig, .seen = &on.seen, .schur = schur};
         list_moving(&slip);
-        double ratio = certificate_ratio(&on.certificate, &on.seen, rung, 1);
+        double ratio = certificate_ratio(&on.certificate, &on.seen, level, 1);
         assert_true(isfinite(ratio) && ratio >= 0);
         if (ratio == 0) continue;
         assert_int_equal(sign_at(&slip, 0.999 / ratio), 1);
@@ -238,22 +238,23 @@ TEST(test_load)
     certificate_rig_destroy(&on);
 }
 
-// The largest load of a state on the rungs of `ladder` that are built.
-static double largest_ratio(CertificateRig *on, Ladder *ladder)
+// The largest load of a state on the levels of `dt_levels` that are built.
+static double largest_ratio(CertificateRig *on, DtLevels *dt_levels)
 {
     double largest = 0;
-    for (int32_t k = 0; k < ladder->rung_count; k++) {
-        ContactMatrix *rung = ladder_contact(ladder, k, PART_WHOLE);
-        if (rung) largest = fmax(largest, certificate_ratio(&on->certificate, &on->seen, rung, 1));
+    for (int32_t k = 0; k < dt_levels->level_count; k++) {
+        ContactMatrix *level = dt_level_contact(dt_levels, k, PART_WHOLE);
+        if (level)
+            largest = fmax(largest, certificate_ratio(&on->certificate, &on->seen, level, 1));
     }
     return largest;
 }
 
-static void build_rungs(Ladder *ladder, int32_t apart)
+static void build_levels(DtLevels *dt_levels, int32_t apart)
 {
     Error err = {0};
-    for (int32_t k = 0; k < ladder->rung_count; k += apart)
-        assert_non_null(ladder_rung(ladder, k, PART_WHOLE, &err));
+    for (int32_t k = 0; k < dt_levels->level_count; k += apart)
+        assert_non_null(dt_level_operator(dt_levels, k, PART_WHOLE, &err));
 }
 
 // The reactions of `seen` times `factor`; loads go with them.
@@ -263,47 +264,48 @@ static void press(const Interface *interface, double factor, State *seen)
         seen->reaction[plane_normal(i)] *= factor;
 }
 
-// Steps fell by `apart` rungs each time. What runs away at a rate between those that are built is
-// not excluded, by loads at all rungs and half way between them. A block 100 long: waves are hardly
-// damped, and loads differ from rung to rung.
+// Steps fell by `apart` levels each time. What runs away at a rate between those that are built is
+// not excluded, by loads at all levels and half way between them. A block 100 long: waves are
+// hardly damped, and loads differ from level to level.
 static void check_holes(int32_t apart)
 {
-    const double longest = 1e4, shortest = 1e4 / (1 << 20);   // 21 rungs
+    const double longest = 1e4, shortest = 1e4 / (1 << 20);   // 21 levels
     Random random = {.state = 6};
     RigDef def = rig_def();
     CertificateRig on;
-    Ladder all, between;
+    DtLevels all, between;
     def.block.length = 100;
     def.block.height = 50;
     def.rod_height = 25;
     def.rod_width = 10;
     certificate_rig_build(&def, longest, shortest, &on);
-    ladder_init(&on.rig.system, longest, shortest, &all);
-    ladder_init(&on.rig.system, longest * M_SQRT1_2, shortest, &between);
-    build_rungs(&all, 1);
-    build_rungs(&between, 1);
+    dt_levels_init(&on.rig.system, longest, shortest, &all);
+    dt_levels_init(&on.rig.system, longest * M_SQRT1_2, shortest, &between);
+    build_levels(&all, 1);
+    build_levels(&between, 1);
     int32_t excluded = 0, hidden = 0;
     for (int32_t trial = 0; trial < 100; trial++) {
-        ladder_destroy(&on.ladder);   // what the certificate built
-        ladder_init(&on.rig.system, longest, shortest, &on.ladder);
-        build_rungs(&on.ladder, apart);
+        dt_levels_destroy(&on.dt_levels);   // what the certificate built
+        dt_levels_init(&on.rig.system, longest, shortest, &on.dt_levels);
+        build_levels(&on.dt_levels, apart);
         random_state(&random, &on.rig, 1, &on.seen);
         double largest = fmax(largest_ratio(&on, &all), largest_ratio(&on, &between));
         double wanted = random_between(&random, 0.9, 1.2);
         if (largest == 0) continue;
         press(&on.rig.interface, wanted / largest, &on.seen);
-        bool seen = largest_ratio(&on, &on.ladder) >= 1;
-        RungRange whole = {0, on.ladder.rung_count};
-        bool excludes = certificate_excludes_runaway(&on.certificate, &on.seen, &on.ladder, whole);
+        bool seen = largest_ratio(&on, &on.dt_levels) >= 1;
+        LevelRange whole = {0, on.dt_levels.level_count};
+        bool excludes =
+            certificate_excludes_runaway(&on.certificate, &on.seen, &on.dt_levels, whole);
         if (excludes ? wanted >= 1 : wanted < 0.98) fail_msg("load %.3f", wanted);
         excluded += excludes;
         hidden += !excludes && !seen;
     }
-    print_message("%d apart: %d excluded; %d run away and show on no rung that was built\n", apart,
+    print_message("%d apart: %d excluded; %d run away and show on no level that was built\n", apart,
                   excluded, hidden);
     assert_true(excluded > 15 && hidden > 15);
-    ladder_destroy(&between);
-    ladder_destroy(&all);
+    dt_levels_destroy(&between);
+    dt_levels_destroy(&all);
     certificate_rig_destroy(&on);
 }
 
@@ -347,11 +349,11 @@ TEST(test_load_of_nodes_alike)
     CertificateRig on;
     certificate_rig_build(&def, 1e-2, 1e-7, &on);
     double least = INFINITY, most = 0;
-    for (int32_t k = 0; k < on.ladder.rung_count; k++) {
-        ContactMatrix *rung = certificate_rig_rung(&on, k);
+    for (int32_t k = 0; k < on.dt_levels.level_count; k++) {
+        ContactMatrix *level = certificate_rig_level(&on, k);
         for (double spread = 1e-1; spread > 1e-5; spread /= 3) {
-            double largest = alike_state(&on.rig, rung->schur, 0.1, spread, &on.seen);
-            double ratio = certificate_ratio(&on.certificate, &on.seen, rung, 1);
+            double largest = alike_state(&on.rig, level->schur, 0.1, spread, &on.seen);
+            double ratio = certificate_ratio(&on.certificate, &on.seen, level, 1);
             least = fmin(least, ratio / largest);
             most = fmax(most, ratio / largest);
         }

@@ -330,7 +330,7 @@ TEST(test_what_grows_is_resolved)
     check_resolved(true);
 }
 
-// On ranges of rungs. What grows more slowly than these is not asked about.
+// On ranges of levels. What grows more slowly than these is not asked about.
 static void check_narrow(bool several)
 {
     static Fixture fixture;
@@ -338,28 +338,29 @@ static void check_narrow(bool several)
     fixture_open(1e3, 1e-3, several, &fixture);
     Certificate *certificate = &fixture.built.certificate;
     State *seen = &fixture.built.seen;
-    Ladder *ladder = &fixture.built.ladder;
-    int32_t last = ladder->rung_count - 1, cleared = 0, growing = 0, refused = 0, rightly = 0;
+    DtLevels *dt_levels = &fixture.built.dt_levels;
+    int32_t last = dt_levels->level_count - 1, cleared = 0, growing = 0, refused = 0, rightly = 0;
     int32_t excluded = 0, slower = 0, real = 0;
-    assert_non_null(ladder_rung(ladder, 0, PART_WHOLE, &err));
-    assert_non_null(ladder_rung(ladder, last, PART_WHOLE, &err));
+    assert_non_null(dt_level_operator(dt_levels, 0, PART_WHOLE, &err));
+    assert_non_null(dt_level_operator(dt_levels, last, PART_WHOLE, &err));
     for (int32_t trial = 0; trial < TRIALS; trial++) {
         randomise(&fixture);
         list_free(&fixture);
-        RungRange range = {random_index(&fixture.random, last - 1), last + 1};
-        double low = 1 / ladder_reach(ladder, range.first), high = 1 / ladder_reach(ladder, last);
+        LevelRange range = {random_index(&fixture.random, last - 1), last + 1};
+        double low = 1 / dt_level_reach(dt_levels, range.first),
+               high = 1 / dt_level_reach(dt_levels, last);
         double growth = log_between(&fixture.random, 1.1, 1e3), ratio = log(growth) / M_PI;
         int32_t count = find_rates(&fixture, false);
         double wide = widest(&fixture, count, low, high, false);
         double allowed = ratio / sqrt(1 + ratio * ratio);
-        bool less = certificate_oscillates_less(certificate, seen, ladder, range, growth);
+        bool less = certificate_oscillates_less(certificate, seen, dt_levels, range, growth);
         if (less && !(wide < allowed + 1e-5)) fail_msg("trial %d: %g, %g", trial, wide, allowed);
         cleared += less;
         growing += less && wide > 0;
         refused += !less;
         rightly += !less && wide >= allowed;
         count = find_rates(&fixture, true);
-        bool none = certificate_excludes_runaway(certificate, seen, ladder, range);
+        bool none = certificate_excludes_runaway(certificate, seen, dt_levels, range);
         if (none && widest(&fixture, count, low, high, true) > 0) fail_msg("trial %d", trial);
         excluded += none;
         slower += none && widest(&fixture, count, 1e-12, low, true) > 0;

@@ -25,9 +25,9 @@ static void fixture_build(double length, Fixture *fixture)
     fixture->damping = rig_dense(rig, rig->bulk.damping);
     fixture->stiffness = rig_dense(rig, rig->bulk.stiffness);
     // Those between are the certificate's affair: without them it clears what grows.
-    assert_non_null(ladder_rung(&fixture->built.ladder, 0, PART_WHOLE, &err));
-    assert_non_null(ladder_rung(&fixture->built.ladder, fixture->built.ladder.rung_count - 1,
-                                PART_WHOLE, &err));
+    assert_non_null(dt_level_operator(&fixture->built.dt_levels, 0, PART_WHOLE, &err));
+    assert_non_null(dt_level_operator(&fixture->built.dt_levels,
+                                      fixture->built.dt_levels.level_count - 1, PART_WHOLE, &err));
 }
 
 static void fixture_destroy(Fixture *fixture)
@@ -93,9 +93,9 @@ static double least_angle(const Fixture *fixture, double weak)
 
 static bool oscillates_less(Fixture *fixture, double growth)
 {
-    return certificate_oscillates_less(&fixture->built.certificate, &fixture->built.seen,
-                                       &fixture->built.ladder,
-                                       (RungRange){0, fixture->built.ladder.rung_count}, growth);
+    return certificate_oscillates_less(
+        &fixture->built.certificate, &fixture->built.seen, &fixture->built.dt_levels,
+        (LevelRange){0, fixture->built.dt_levels.level_count}, growth);
 }
 
 // What is cleared does grow by less, and what grows by much less is cleared: the test loses little.

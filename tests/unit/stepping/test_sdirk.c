@@ -8,7 +8,7 @@
 
 typedef struct Stepper {
     BlockRig rig;
-    Ladder ladder;
+    DtLevels dt_levels;
     Sdirk scheme;
     State now, next;
 } Stepper;
@@ -18,8 +18,8 @@ static void stepper_build_as(const RigDef *def, TableauKind kind, double step_ma
     Error err = {0};
     rig_build(def, &stepper->rig);
     BlockRig *rig = &stepper->rig;
-    ladder_init(&rig->system, step_max, step_max * 1e-4, &stepper->ladder);
-    assert_true(sdirk_create(&rig->block, kind, &stepper->ladder, &stepper->scheme, &err));
+    dt_levels_init(&rig->system, step_max, step_max * 1e-4, &stepper->dt_levels);
+    assert_true(sdirk_create(&rig->block, kind, &stepper->dt_levels, &stepper->scheme, &err));
     assert_true(state_create(&rig->system, &rig->interface, &stepper->now, &err));
     assert_true(state_create(&rig->system, &rig->interface, &stepper->next, &err));
 }
@@ -34,7 +34,7 @@ static void stepper_destroy(Stepper *stepper)
     state_destroy(&stepper->now);
     state_destroy(&stepper->next);
     sdirk_destroy(&stepper->scheme);
-    ladder_destroy(&stepper->ladder);
+    dt_levels_destroy(&stepper->dt_levels);
     rig_destroy(&stepper->rig);
 }
 
@@ -217,7 +217,7 @@ TEST(test_order_with_slip)
     free(last);
 }
 
-// One step of rung k from a state that fine steps have smoothed: the estimate is what the step
+// One step of level k from a state that fine steps have smoothed: the estimate is what the step
 // misses, of order p + 1.
 TEST(test_estimate)
 {
@@ -233,7 +233,7 @@ TEST(test_estimate)
             memcpy(ref.u, stepper.now.displacement, (size_t)ref.n * sizeof(double));
             memcpy(ref.v, stepper.now.velocity, (size_t)ref.n * sizeof(double));
             StepOutcome outcome = do_step(&stepper, k);
-            reference_run(&ref, ladder_step(&stepper.ladder, k), 200);
+            reference_run(&ref, dt_level_step(&stepper.dt_levels, k), 200);
             double error = largest_difference(stepper.now.displacement, ref.u, ref.n);
             assert_near("estimate over error", outcome.error / error, 1, 0.12 / (1 << k));
             if (k > 0) assert_near("order", log2(before / outcome.error), order + 1, 0.3 / k);
@@ -257,7 +257,8 @@ TEST(test_energy_order)
         assert_near("nothing yet", energy_imbalance(&ledger), 0, 0);
         for (int32_t s = 0; s < 10 << k; s++) {
             StepOutcome outcome = do_step(&stepper, k);
-            sdirk_add_energy(&stepper.scheme, &outcome, ladder_step(&stepper.ladder, k), &ledger);
+            sdirk_add_energy(&stepper.scheme, &outcome, dt_level_step(&stepper.dt_levels, k),
+                             &ledger);
         }
         energy_store(&stepper.now, &ledger);
         assert_true(ledger.viscous > 0 && ledger.rod_work == 0);
@@ -277,7 +278,7 @@ static void check_momentum(const RigDef *def, int32_t seen[4])
     stepper_build(def, 0.05, &stepper);
     const BlockRig *rig = &stepper.rig;
     for (int32_t s = 0; s < 200; s++) {
-        double step = ladder_step(&stepper.ladder, s % 3);
+        double step = dt_level_step(&stepper.dt_levels, s % 3);
         do_step(&stepper, s % 3);
         const State *now = &stepper.now, *old = &stepper.next;   // swapped: the step's start
         double change[3] = {0}, impulse[3] = {0};
@@ -295,8 +296,8 @@ static void check_momentum(const RigDef *def, int32_t seen[4])
             impulse[2] += at[0] * f[1] - at[1] * f[0];
         }
         for (int32_t j = 0; j < rig->interface.count; j++) {
-            double r = step * ((1 - stepper.ladder.gamma) * stepper.scheme.stage_reaction[j] +
-                               stepper.ladder.gamma * now->reaction[j]);
+            double r = step * ((1 - stepper.dt_levels.gamma) * stepper.scheme.stage_reaction[j] +
+                               stepper.dt_levels.gamma * now->reaction[j]);
             int32_t dof = rig->interface.dofs[j];
             const double *at = rig->mesh.position + 2 * (dof / 2);
             impulse[dof % 2] += r;
@@ -389,14 +390,14 @@ TEST(test_bonded_rod)
     double rod_work = 0, force = 0;
     for (int32_t s = 0; s < 40; s++) {
         StepOutcome outcome = do_step(&stepper, s % 4);
-        double target = 1e-3 * stepper.now.time, step = ladder_step(&stepper.ladder, s % 4);
+        double target = 1e-3 * stepper.now.time, step = dt_level_step(&stepper.dt_levels, s % 4);
         assert_near("u_x", stepper.now.displacement[dof], target, 1e-17);
         assert_int_equal(stepper.now.rod_touches[0], 1);
         EnergyLedger ledger = {0};
         sdirk_add_energy(&stepper.scheme, &outcome, step, &ledger);
         rod_work += ledger.rod_work;
-        force += step * ((1 - stepper.ladder.gamma) * stepper.scheme.stage_reaction[10] +
-                         stepper.ladder.gamma * stepper.now.reaction[10]);
+        force += step * ((1 - stepper.dt_levels.gamma) * stepper.scheme.stage_reaction[10] +
+                         stepper.dt_levels.gamma * stepper.now.reaction[10]);
         if (s == 0) rod_work = force = 0;   // the jump to V
     }
     // From the second step on both stages go at V: work is V times impulse.
@@ -428,19 +429,19 @@ TEST(test_memory_faults)
     bool done = false;
     for (int32_t k = 0; !done; k++) {
         Error err = {0};
-        Ladder ladder;
+        DtLevels dt_levels;
         Sdirk scheme = {0};
         State now = {0};
-        ladder_init(&rig.system, 1, 0.1, &ladder);
+        dt_levels_init(&rig.system, 1, 0.1, &dt_levels);
         memory_fail_after(k);
-        done = sdirk_create(&rig.block, TABLEAU_SDIRK2, &ladder, &scheme, &err) &&
+        done = sdirk_create(&rig.block, TABLEAU_SDIRK2, &dt_levels, &scheme, &err) &&
                state_create(&rig.system, &rig.interface, &now, &err) &&
-               ladder_rung(&ladder, 1, PART_WHOLE, &err) != NULL;
+               dt_level_operator(&dt_levels, 1, PART_WHOLE, &err) != NULL;
         memory_fail_after(-1);
         assert_int_equal(err.code, done ? ERROR_NONE : ERROR_MEMORY);
         state_destroy(&now);
         sdirk_destroy(&scheme);
-        ladder_destroy(&ladder);
+        dt_levels_destroy(&dt_levels);
         assert_int_equal(memory_counters().live, live);
     }
     rig_destroy(&rig);

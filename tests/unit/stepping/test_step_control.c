@@ -25,10 +25,10 @@ static void check_rules(double wave_step, double tolerance)
                                          control->counters.rejected_uncertified +
                                          control->counters.unsolved;
         double step = control->last_step;
-        int32_t k = ladder_find(&control->ladder, step);
+        int32_t k = dt_level_find(&control->dt_levels, step);
         time += step;
         assert_near("t", control->now.time, time, 1e-9);
-        assert_true(step == ladder_step(&control->ladder, k));
+        assert_true(step == dt_level_step(&control->dt_levels, k));
         assert_true(control->outcome.solved && control->outcome.error <= steps.tolerance);
         assert_true(step <= 2 * last);
         if (retried) assert_true(step < last * 2);
@@ -37,15 +37,15 @@ static void check_rules(double wave_step, double tolerance)
         if (!control->certified) {
             uncertified++;
             assert_true(step <= steps.wave_step);
-            assert_true(certificate_step_resolves(&control->certificate, &control->now,
-                                                  ladder_contact(&control->ladder, k, PART_WHOLE),
-                                                  0));
+            assert_true(
+                certificate_step_resolves(&control->certificate, &control->now,
+                                          dt_level_contact(&control->dt_levels, k, PART_WHOLE), 0));
         }
         longest += step == steps.step_max;
         last = step;
     }
-    for (int32_t k = 0; k < control->ladder.rung_count; k++)
-        accepted += control->ladder.accepted[k];
+    for (int32_t k = 0; k < control->dt_levels.level_count; k++)
+        accepted += control->dt_levels.accepted[k];
     assert_int_equal(accepted, control->counters.accepted);
     // The run saw both: long steps while certified, waves resolved while not.
     assert_true(uncertified > 10 && longest > 10);
@@ -112,7 +112,7 @@ TEST(test_tolerance)
     }
 }
 
-// The last step does not overshoot when a built rung fits.
+// The last step does not overshoot when a built level fits.
 TEST(test_remaining)
 {
     RigDef def = pushed_def(10);
@@ -122,8 +122,8 @@ TEST(test_remaining)
     const double end = 41.3;
     while (run.control.now.time < end) {
         double remaining = end - run.control.now.time, smallest = INFINITY;
-        for (int32_t k = 0; k < run.control.ladder.rung_count; k++)
-            if (run.control.ladder.rung[k]) smallest = ladder_step(&run.control.ladder, k);
+        for (int32_t k = 0; k < run.control.dt_levels.level_count; k++)
+            if (run.control.dt_levels.level[k]) smallest = dt_level_step(&run.control.dt_levels, k);
         pushed_advance(&run, remaining);
         if (smallest <= remaining) assert_true(run.control.last_step <= remaining);
     }
@@ -248,7 +248,7 @@ TEST(test_long_runs)
     assert_true(go_on(&run, 2 * STEPS_LOOKED, 1e-4));
 }
 
-// In the loop nothing is allocated but new rungs.
+// In the loop nothing is allocated but new levels.
 TEST(test_allocations)
 {
     Error err = {0};
@@ -257,14 +257,14 @@ TEST(test_allocations)
     PushedBlock run;
     pushed_build(&def, &steps, &run);
     for (int32_t k = 0; k < 14; k++)
-        assert_non_null(ladder_rung(&run.control.ladder, k, PART_WHOLE, &err));
+        assert_non_null(dt_level_operator(&run.control.dt_levels, k, PART_WHOLE, &err));
     int64_t allocations = memory_counters().allocations;
     while (run.control.now.time < 450) pushed_advance(&run, INFINITY);
     assert_int_equal(memory_counters().allocations, allocations);
     pushed_destroy(&run);
 }
 
-// Before the first step, when no rung is built, any way left is one to go; where no rung resolves
+// Before the first step, when no level is built, any way left is one to go; where no level resolves
 // waves the shortest is the first.
 TEST(test_before_the_first_step)
 {
@@ -278,7 +278,7 @@ TEST(test_before_the_first_step)
     assert_true(step_control_create(&rig.block, &steps, &control, &err));
     assert_true(step_control_fits(&control, 1e-30));
     assert_false(step_control_fits(&control, 0));
-    assert_int_equal(control.rung, control.ladder.rung_count - 1);
+    assert_int_equal(control.level, control.dt_levels.level_count - 1);
     step_control_destroy(&control);
     rig_destroy(&rig);
 }

@@ -96,7 +96,7 @@ static void tricked_peak(double from, bool use_certificate, double *place, doubl
     StepControl *control = &run.control;
     control->def.use_certificate = use_certificate;
     control->def.tolerance = 7e-3;
-    control->rung = 0;
+    control->level = 0;
     control->certified = true;
     find_peak(&run, place, height);
     pushed_destroy(&run);

@@ -1,59 +1,60 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Steps and rungs of the ladder, the matrix on a rung, and the state's own few lines.
-#include "stepping/ladder.h"
+// Steps and levels of the levels of dt, the matrix on a level, and the state's own few lines.
+#include "stepping/dt_levels.h"
 
 #include "block_rig.h"
 
 TEST(test_steps)
 {
-    Ladder ladder;
-    ladder_init(NULL, 8, 1, &ladder);
-    assert_int_equal(ladder.rung_count, 4);   // 8 4 2 1
-    for (int32_t k = 0; k < 4; k++) assert_true(ladder_step(&ladder, k) == 8 / pow(2, k));
-    ladder_init(NULL, 8, 1.1, &ladder);
-    assert_int_equal(ladder.rung_count, 3);   // 1 would be below
-    ladder_init(NULL, 0.3, 0.3, &ladder);
-    assert_int_equal(ladder.rung_count, 1);
-    ladder_init(NULL, 1, 2, &ladder);
-    assert_int_equal(ladder.rung_count, 1);   // there is always one
-    ladder_init(NULL, 1, 1e-60, &ladder);
-    assert_int_equal(ladder.rung_count, LADDER_RUNGS_MAX);
-    assert_near("gamma", ladder.gamma, 1 - 1 / sqrt(2), 1e-15);
+    DtLevels dt_levels;
+    dt_levels_init(NULL, 8, 1, &dt_levels);
+    assert_int_equal(dt_levels.level_count, 4);   // 8 4 2 1
+    for (int32_t k = 0; k < 4; k++) assert_true(dt_level_step(&dt_levels, k) == 8 / pow(2, k));
+    dt_levels_init(NULL, 8, 1.1, &dt_levels);
+    assert_int_equal(dt_levels.level_count, 3);   // 1 would be below
+    dt_levels_init(NULL, 0.3, 0.3, &dt_levels);
+    assert_int_equal(dt_levels.level_count, 1);
+    dt_levels_init(NULL, 1, 2, &dt_levels);
+    assert_int_equal(dt_levels.level_count, 1);   // there is always one
+    dt_levels_init(NULL, 1, 1e-60, &dt_levels);
+    assert_int_equal(dt_levels.level_count, DT_LEVELS_MAX);
+    assert_near("gamma", dt_levels.gamma, 1 - 1 / sqrt(2), 1e-15);
 }
 
 TEST(test_find)
 {
-    Ladder ladder;
-    ladder_init(NULL, 0.7, 0.7 / 64, &ladder);
-    for (int32_t k = 0; k < ladder.rung_count; k++) {
-        double step = ladder_step(&ladder, k);
-        assert_int_equal(ladder_find(&ladder, step), k);   // exactly it, and rounding beside it
-        assert_int_equal(ladder_find(&ladder, step * (1 - 1e-14)), k);
-        assert_int_equal(ladder_find(&ladder, step * 1.9), k);
-        assert_int_equal(ladder_find(&ladder, step * 0.9), k + 1);
+    DtLevels dt_levels;
+    dt_levels_init(NULL, 0.7, 0.7 / 64, &dt_levels);
+    for (int32_t k = 0; k < dt_levels.level_count; k++) {
+        double step = dt_level_step(&dt_levels, k);
+        assert_int_equal(dt_level_find(&dt_levels, step),
+                         k);   // exactly it, and rounding beside it
+        assert_int_equal(dt_level_find(&dt_levels, step * (1 - 1e-14)), k);
+        assert_int_equal(dt_level_find(&dt_levels, step * 1.9), k);
+        assert_int_equal(dt_level_find(&dt_levels, step * 0.9), k + 1);
     }
-    assert_int_equal(ladder_find(&ladder, 100), 0);
-    assert_int_equal(ladder_find(&ladder, INFINITY), 0);
-    assert_int_equal(ladder_find(&ladder, 1e-9), ladder.rung_count);
-    assert_int_equal(ladder_find(&ladder, 0), ladder.rung_count);
+    assert_int_equal(dt_level_find(&dt_levels, 100), 0);
+    assert_int_equal(dt_level_find(&dt_levels, INFINITY), 0);
+    assert_int_equal(dt_level_find(&dt_levels, 1e-9), dt_levels.level_count);
+    assert_int_equal(dt_level_find(&dt_levels, 0), dt_levels.level_count);
 }
 
-// A rung is built when first asked for, once, from M/(gamma dt) + C + gamma dt K.
-TEST(test_rungs)
+// A level is built when first asked for, once, from M/(gamma dt) + C + gamma dt K.
+TEST(test_levels)
 {
     Error err = {0};
     RigDef def = rig_def();
     BlockRig rig;
-    Ladder ladder;
+    DtLevels dt_levels;
     rig_build(&def, &rig);
     int64_t live = memory_counters().live;
-    ladder_init(&rig.system, 2, 0.1, &ladder);
+    dt_levels_init(&rig.system, 2, 0.1, &dt_levels);
     assert_int_equal(rig.system.factorisations, 0);
-    InterfaceOperator *rung = ladder_rung(&ladder, 2, PART_WHOLE, &err);
-    assert_non_null(rung);
-    assert_ptr_equal(ladder_rung(&ladder, 2, PART_WHOLE, &err), rung);
+    InterfaceOperator *level = dt_level_operator(&dt_levels, 2, PART_WHOLE, &err);
+    assert_non_null(level);
+    assert_ptr_equal(dt_level_operator(&dt_levels, 2, PART_WHOLE, &err), level);
     assert_int_equal(rig.system.factorisations, 1);
-    assert_null(ladder.rung[0]);
+    assert_null(dt_levels.level[0]);
 
     int32_t n = rig.bulk.dof_count, count = rig.interface.count;
     double *a = rig_dense(&rig, rig.bulk.damping), *k = rig_dense(&rig, rig.bulk.stiffness);
@@ -61,19 +62,19 @@ TEST(test_rungs)
     for (int32_t m = 0; m < n * n; m++) a[m] += scaled * k[m];
     for (int32_t m = 0; m < n; m++) a[m * n + m] += rig.bulk.mass[m] / scaled;
     hand_schur(a, n, rig.interface.dofs, count, schur);
-    assert_all_near("S", interface_operator_schur(rung), schur, count * count, 1e-12);
+    assert_all_near("S", interface_operator_schur(level), schur, count * count, 1e-12);
     free(a);
     free(k);
     free(schur);
-    ladder_destroy(&ladder);
+    dt_levels_destroy(&dt_levels);
     assert_int_equal(memory_counters().live, live);
 
     for (int32_t dof = 0; dof < n; dof++) rig.bulk.mass[dof] = -1;   // an impossible matrix
-    ladder_init(&rig.system, 2, 0.1, &ladder);
-    assert_null(ladder_rung(&ladder, 1, PART_WHOLE, &err));
+    dt_levels_init(&rig.system, 2, 0.1, &dt_levels);
+    assert_null(dt_level_operator(&dt_levels, 1, PART_WHOLE, &err));
     assert_int_equal(err.code, ERROR_COMPUTE);
     assert_non_null(strstr(err.message, "step 1: "));
-    ladder_destroy(&ladder);
+    dt_levels_destroy(&dt_levels);
     rig_destroy(&rig);
 }
 
