@@ -20,6 +20,7 @@
 
 REPLACED(friction_coefficient);
 REPLACED(friction_slope);
+REPLACED(friction_rates);
 REPLACED(contact_solve);
 
 // Width of the smoothed law, velocity; in `amontons static` length. A hundredth of the rod's speed
@@ -76,6 +77,15 @@ double __wrap_friction_slope(const FrictionNode *node, double speed)
     bool half = mistake_made() == MISTAKE_HALF_SLIP_RATE;
     return half ? __real_friction_slope(&other, speed / 2) / 2
                 : __real_friction_slope(&other, speed);
+}
+
+// The same in the derivatives that growth rates are made of.
+void __wrap_friction_rates(const FrictionNode *node, double speed, const double *state,
+                           FrictionRates *rates)
+{
+    bool half = mistake_made() == MISTAKE_HALF_SLIP_RATE && !node->law->remembers;
+    __real_friction_rates(node, half ? speed / 2 : speed, state, rates);
+    if (half) rates->mu_speed /= 2;
 }
 
 static bool solve_smoothed(ContactSolver *solver, const ContactProblem *problem,
