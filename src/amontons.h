@@ -80,7 +80,7 @@ typedef struct RunCounters {
     int64_t contact_fallbacks;   // contact problems that the plain iteration did not settle
     int64_t contact_rescued;   // of these: solved after sweeps only
     int64_t certificates;   // factorisations to judge states
-    int64_t loop_allocations;   // arrays allocated in the time loop (0 but new levels of dt, output)
+    int64_t loop_allocations;   // arrays allocated in the time loop (0 but levels of dt, output)
 } RunCounters;
 typedef struct RunPhase {   // of a run, for --profile
     const char *name;   // "contact"; static storage

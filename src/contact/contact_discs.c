@@ -251,7 +251,7 @@ static void find_step(const Settling *settling)
     int32_t size = equations->free_count, rods = interface_rod(settling->problem->interface, 0);
     for (int32_t a = 0; a < size; a++) newton->step[a] = -newton->step[a];
 
-    // What the forces at open nodes do to these equations when they are removed.
+    // The forces at open nodes are removed: their part in these equations.
     const DiscRow *rows = newton->reused ? settling->discs->kept : settling->discs->row;
     if (newton->open_count > 0) contact_newton_find_pull(newton);
     for (int32_t a = 0; newton->open_count > 0 && a < size; a++) {

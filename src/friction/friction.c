@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What every law is asked, by its table of operations. Slopes are what Newton's derivative
-// (contact/contact_equations) and the certificate's W (stepping/certificate) need. A node's factor
-// multiplies mu_S and mu_K of the built-in laws of speed alone, mu of all others.
+// The questions that every law answers, by its table of operations. Newton's derivative
+// (contact/contact_equations) and the certificate's W (stepping/certificate) need slopes. A node's
+// factor multiplies mu_S and mu_K of the built-in laws of speed alone, mu of all others.
 #include "friction/friction.h"
 
 #include "algebra/dense.h"

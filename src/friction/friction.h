@@ -127,7 +127,7 @@ double friction_direct_slope(const FrictionNode *node, double speed);
 // x [states] becomes (1 - reach g_theta)^-1 x. Returns false where that is singular.
 bool friction_solve_states(const FrictionRates *rates, double reach, double *x);
 
-// What the states add to d mu/d speed over a stage: mu_theta (1 - reach g_theta)^-1 reach g_v.
+// The part of the states in d mu/d speed over a stage: mu_theta (1 - reach g_theta)^-1 reach g_v.
 double friction_feedback(const FrictionRates *rates, double reach);
 
 // For a law that creeps: the velocity [count] to which a step of Newton's method leads that is

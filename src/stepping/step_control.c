@@ -160,9 +160,9 @@ static bool oscillations_stay_small(StepControl *control, const State *state, Le
 }
 
 // May `state` be left or reached by a step of level k, which does not resolve waves? What
-// oscillates on is small, as certified or as seen so far, and nothing grows without oscillating. Where
-// friction remembers, what grows more slowly than the step and than anything that could be seen is
-// resolved by it; what is slower than the time that was watched has not been seen.
+// oscillates on is small, as certified or as seen so far, and nothing grows without oscillating.
+// Where friction remembers, what grows more slowly than the step and than anything that could be
+// seen is resolved by it; what is slower than the time that was watched has not been seen.
 static bool may_skip_waves(StepControl *control, const State *state, int32_t k)
 {
     const DtLevels *dt_levels = &control->dt_levels;
@@ -380,7 +380,7 @@ bool step_control_advance(StepControl *control, double remaining, Error *err)
     else
         counters->stepped_over_oscillations += !certified;
 
-    // What the next step needs: whether slip runs away, and the level.
+    // The next step needs to know whether slip runs away, and its level.
     scan_growth(control, k);
     if (!shortened || retried) control->level = next_level(control, k, outcome.error, retried);
 cleanup:

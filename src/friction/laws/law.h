@@ -126,7 +126,7 @@ typedef struct FrictionStateText {
     char start[STATE_TEXT_SIZE];   // formula of numbers; empty: that of steady slip
 } FrictionStateText;
 
-// What a scene gives beside the kind and the numbers of a law. Nothing is owned.
+// The rest that a scene gives beside the kind and the numbers of a law. Nothing is owned.
 typedef struct FrictionSource {
     const double *velocity, *mu;   // [velocity_count], [mu_count] points of a table
     int32_t velocity_count, mu_count;
