@@ -324,21 +324,26 @@ double friction_feedback(const FrictionRates *rates, double reach)
     return sum;
 }
 
-static double stage_coefficient(const FrictionNode *node, double speed, double *slope)
+// mu, and d mu/d speed, with the states that the stage ends with at this speed.
+static double stage_coefficient(const FrictionNode *node, double speed)
 {
     double state[STATES_MAX];
     FrictionRates rates;
     friction_state(node, speed, state);
     const FrictionOperations *operations = friction_operations(node->law);
-    if (!slope && operations->mu_alone && !(node->pace > 0))
+    if (operations->mu_alone && !(node->pace > 0))
         return node->factor * operations->mu_alone(node->law, speed, node->pressure, state);
-    if (!slope) {
-        find_mu(node, speed, state, &rates);
-        return rates.mu;
-    }
-    friction_rates(node, speed, state, &rates);
-    *slope = rates.mu_speed + friction_feedback(&rates, node->reach);
+    find_mu(node, speed, state, &rates);
     return rates.mu;
+}
+
+static __attribute__((noinline)) double stage_slope(const FrictionNode *node, double speed)
+{
+    double state[STATES_MAX];
+    FrictionRates rates;
+    friction_state(node, speed, state);
+    friction_rates(node, speed, state, &rates);
+    return rates.mu_speed + friction_feedback(&rates, node->reach);
 }
 
 // --- the coefficient ----------------------------------------------------------------------------
@@ -361,17 +366,10 @@ static __attribute__((noinline)) double own_slope(const FrictionNode *node, doub
     return node->factor * slope;
 }
 
-static __attribute__((noinline)) double stage_slope(const FrictionNode *node, double speed)
-{
-    double slope;
-    stage_coefficient(node, speed, &slope);
-    return slope;
-}
-
 double friction_coefficient(const FrictionNode *node, double speed)
 {
     const FrictionLaw *law = node->law;
-    if (law->remembers) return stage_coefficient(node, speed, NULL);
+    if (law->remembers) return stage_coefficient(node, speed);
     const FrictionOperations *operations = friction_operations(law);
     return operations->coefficient ? operations->coefficient(law, node->factor, speed)
                                    : own_coefficient(node, speed);
@@ -456,16 +454,16 @@ void friction_set_stage(FrictionNode *node, const double *from, double reach)
     if (!node->law->remembers) return;
     memcpy(node->from, from, (size_t)node->law->states * sizeof(double));
     node->reach = reach;
-    node->threshold = stage_coefficient(node, 0, NULL);
+    node->threshold = stage_coefficient(node, 0);
 }
 
 double friction_set_pressure(FrictionNode *node, double pressure, double speed)
 {
     if (!node->law->feels_pressure) return 0;
-    double before = stage_coefficient(node, speed, NULL);
+    double before = stage_coefficient(node, speed);
     node->pressure = pressure;
-    node->threshold = stage_coefficient(node, 0, NULL);
-    return stage_coefficient(node, speed, NULL) - before;
+    node->threshold = stage_coefficient(node, 0);
+    return stage_coefficient(node, speed) - before;
 }
 
 void friction_rates_pressed(const FrictionNode *node, double pressure, double speed,
