@@ -308,11 +308,7 @@ static bool settle(Settling *settling)
     for (int32_t k = 0; k < STEPS; k++) {
         if (!newton->listed && !contact_newton_close(newton)) return false;
 
-        // Factors are reused if they are the latest, of this S and of these statuses, and gain.
-        int64_t factored = settling->problem->matrix->factored;
-        newton->reused = newton->factors_gain && !newton->creeps && !settling->factors_anew &&
-                         factored > 0 && factored == newton->factorisations &&
-                         contact_has_statuses(&newton->equations, newton->factors.status);
+        newton->reused = !settling->factors_anew && contact_newton_keeps_factors(newton);
         if (!newton->reused && !factor(settling)) return false;
 
         // The step.

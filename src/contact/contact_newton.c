@@ -231,6 +231,14 @@ void contact_newton_creep(ContactNewton *newton)
     }
 }
 
+bool contact_newton_keeps_factors(const ContactNewton *newton)
+{
+    int64_t factored = newton->equations.problem->matrix->factored;
+    return newton->factors_gain && !newton->creeps && factored > 0 &&
+           factored == newton->factorisations &&
+           contact_has_statuses(&newton->equations, newton->factors.status);
+}
+
 // With factors of an earlier derivative it is a step of a chord method: linear in convergence, and
 // far cheaper than factoring.
 bool contact_newton_step(ContactNewton *newton)
@@ -239,13 +247,7 @@ bool contact_newton_step(ContactNewton *newton)
     ContactMatrix *matrix = equations->problem->matrix;
     int32_t free_count = equations->free_count;
 
-    // Factors are reused if they are the latest, of this S and of these statuses, and steps with
-    // them still gain. Factors of another step size would converge too slowly, and where friction
-    // creeps each row changes from step to step.
-    newton->reused = matrix->factored > 0 && matrix->factored == newton->factorisations &&
-                     !newton->creeps && newton->factors_gain &&
-                     newton->factors.rows == free_count &&
-                     contact_has_statuses(equations, newton->factors.status);
+    newton->reused = newton->factors.rows == free_count && contact_newton_keeps_factors(newton);
     if (!newton->reused) {
         newton->factorisations++;
         bool regular = contact_factors_make(&newton->factors, equations, newton->closed);

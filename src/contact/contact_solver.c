@@ -142,6 +142,7 @@ static bool solve_statuses(ContactSolver *solver, const ContactProblem *problem,
     int32_t met = 1, anchored = 1;   // sets of statuses so far; that which solver->anchor holds
 
     for (;;) {
+        // From the limit on, or a cycle, only the worst status is changed.
         if (iteration == limit && !change_all) return false;
         if (iteration == limit) {
             change_all = false;
@@ -198,17 +199,14 @@ static bool solve_statuses(ContactSolver *solver, const ContactProblem *problem,
         stalled = 0;
 
         // A set met before tells of a cycle (Brent, BIT 20, 1980: compared with one set that is
-        // kept, and renewed at powers of two): from there on only the worst status is changed.
-        if (change_all && contact_has_statuses(equations, solver->anchor)) {
-            change_all = false;
-            limit = iteration + ITERATIONS_ONE;
-            solver->fallbacks++;
-        }
+        // kept, and renewed at powers of two).
+        bool cycles = change_all && contact_has_statuses(equations, solver->anchor);
+        if (cycles) limit = iteration;
         if (met++ >= 2 * anchored) {
             anchored = met;
             contact_copy_statuses(equations, solver->anchor);
         }
-        if (change_all) started = -1;
+        if (change_all && !cycles) started = -1;
         contact_newton_settle(newton);
     }
 }
