@@ -103,8 +103,11 @@ static bool aim_label(const Search *search, int32_t aim, QuantityLabel *label, E
     *label =
         label_of_record(search->study->records[designs_aim(&search->designs, aim).record].name);
     if (!aim_words(search, aim, words, err)) return false;
+    // As much of the words as the label has room for.
     size_t used = strlen(label->words);
-    if (*words) snprintf(label->words + used, sizeof label->words - used, " at %s", words);
+    int room = (int)(sizeof label->words - used - sizeof " at ");
+    if (*words && room > 0)
+        snprintf(label->words + used, sizeof label->words - used, " at %.*s", room, words);
     return true;
 }
 
