@@ -6,22 +6,47 @@
 
 #include "base/memory.h"
 #include "fem/element_group.h"
+#include "fem/floor.h"
 #include "fem/mesh_faces.h"
 
 #include <math.h>
 #include <string.h>
 
-// Nodes with a common element are neighbours. *pattern is the caller's to free also on failure.
+// Nodes whose unknowns move a group of elements, each once: its own, and those of the floor that
+// its contact nodes move with. nodes: NULL: they are counted only, not told apart. Returns how many.
+static int32_t list_movers(const Mesh *mesh, const ElementGroup *group, int32_t *nodes)
+{
+    const Floor *floor = &mesh->floor;
+    int32_t count = group->node_count;
+    if (nodes) memcpy(nodes, group->node, (size_t)count * sizeof *nodes);
+    for (int32_t a = 0; a < group->node_count; a++) {
+        int32_t row = floor_row(floor, group->node[a]);
+        for (int32_t k = row < 0 ? 0 : floor->start[row]; row >= 0 && k < floor->start[row + 1];
+             k++) {
+            int32_t known = group->node_count;
+            while (nodes && known < count && nodes[known] != floor->node[k]) known++;
+            if (nodes && known < count) continue;
+            if (nodes) nodes[count] = floor->node[k];
+            count++;
+        }
+    }
+    return count;
+}
+
+// Nodes that move a common group of elements are neighbours. *pattern is the caller's to free also
+// on failure.
 static bool build_pattern(const Mesh *mesh, SparsePattern *pattern, Error *err)
 {
     int32_t *start = NEW_ARRAY(int32_t, (int64_t)mesh->element_count + 1, err), count = 0;
-    int32_t *nodes = NEW_ARRAY(int32_t, mesh->first_node[mesh->element_count], err);
+    int32_t *nodes = NULL, room = 0;
     ElementGroup group;
-    if (!start || !nodes) goto cleanup;
+    if (!start) goto cleanup;
+    for (int32_t e = 0; e < mesh->element_count; e++)
+        if (element_group_at(mesh, e, &group)) room += list_movers(mesh, &group, NULL);
+    TRY((nodes = NEW_ARRAY(int32_t, room, err)));
     for (int32_t e = 0; e < mesh->element_count; e++) {
         if (!element_group_at(mesh, e, &group)) continue;
-        memcpy(nodes + start[count], group.node, (size_t)group.node_count * sizeof *nodes);
-        start[count + 1] = start[count] + group.node_count;
+        start[count + 1] = start[count] + list_movers(mesh, &group, nodes + start[count]);
         count++;
     }
     PointGroups groups = {mesh->node_count, count, start, nodes};
@@ -31,27 +56,68 @@ cleanup:
     return error_is_clean(err);
 }
 
-// The unknowns of a node stand side by side in every row, and the rows of a node are alike, so one
-// look-up serves a whole block.
-static void add_group(const ElementGroup *group, const ElementMatrices *matrices, Bulk *bulk)
+// One of the nodes that move node a of an element: itself, or one of the floor's with its share.
+typedef struct Mover {
+    int32_t node;
+    double share;
+} Mover;
+
+// Number k of them; false: there are no more.
+static bool mover_at(const Floor *floor, int32_t node, int32_t k, Mover *mover)
 {
-    const int32_t *element = group->node, *start = bulk->pattern.start;
-    int32_t nodes = group->node_count, dim = bulk->dim;
-    for (int32_t a = 0; a < nodes; a++) {
-        int32_t row = node_dof(dim, element[a], 0), length = start[row + 1] - start[row];
-        for (int32_t d = 0; d < dim; d++) bulk->mass[row + d] += matrices->mass[a];
-        for (int32_t b = 0; b < nodes; b++) {
-            int32_t entry = sparse_entry(&bulk->pattern, row, node_dof(dim, element[b], 0));
-            int32_t i = node_dof(dim, a, 0), j = node_dof(dim, b, 0);
-            for (int32_t d = 0; d < dim; d++, entry += length) {
-                for (int32_t f = 0; f < dim; f++) {
-                    bulk->stiffness[entry + f] += matrices->stiffness[i + d][j + f];
-                    bulk->damping[entry + f] += matrices->damping[i + d][j + f];
-                }
-            }
+    int32_t row = floor_row(floor, node);
+    *mover = (Mover){node, 1};
+    if (k == 0) return true;
+    if (row < 0 || floor->start[row] + k > floor->start[row + 1]) return false;
+    *mover = (Mover){floor->node[floor->start[row] + k - 1], floor->share[floor->start[row] + k - 1]};
+    return true;
+}
+
+// T' (K, C) T of a block of two nodes, T the shares. The unknowns of a node stand side by side in
+// every row, and the rows of a node are alike, so one look-up serves a whole block.
+static void add_block(const ElementMatrices *matrices, int32_t a, int32_t b, Mover row, Mover column,
+                      Bulk *bulk)
+{
+    int32_t dim = bulk->dim, first = node_dof(dim, row.node, 0);
+    int32_t length = bulk->pattern.start[first + 1] - bulk->pattern.start[first];
+    int32_t entry = sparse_entry(&bulk->pattern, first, node_dof(dim, column.node, 0));
+    int32_t i = node_dof(dim, a, 0), j = node_dof(dim, b, 0);
+    double share = row.share * column.share;
+    for (int32_t d = 0; d < dim; d++, entry += length) {
+        for (int32_t f = 0; f < dim; f++) {
+            bulk->stiffness[entry + f] += share * matrices->stiffness[i + d][j + f];
+            bulk->damping[entry + f] += share * matrices->damping[i + d][j + f];
         }
     }
-    bulk->area += matrices->area;
+}
+
+static void add_mass(double mass, Mover row, Mover column, Bulk *bulk)
+{
+    for (int32_t d = 0; d < bulk->dim; d++) {
+        int32_t i = node_dof(bulk->dim, row.node, d), j = node_dof(bulk->dim, column.node, d);
+        double value = row.share * column.share * mass;
+        if (i == j)
+            bulk->mass[i] += value;
+        else
+            bulk->mass_beside[sparse_entry(&bulk->pattern, i, j)] += value;
+    }
+}
+
+static void add_group(const Mesh *mesh, const ElementGroup *group, const ElementMatrices *matrices,
+                      Bulk *bulk)
+{
+    const Floor *floor = &mesh->floor;
+    const int32_t *node = group->node;
+    Mover row, column;
+    for (int32_t a = 0; a < group->node_count; a++)
+        for (int32_t k = 0; mover_at(floor, node[a], k, &row); k++) {
+            for (int32_t l = 0; mover_at(floor, node[a], l, &column); l++)
+                add_mass(matrices->mass[a], row, column, bulk);
+            for (int32_t b = 0; b < group->node_count; b++)
+                for (int32_t l = 0; mover_at(floor, node[b], l, &column); l++)
+                    add_block(matrices, a, b, row, column, bulk);
+        }
+    if (!mesh_in_base(mesh, node[0])) bulk->area += matrices->area;
 }
 
 bool bulk_create(const Mesh *mesh, Bulk *bulk, Error *err)
@@ -59,7 +125,17 @@ bool bulk_create(const Mesh *mesh, Bulk *bulk, Error *err)
     *bulk = (Bulk){.dim = mesh->dim, .dof_count = mesh->dim * mesh->node_count};
     bulk->load = NEW_ARRAY(double, bulk->dof_count, err);
     bulk->held = NEW_ARRAY(uint8_t, bulk->dof_count, err);
+    if (mesh->is_base && (bulk->in_base = NEW_ARRAY(uint8_t, bulk->dof_count, err)))
+        for (int32_t dof = 0; dof < bulk->dof_count; dof++)
+            bulk->in_base[dof] = mesh->is_base[dof_node(mesh->dim, dof)];
     return error_is_clean(err);
+}
+
+void bulk_apply_mass(const Bulk *bulk, const double *x, double *y)
+{
+    if (bulk->mass_beside) sparse_apply(&bulk->pattern, bulk->mass_beside, x, y);
+    for (int32_t k = 0; k < bulk->dof_count; k++)
+        y[k] = (bulk->mass_beside ? y[k] : 0) + bulk->mass[k] * x[k];
 }
 
 // Row and column but for the diagonal, so that the matrices stay symmetric and positive.
@@ -72,6 +148,7 @@ static void empty_row(int32_t dof, Bulk *bulk)
         int32_t mirror = sparse_entry(pattern, other, dof);
         bulk->stiffness[k] = bulk->stiffness[mirror] = 0;
         bulk->damping[k] = bulk->damping[mirror] = 0;
+        if (bulk->mass_beside) bulk->mass_beside[k] = bulk->mass_beside[mirror] = 0;
     }
 }
 
@@ -85,10 +162,11 @@ bool bulk_assemble(const Mesh *mesh, const Material *materials, Bulk *bulk, Erro
     bulk->stiffness = NEW_ARRAY(double, entries, err);
     bulk->damping = NEW_ARRAY(double, entries, err);
     bulk->mass = NEW_ARRAY(double, bulk->dof_count, err);
+    if (mesh->floor.row) bulk->mass_beside = NEW_ARRAY(double, entries, err);
     for (int32_t e = 0; error_is_clean(err) && e < mesh->element_count; e++) {
         if (!element_group_at(mesh, e, &group)) continue;
         element_group_matrices(mesh, materials, &group, &matrices);
-        add_group(&group, &matrices, bulk);
+        add_group(mesh, &group, &matrices, bulk);
     }
     for (int32_t dof = 0; error_is_clean(err) && dof < bulk->dof_count; dof++)
         if (bulk->held[dof]) empty_row(dof, bulk);
@@ -99,6 +177,7 @@ void bulk_destroy(Bulk *bulk)
 {
     sparse_pattern_destroy(&bulk->pattern);
     memory_free_all(bulk->stiffness, bulk->damping, bulk->mass, bulk->load, bulk->held);
+    memory_free_all(bulk->mass_beside, bulk->in_base);
     *bulk = (Bulk){0};
 }
 

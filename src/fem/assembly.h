@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The semi-discrete bulk M u'' + C u' + K u = f: sparse K and C on one pattern, lumped M, loads.
-// Unknowns: node_dof(dim, node, d) is the displacement along axis d.
+// Unknowns: node_dof(dim, node, d) is the displacement along axis d; of a contact node over a floor
+// that deforms its jump against the floor (fem/floor).
 #ifndef AMONTONS_FEM_ASSEMBLY_H
 #define AMONTONS_FEM_ASSEMBLY_H
 
@@ -16,12 +17,18 @@ typedef struct Bulk {
     SparsePattern pattern;   // of K and C, empty before bulk_assemble; owned
     double *stiffness;   // [pattern.start[dof_count]]; owned
     double *damping;   // same; owned
-    double *mass;   // [dof_count] lumped, all directions alike; owned
-    double area;   // length^2; in space the volume
+    double *mass;   // [dof_count] lumped, all directions alike; the diagonal of M; owned
+    double *mass_beside;   // [pattern.start[dof_count]] M beside its diagonal, as where contact
+        // nodes move with the floor (fem/floor); NULL: nothing; owned
+    uint8_t *in_base;   // [dof_count] 1: of the base; NULL: there is none; owned
+    double area;   // of the block, length^2; in space its volume
 } Bulk;
 
 // Without loads and supports, and without matrices.
 bool bulk_create(const Mesh *mesh, Bulk *bulk, Error *err);
+// y = M x; [dof_count]
+void bulk_apply_mass(const Bulk *bulk, const double *x, double *y);
+
 // Fills pattern, K, C and M. materials: one, or as many as the mesh has regions, by their numbers.
 bool bulk_assemble(const Mesh *mesh, const Material *materials, Bulk *bulk, Error *err);
 void bulk_destroy(Bulk *bulk);

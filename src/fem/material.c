@@ -126,7 +126,7 @@ void materials_find_mean(Materials *materials)
     if (materials->count == 1) return;
     for (int32_t k = 0; k < materials->count; k++) {
         const Material *one = &materials->list[k];
-        double part = materials->area[k];
+        double part = materials->area[k] - materials->base_area[k];
         area += part;
         compliance += part / one->young;
         sum.poisson += part * one->poisson;

@@ -91,13 +91,14 @@ typedef struct Materials {
     Material list[MATERIALS_MAX];   // [count] by number of the region
     double area[MATERIALS_MAX];   // [count] of the region, length^2; 0: of no element; of one
         // material it need not be known
+    double base_area[MATERIALS_MAX];   // [count] of the part of it that is of a base, length^2
     double width[MATERIALS_MAX];   // [count] of the region on the mean, area over extent along z,
         // length; 0 likewise
     Material mean;   // what scales are measured with; the material itself, where there is one
 } Materials;
 
 Materials materials_of(const Material *material);   // a block of one
-// Sets the mean: by area of density, Poisson's ratio and viscosities; of E that of regions one
+// Sets the mean of the block, without its base: by area of density, Poisson's ratio and viscosities; of E that of regions one
 // above the other, 1/E = mean of 1/E.
 void materials_find_mean(Materials *materials);
 

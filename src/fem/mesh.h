@@ -19,10 +19,22 @@ typedef struct MeshMove {
     bool onto_floor;   // along z so that the lowest contact node is at z = 0
 } MeshMove;
 
+// Where a second body, the base, is the floor (fem/floor): the mean displacement of the floor under
+// each contact node is a row of P. Without a base `row` is NULL.
+typedef struct Floor {
+    int32_t row_count;   // contact nodes
+    int32_t *row;   // [node_count of the mesh] which row a contact node has, -1: none; owned
+    int32_t *start;   // [row_count + 1] offsets into node and share; owned
+    int32_t *node;   // [start[row_count]] nodes of the floor, ascending in a row; owned
+    double *share;   // [start[row_count]] of P; each row adds up to 1; owned
+    bool matches;   // each row is one node
+} Floor;
+
 // A checked mesh: every element counter-clockwise, with a positive Jacobian determinant at its
 // nodes and quadrature points; every node on an element; no node twice in one element; no face on
 // more than two elements, on one only where nothing lies behind it; every face of a boundary group
-// is a face of an element, listed once; all elements in one part.
+// is a face of an element, listed once; all elements in one part, or in
+// that of the block and those of the base.
 typedef struct Mesh {
     char path[MESH_PATH_SIZE];   // of the file, for messages
     char warning[MESH_WARNING_SIZE];   // MeshFile.warning
@@ -43,7 +55,10 @@ typedef struct Mesh {
         // (fem/element_group); owned
     int32_t group_count;
     MeshGroup *groups;   // [group_count]; nodes by ascending x, ..., z; owned
-    double x_min, x_max, y_min, y_max, z_min, z_max;   // extent, length; y: 0 in the plane
+    double x_min, x_max, y_min, y_max, z_min, z_max;   // extent of the block, without the base,
+        // length; y: 0 in the plane
+    uint8_t *is_base;   // [node_count] 1: of the base; NULL: there is none; owned
+    Floor floor;   // its surface under the contact; owned
     MeshMove move;
 } Mesh;
 
@@ -76,7 +91,7 @@ static inline double mesh_height(const Mesh *mesh, int32_t node)
 void mesh_places(const Mesh *mesh, const int32_t *nodes, int32_t count, MeshPlace *place);
 void mesh_offsets(const Mesh *mesh, const int32_t *nodes, int32_t count, MeshPlace *offset);
 
-// Sets the block's extent. A node on no element would change it, but is an error.
+// Sets the block's extent, without the base. A node on no element would change it, but is an error.
 void mesh_find_extent(Mesh *mesh);
 
 // "(0.5, 0)": a place in a message.
@@ -86,6 +101,16 @@ const char *mesh_place_text(const Mesh *mesh, int32_t node, char text[PLACE_TEXT
 
 // Between two nodes, length.
 double mesh_distance(const Mesh *mesh, int32_t one, int32_t two);
+
+// Whether a node, or an element, is of the base.
+static inline bool mesh_in_base(const Mesh *mesh, int32_t node)
+{
+    return mesh->is_base && mesh->is_base[node];
+}
+static inline bool mesh_element_in_base(const Mesh *mesh, int32_t e)
+{
+    return mesh_in_base(mesh, mesh->element_nodes[mesh->first_node[e]]);
+}
 
 // Which of a list of materials element e is made of.
 static inline int32_t mesh_region(const Mesh *mesh, int32_t e)
@@ -127,6 +152,10 @@ typedef struct MeshContact {
 // side of their common face or of different order, a boundary group that does not follow the
 // elements or lists a face twice, parts that share no node, a face of one element inside the block.
 bool mesh_build(MeshFile *file, const char *path, Mesh *mesh, Error *err);
+// The same, but parts that share no node with the block are no error where each has nodes of the
+// boundary called `floor`: they are the base.
+bool mesh_build_on_base(MeshFile *file, const char *path, const char *floor, Mesh *mesh,
+                        Error *err);
 void mesh_destroy(Mesh *mesh);
 
 // The piece of boundary called `name`; a missing one or a group of another dimension is
@@ -156,7 +185,8 @@ bool mesh_stand_on_floor(const char (*names)[GROUP_NAME_SIZE], int32_t name_coun
 enum { MOVE_TEXT_SIZE = 160 };
 const char *mesh_move_text(const Mesh *mesh, char text[MOVE_TEXT_SIZE]);
 
-// How high a contact node stands over z = 0; exactly 0 where only rounding is left.
+// How high a contact node stands over the floor, or over z = 0 where that is rigid or not known yet;
+// exactly 0 where only rounding is left.
 double mesh_gap(const Mesh *mesh, int32_t node);
 void mesh_contact_destroy(MeshContact *contact);
 

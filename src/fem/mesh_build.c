@@ -3,6 +3,7 @@
 #include "fem/mesh.h"
 
 #include "base/memory.h"
+#include "fem/floor.h"
 #include "fem/mesh_faces.h"
 #include "fem/mesh_inside.h"
 #include "fem/mesh_parts.h"
@@ -31,7 +32,8 @@ void mesh_destroy(Mesh *mesh)
                      .group_count = mesh->group_count,
                      .groups = mesh->groups};
     mesh_file_destroy(&file);
-    memory_free_all(mesh->region, mesh->mean_next);
+    floor_destroy(&mesh->floor);
+    memory_free_all(mesh->region, mesh->mean_next, mesh->is_base);
     *mesh = (Mesh){0};
 }
 
@@ -292,8 +294,32 @@ cleanup:
 
 // --- building -----------------------------------------------------------------------------------
 
+// The base: every part that has nodes of the boundary called `floor`, where one part is left that
+// has none. Else nothing is marked.
+static bool mark_base(const MeshParts *parts, const char *floor, Mesh *mesh, Error *err)
+{
+    int32_t left = parts->count;
+    uint8_t *in_base = NEW_ARRAY(uint8_t, parts->count, err);
+    if (!in_base) return false;
+    for (int32_t g = 0; g < mesh->group_count; g++) {
+        const MeshGroup *group = &mesh->groups[g];
+        if (group->dimension != mesh->dim - 1 || strcmp(group->name, floor) != 0) continue;
+        for (int32_t k = 0; k < group->node_count; k++) {
+            int32_t part = parts->part[group->nodes[k]];
+            if (!in_base[part]) left--;
+            in_base[part] = 1;
+        }
+    }
+    if (left == 1 && (mesh->is_base = NEW_ARRAY(uint8_t, mesh->node_count, err)))
+        for (int32_t i = 0; i < mesh->node_count; i++)
+            mesh->is_base[i] = in_base[parts->part[i]];
+    memory_free(in_base);
+    return error_is_clean(err);
+}
+
 // Each check may rely on those before it.
-bool mesh_build_parts(MeshFile *file, const char *path, Mesh *mesh, MeshParts *parts, Error *err)
+bool mesh_build_parts(MeshFile *file, const char *path, const char *floor, Mesh *mesh,
+                      MeshParts *parts, Error *err)
 {
     MeshFaces faces = {0};
     *parts = (MeshParts){0};
@@ -305,7 +331,9 @@ bool mesh_build_parts(MeshFile *file, const char *path, Mesh *mesh, MeshParts *p
     TRY(mesh_faces_build(mesh, &faces, err));
     TRY(check_boundaries(mesh, &faces, err));
     TRY(mesh_parts_find(mesh, parts, err));
-    if (parts->count == 1) TRY(mesh_check_inside(mesh, &faces, err));
+    if (floor && parts->count > 1) TRY(mark_base(parts, floor, mesh, err));
+    if (mesh->is_base) mesh_find_extent(mesh);
+    if (parts->count == 1 || mesh->is_base) TRY(mesh_check_inside(mesh, &faces, err));
     for (int32_t g = 0; g < mesh->group_count; g++)
         mesh_sort_nodes(mesh, mesh->groups[g].nodes, mesh->groups[g].node_count);
 cleanup:
@@ -314,11 +342,16 @@ cleanup:
 }
 
 // *mesh is the caller's to destroy also on failure. Errors name node or element by gmsh's number.
-bool mesh_build(MeshFile *file, const char *path, Mesh *mesh, Error *err)
+bool mesh_build_on_base(MeshFile *file, const char *path, const char *floor, Mesh *mesh, Error *err)
 {
     MeshParts parts;
-    bool done = mesh_build_parts(file, path, mesh, &parts, err) &&
-                (parts.count == 1 || mesh_parts_refuse(mesh, &parts, err));
+    bool done = mesh_build_parts(file, path, floor, mesh, &parts, err) &&
+                (parts.count == 1 || mesh->is_base || mesh_parts_refuse(mesh, &parts, err));
     mesh_parts_destroy(&parts);
     return done;
+}
+
+bool mesh_build(MeshFile *file, const char *path, Mesh *mesh, Error *err)
+{
+    return mesh_build_on_base(file, path, NULL, mesh, err);
 }

@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "base/system.h"
+#include "fem/floor.h"
 #include "fem/mesh_faces.h"
 #include "fem/mesh_pieces.h"
 #include "io/mesh/shape_functions.h"
@@ -28,8 +29,8 @@ static double extent(const Mesh *mesh)
 
 double mesh_gap(const Mesh *mesh, int32_t node)
 {
-    double z = mesh_height(mesh, node);
-    return z > PLACE_TOLERANCE * extent(mesh) ? z : 0;
+    double gap = mesh_height(mesh, node) - floor_height(mesh, node);
+    return gap > PLACE_TOLERANCE * extent(mesh) ? gap : 0;
 }
 
 // By x first, by z last. `context` comes third, as system_sort passes it: no state outside of it.
@@ -160,6 +161,11 @@ static bool check_boundary(const Mesh *mesh, const MeshContact *contact, Error *
             FaceNodes nodes = mesh_boundary_face(pad, k);
             const MeshFace *face = mesh_faces_find(&table, nodes);
             double x = mesh_place(mesh, nodes.node[0])[0];
+            if (mesh_in_base(mesh, nodes.node[0]))
+                FAIL(err, ERROR_INPUT,
+                     "%s: contact group '%s' is on the base at x = %g: the contact is the block's "
+                     "lower side, the base's upper side is groups.floor",
+                     mesh->path, pad->name, x);
             if (face->elements != 1)
                 FAIL(err, ERROR_INPUT,
                      "%s: contact group '%s' runs inside the block at x = %g, not on its %s",

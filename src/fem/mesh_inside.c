@@ -116,7 +116,7 @@ static int32_t first_from(const ProbePoint *points, int32_t count, double low)
     return from;
 }
 
-// A point that lies in element e, NULL: none does.
+// A point that lies in element e of the same body, NULL: none does.
 static const ProbePoint *point_inside(const Mesh *mesh, int32_t e, const ProbePoint *points,
                                       int32_t count)
 {
@@ -138,6 +138,7 @@ static const ProbePoint *point_inside(const Mesh *mesh, int32_t e, const ProbePo
         const ProbePoint *point = &points[k];
         if (point->place[0] > high[0]) break;
         if (point->element == e) continue;
+        if (mesh_element_in_base(mesh, point->element) != mesh_element_in_base(mesh, e)) continue;
         bool in_box = true;
         for (int32_t d = 1; d < mesh->dim; d++)
             in_box = in_box && point->place[d] >= low[d] && point->place[d] <= high[d];

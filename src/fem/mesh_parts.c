@@ -127,9 +127,10 @@ bool mesh_parts_refuse(const Mesh *mesh, const MeshParts *parts, Error *err)
     char first[PART_TEXT_SIZE], second[PART_TEXT_SIZE], advice[PART_TEXT_SIZE];
     return REFUSE(
         err,
-        "%s: the mesh has %d parts that share no node, and a scene is one block on a rigid "
-        "floor: %s; and %s%s: %s (what is to be one block must share points and lines in "
-        "the .geo: `Coherence;`, `Coherence Mesh;`)",
+        "%s: the mesh has %d parts that share no node, and a scene is one block, on a rigid "
+        "floor or on a base: %s; and %s%s: for a base that deforms call its upper side 'floor' "
+        "(groups.floor); for the block alone %s (what is to be one block must share points and "
+        "lines in the .geo: `Coherence;`, `Coherence Mesh;`)",
         mesh->path, parts->count, mesh_part_text(mesh, parts, 0, first),
         mesh_part_text(mesh, parts, 1, second), parts->count > 2 ? "; ..." : "",
         mesh_parts_advice(mesh, parts, advice));

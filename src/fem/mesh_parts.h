@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Parts of a mesh that share no node. A scene is one block; a file may hold its base, too. Used by
+// Parts of a mesh that share no node: a block and its base, or what no scene can be. Used by
 // fem/mesh_build and run/info.
 #ifndef AMONTONS_FEM_MESH_PARTS_H
 #define AMONTONS_FEM_MESH_PARTS_H
@@ -27,8 +27,10 @@ const char *mesh_parts_advice(const Mesh *mesh, const MeshParts *parts, char tex
 // Sets ERROR_INPUT, with the parts and the advice; returns false.
 bool mesh_parts_refuse(const Mesh *mesh, const MeshParts *parts, Error *err);
 
-// As mesh_build (fem/mesh.h), but several parts are no error: they are in *parts, the caller's to
-// destroy, and nothing is known of faces between them.
-bool mesh_build_parts(MeshFile *file, const char *path, Mesh *mesh, MeshParts *parts, Error *err);
+// As mesh_build_on_base (fem/mesh.h), but several parts are no error: they are in *parts, the
+// caller's to destroy, and where they are no block and base nothing is known of faces between them.
+// floor: NULL: no part is a base.
+bool mesh_build_parts(MeshFile *file, const char *path, const char *floor, Mesh *mesh,
+                      MeshParts *parts, Error *err);
 
 #endif

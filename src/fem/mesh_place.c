@@ -53,6 +53,7 @@ void mesh_find_extent(Mesh *mesh)
         *low[d] = INFINITY;
         *high[d] = -INFINITY;
         for (int32_t i = 0; i < mesh->node_count; i++) {
+            if (mesh_in_base(mesh, i)) continue;
             *low[d] = fmin(*low[d], mesh_place(mesh, i)[d]);
             *high[d] = fmax(*high[d], mesh_place(mesh, i)[d]);
         }

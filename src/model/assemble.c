@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "algebra/dense.h"
+#include "fem/floor.h"
 #include "model/regions.h"
 #include "model/scene_mesh.h"
 
@@ -105,8 +106,8 @@ static bool set_load(Model *model, Error *err)
 }
 
 // Pressure and tractions onto the bulk's load, first per unit of load_reference(): so what the
-// cache keeps of them has the same bits whichever pressure asked first. F_N, their resultant
-// towards the plane, becomes the force that others are measured with.
+// cache keeps of them has the same bits whichever pressure asked first. F_N, the resultant towards
+// the plane of those on the block, becomes the force that others are measured with.
 static bool add_loads(Model *model, Error *err)
 {
     const Scene *scene = model->scene;
@@ -129,7 +130,8 @@ static bool add_loads(Model *model, Error *err)
         if (!scene_blame(scene, "load.tractions", found, err)) return false;
         bulk_add_traction(&model->mesh, &boundary, traction, bulk);
     }
-    for (int32_t dof = up; dof < bulk->dof_count; dof += bulk->dim) unit -= bulk->load[dof];
+    for (int32_t dof = up; dof < bulk->dof_count; dof += bulk->dim)
+        unit -= bulk->in_base && bulk->in_base[dof] ? 0 : bulk->load[dof];
     model->unit_load.size = dense_max_abs(bulk->load, bulk->dof_count);
     model->unit_load.resultant = unit;
     for (int32_t dof = 0; dof < bulk->dof_count; dof++) bulk->load[dof] *= reference;
@@ -142,6 +144,10 @@ bool model_lay_bulk(Model *model, Error *err)
     double middle = 0, width = 0;
     model_rod_strip(scene, model->height, &middle, &width);
     if (!bulk_create(&model->mesh, &model->bulk, err) || !add_loads(model, err)) return false;
+    bool found = floor_find(scene->groups.contact.name, scene->groups.contact.count,
+                            scene->groups.floor, &model->mesh, err);
+    if (!scene_blame(scene, "groups.floor", found, err)) return false;
+    floor_gather(&model->mesh, model->bulk.load);
     InterfaceDef def = {.contact_name_count = scene->groups.contact.count,
                         .contact_names = scene->groups.contact.name,
                         .has_rod = scene->rod.kind != ROD_NONE,
@@ -161,6 +167,61 @@ bool model_lay_bulk(Model *model, Error *err)
     return scene_blame(scene, "materials", done, err);
 }
 
+// An unknown of a contact node is its jump: it stays at 0 with the node where the floor under it
+// does, too.
+static bool check_held_contact(const Model *model, Error *err)
+{
+    const Mesh *mesh = &model->mesh;
+    const Floor *floor = &mesh->floor;
+    for (int32_t dof = 0; floor->row && dof < model->bulk.dof_count; dof++) {
+        int32_t node = dof_node(mesh->dim, dof), row = floor->row[node];
+        if (row < 0 || !model->bulk.held[dof]) continue;
+        for (int32_t k = floor->start[row]; k < floor->start[row + 1]; k++) {
+            int32_t under = node_dof(mesh->dim, floor->node[k], dof_axis(mesh->dim, dof));
+            if (!model->bulk.held[under])
+                return REFUSE(err,
+                              "%s: load.supports hold contact node %lld at x = %g, but not the "
+                              "floor under it: hold both, or none of them",
+                              model->scene->path, (long long)mesh->node_number[node],
+                              mesh_place(mesh, node)[0]);
+        }
+    }
+    return true;
+}
+
+// Rigid motions of the base that supports, or the rod, leave free are singular values of what they
+// hold.
+static bool check_base(const Model *model, Error *err)
+{
+    enum { MOTIONS_MAX = DIM_MAX * (DIM_MAX + 1) / 2 };
+    static const double FREE = 1e-12;   // of the largest
+    const Mesh *mesh = &model->mesh;
+    const Bulk *bulk = &model->bulk;
+    int32_t dim = mesh->dim, motions = rigid_count(dim);
+    double gram[MOTIONS_MAX * MOTIONS_MAX] = {0}, values[MOTIONS_MAX];
+    double work[DENSE_EIGEN_WORK(MOTIONS_MAX)], motion[MOTIONS_MAX];
+    if (!mesh->is_base) return true;
+    for (int32_t dof = 0; dof < bulk->dof_count; dof++) {
+        int32_t node = dof_node(dim, dof);
+        bool held = bulk->held[dof];
+        for (int32_t j = 0; j < model->interface.rod_count && !held; j++)
+            held = model->interface.rod_node[j] == node && dof_axis(dim, dof) == 0;
+        if (!bulk->in_base[dof] || !held) continue;
+        MeshPlace place = {(mesh_place(mesh, node)[0] - model->middle) / model->length};
+        for (int32_t d = 1; d < dim; d++) place[d] = mesh_place(mesh, node)[d] / model->length;
+        for (int32_t k = 0; k < motions; k++)
+            motion[k] = rigid_motion(dim, k, place, dof_axis(dim, dof));
+        for (int32_t k = 0; k < motions; k++)
+            for (int32_t l = 0; l < motions; l++) gram[k * motions + l] += motion[k] * motion[l];
+    }
+    if (dense_eigen(gram, motions, values, work) && values[0] > FREE * values[motions - 1])
+        return true;
+    return REFUSE(err,
+                  "%s: the base can move freely: hold it, as by `load: {supports: [{group: bottom, "
+                  "x: true, %sz: true}]}`",
+                  model->scene->path, dim > 2 ? "y: true, " : "");
+}
+
 bool model_hold_supports(Model *model, Error *err)
 {
     const Scene *scene = model->scene;
@@ -176,5 +237,5 @@ bool model_hold_supports(Model *model, Error *err)
             if (support->z) bulk_hold(first + model->mesh.dim - 1, &model->bulk);
         }
     }
-    return true;
+    return check_held_contact(model, err) && check_base(model, err);
 }

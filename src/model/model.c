@@ -12,6 +12,7 @@ void model_destroy(Model *model)
     reduced_bulk_destroy(&model->reduced);
     interface_destroy(&model->interface);
     bulk_destroy(&model->bulk);
+    bulk_destroy(&model->bulk_of_nodes);
     mesh_destroy(&model->mesh);
     memory_free_all(model->friction_nodes, model->laws);
     *model = (Model){0};

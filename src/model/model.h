@@ -33,6 +33,8 @@ typedef struct Model {
     FrictionLaw *laws;   // [contacts of the scene + 1] laws that nodes point to; owned
     Mesh mesh;   // owned, like all that follows
     Bulk bulk;   // its loads; M, C and K where the full mesh is stepped
+    Bulk bulk_of_nodes;   // the same in displacements of nodes in the place of jumps, for explicit
+        // steps over a base; empty elsewhere
     struct {
         double size, resultant;   // largest nodal load, sum of all towards the plane; per unit of
             // load_reference()

@@ -6,6 +6,7 @@
 #include "base/clock.h"
 #include "base/computation.h"
 #include "base/system.h"
+#include "fem/floor.h"
 #include "reduction/mirror.h"
 #include "reduction/symmetry_reduction.h"
 #include "reduction/reduction_block.h"
@@ -253,6 +254,26 @@ static bool prepare(const StageNotice *notice, Model *model, ReductionBlock *blo
     return check_memory(model, parts, err);
 }
 
+// Explicit steps move nodes, one by one: over a base they need matrices that know of no jumps.
+static bool assemble_nodes(Model *model, Error *err)
+{
+    Bulk *nodes = &model->bulk_of_nodes;
+    Mesh apart = model->mesh;   // borrows all
+    apart.floor = (Floor){0};
+    if (!model->mesh.is_base || model->scene->time.scheme != SCHEME_EXPLICIT) return true;
+    if (!model->mesh.floor.matches)
+        return REFUSE(err,
+                      "%s: time.scheme: explicit needs a floor whose nodes lie under those of the "
+                      "contact, each under one; implicit steps take any",
+                      model->scene->path);
+    if (!bulk_create(&apart, nodes, err)) return false;
+    size_t unknowns = (size_t)nodes->dof_count;
+    memcpy(nodes->load, model->bulk.load, unknowns * sizeof *nodes->load);
+    floor_scatter(&model->mesh, nodes->load);
+    memcpy(nodes->held, model->bulk.held, unknowns * sizeof *nodes->held);
+    return bulk_assemble(&apart, model->materials.list, nodes, err);
+}
+
 // Sets the scales that velocities and times are measured with.
 static void set_scales(Model *model)
 {
@@ -299,6 +320,7 @@ bool model_obtain(const Scene *scene, const StageNotice *notice, Model *model, E
             bulk_operator_create(&model->bulk, model->mesh.position, interface->dofs,
                                  interface->count, &model->system, err));
     model->system.machine = model_machine(model);
+    TRY(assemble_nodes(model, err));
     TRY(model_lay_laws(model, err));
     TRY(model_lay_gaps(model, err));
     set_scales(model);

@@ -51,8 +51,11 @@ static bool mark_materials(Model *model, Error *err)
     for (int32_t i = 0; i < model->scene->materials.count; i++)
         TRY(scene_blame(model->scene, "materials", claim_elements(model, i, owner, err), err));
     if (materials->count == 1) goto cleanup;
-    for (int32_t e = 0; e < mesh->element_count; e++)
-        materials->area[owner[e]] += mesh_element_area(mesh, e);
+    for (int32_t e = 0; e < mesh->element_count; e++) {
+        double area = mesh_element_area(mesh, e);
+        materials->area[owner[e]] += area;
+        if (mesh_element_in_base(mesh, e)) materials->base_area[owner[e]] += area;
+    }
     materials_find_mean(materials);
     mesh->region = owner;
     for (int32_t k = 0; k < materials->count; k++) materials->width[k] = mean_width(model, k);

@@ -65,7 +65,7 @@ bool scene_mesh_read(const Scene *scene, const ChildWatch *watch, Mesh *mesh, Me
         done = mesh_file_pick(path, body->name, body->count, &file, err);
         TRY(scene_blame(scene, "groups.body", done, err));
     }
-    TRY(mesh_build(&file, path, mesh, err));
+    TRY(mesh_build_on_base(&file, path, scene->groups.floor, mesh, err));
     TRY(place_mesh(scene, mesh, err));
 cleanup:
     mesh_file_destroy(&file);

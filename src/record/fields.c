@@ -11,6 +11,7 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "contact/slip.h"
+#include "fem/floor.h"
 #include "io/files/folder.h"
 
 #include <math.h>
@@ -36,7 +37,9 @@ static bool recover_waiting(Fields *fields, int32_t slot, int32_t waiting, Error
         whole[k] = copy->whole[k % 2];
     }
     fields->recovered = waiting;
-    return bulk_operator_recover(fields->system, 2 * waiting, unknowns, whole, err);
+    if (!bulk_operator_recover(fields->system, 2 * waiting, unknowns, whole, err)) return false;
+    for (int32_t k = 0; k < 2 * waiting; k++) floor_displace(fields->files.mesh, whole[k]);
+    return true;
 }
 
 // The list is written anew whenever no other time waits: a run that is cut off leaves one that

@@ -32,18 +32,22 @@ static bool allocate_full(const Bulk *bulk, const int32_t *interface_dofs, int32
     return true;
 }
 
-// mass_total: of one direction, as all have the same.
+// Rigid motions of the block, over a base that stands still. mass_total: of one direction, as all
+// have the same.
 static bool list_rigid_motions(const Bulk *bulk, const double *position, BulkOperator *system,
                                Error *err)
 {
     int32_t dim = bulk->dim, dofs = bulk->dof_count;
     double *next = system->rigid = NEW_ARRAY(double, (int64_t)rigid_count(dim) * dofs, err);
     if (!next) return false;
-    for (int32_t dof = 0; dof < dofs; dof += dim) system->mass_total += bulk->mass[dof];
+    for (int32_t dof = 0; dof < dofs; dof += dim)
+        system->mass_total += bulk->in_base && bulk->in_base[dof] ? 0 : bulk->mass[dof];
     for (int32_t which = 0; which < rigid_count(dim); which++)
         for (int32_t dof = 0; dof < dofs; dof++)
-            *next++ =
-                rigid_motion(dim, which, position + dof - dof_axis(dim, dof), dof_axis(dim, dof));
+            *next++ = bulk->in_base && bulk->in_base[dof]
+                          ? 0
+                          : rigid_motion(dim, which, position + dof - dof_axis(dim, dof),
+                                         dof_axis(dim, dof));
     return true;
 }
 
@@ -106,7 +110,7 @@ void bulk_operator_apply(const BulkOperator *system, BulkTerm term, const double
     if (!bulk) {
         reduced_operator_apply(system->small, term, x, y);
     } else if (term == BULK_MASS) {
-        for (int32_t k = 0; k < system->dof_count; k++) y[k] = bulk->mass[k] * x[k];
+        bulk_apply_mass(bulk, x, y);
     } else {
         sparse_apply(&bulk->pattern, term == BULK_STIFFNESS ? bulk->stiffness : bulk->damping, x,
                      y);
@@ -152,6 +156,8 @@ static double combine_sparse(BulkOperator *system, OperatorTerms terms)
         values[k] = terms.damping * bulk->damping[k] + terms.stiffness * bulk->stiffness[k];
     for (int32_t dof = 0; terms.mass != 0 && dof < bulk->dof_count; dof++)
         values[sparse_entry(pattern, dof, dof)] += terms.mass * bulk->mass[dof];
+    for (int32_t k = 0; bulk->mass_beside && terms.mass != 0 && k < entries; k++)
+        values[k] += terms.mass * bulk->mass_beside[k];
     for (int32_t j = 0; j < system->interface_count; j++) {
         int32_t dof = system->interface_dofs[j];
         largest = fmax(largest, values[sparse_entry(pattern, dof, dof)]);
@@ -309,6 +315,7 @@ void bulk_operator_hash(const BulkOperator *system, Hash *hash)
     if (bulk) {
         int64_t entries = bulk->pattern.start[bulk->dof_count];
         hash_numbers(hash, bulk->mass, bulk->dof_count);
+        if (bulk->mass_beside) hash_numbers(hash, bulk->mass_beside, entries);
         hash_numbers(hash, bulk->stiffness, entries);
         hash_numbers(hash, bulk->damping, entries);
     } else {

@@ -85,7 +85,10 @@ static bool is_alike(const Finder *find)
             double sign = sign_of(find, last, row) * sign_of(find, last, j);
             double stiffness = fabs(bulk->stiffness[k] - sign * bulk->stiffness[at]);
             double damping = fabs(bulk->damping[k] - sign * bulk->damping[at]);
-            if (!(stiffness <= ALIKE * find->root[0][row] * find->root[0][j] &&
+            double beside = bulk->mass_beside ? fabs(bulk->mass_beside[k] -
+                                                     sign * bulk->mass_beside[at])
+                                              : 0;
+            if (!(beside <= ALIKE * bulk->mass[j] && stiffness <= ALIKE * find->root[0][row] * find->root[0][j] &&
                   damping <= ALIKE * find->root[1][row] * find->root[1][j]))
                 return false;
         }

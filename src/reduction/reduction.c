@@ -198,7 +198,7 @@ static bool train_point(void *self, int32_t k, const FactoredPoint *full, Error 
     return true;
 }
 
-// Far beyond an element S is the interface's own mass: the mass matrix is diagonal.
+// Far beyond an element S is that of the mass alone: the interface's own, where that is diagonal.
 static bool compare_beyond(Builder *work, Error *err)
 {
     ReductionErrors *errors = &work->part->errors;
@@ -206,8 +206,15 @@ static bool compare_beyond(Builder *work, Error *err)
     int64_t m = full->interface_count;
     ParameterPoint point = {.viscosity = 0, .inertia = errors->inertia[errors->count - 1]};
     double *schur = NEW_ARRAY(double, m *m, err), *lower = NEW_ARRAY(double, m *m, err);
+    InterfaceOperator *inertia = NULL;
     if (!schur || !lower) goto cleanup;
-    for (int64_t j = 0; j < m; j++) {
+    if (full->bulk->mass_beside) {
+        OperatorTerms terms = {.mass = point.inertia / work->def->scales.mass};
+        TRY((inertia = interface_operator_create(work->full, terms, err)));
+        memcpy(schur, interface_operator_schur(inertia), (size_t)(m * m) * sizeof *schur);
+        memcpy(lower, interface_operator_schur_lower(inertia), (size_t)(m * m) * sizeof *lower);
+    }
+    for (int64_t j = 0; !inertia && j < m; j++) {
         double mass = full->bulk->mass[full->interface_dofs[j]] / work->def->scales.mass;
         schur[j * (m + 1)] = point.inertia * mass;
         lower[j * (m + 1)] = sqrt(schur[j * (m + 1)]);
@@ -216,6 +223,7 @@ static bool compare_beyond(Builder *work, Error *err)
     TRY(compare_at(work, point, schur, err));
     errors->error[errors->count - 1] = fmax(work->values[m - 1], 0);
 cleanup:
+    interface_operator_destroy(inertia);
     memory_free_all(schur, lower);
     return error_is_clean(err);
 }

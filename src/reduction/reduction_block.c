@@ -57,6 +57,16 @@ void reduction_block_destroy(ReductionBlock *block)
     *block = (ReductionBlock){0};
 }
 
+// Lengths by which a base is lowered while images are looked for, so that nodes of the block and of
+// the base that stand at one place are told apart; a number of the grid.
+static const double BASE_APART = 16;
+
+static void raise_base(const Mesh *mesh, double height, double *position)
+{
+    for (int32_t i = 0; i < mesh->node_count; i++)
+        if (mesh_in_base(mesh, i)) position[node_dof(mesh->dim, i, mesh->dim - 1)] += height;
+}
+
 // The load is the scene's nodal load over its largest, rounded.
 bool reduction_block_create(const Mesh *mesh, const Bulk *bulk, const Materials *materials,
                             double load_size, ReductionBlock *block, Error *err)
@@ -70,10 +80,13 @@ bool reduction_block_create(const Mesh *mesh, const Bulk *bulk, const Materials 
         block->position[k] = put_on_grid((mesh->position[k] - start) / length);
     }
     // A mesher's two sides differ by a part of a step, and may be rounded to neighbouring ones.
-    for (int32_t axis = 0; axis < mesh->dim - 1; axis++)
-        if (!mirror_nodes_find(mesh->dim, axis, block->position, mesh->node_count,
-                               &block->image[axis], err))
-            return false;
+    bool done = true;
+    raise_base(mesh, -BASE_APART, block->position);
+    for (int32_t axis = 0; done && axis < mesh->dim - 1; axis++)
+        done = mirror_nodes_find(mesh->dim, axis, block->position, mesh->node_count,
+                                 &block->image[axis], err);
+    raise_base(mesh, BASE_APART, block->position);
+    if (!done) return false;
     if (!bulk_create(mesh, &block->bulk, err)) return false;
     for (int32_t dof = 0; dof < bulk->dof_count; dof++) {
         block->bulk.held[dof] = bulk->held[dof];
@@ -126,4 +139,12 @@ void reduction_block_hash(const ReductionBlock *block, const Mesh *mesh, const i
     hash_bytes(hash, bulk->load, unknowns * sizeof *bulk->load);
     hash_bytes(hash, bulk->held, unknowns);
     hash_bytes(hash, dofs, (size_t)dof_count * sizeof *dofs);
+    const Floor *floor = &mesh->floor;
+    if (!floor->row) return;
+    int32_t rows = floor->row_count;
+    hash_bytes(hash, mesh->is_base, (size_t)mesh->node_count);
+    hash_bytes(hash, floor->row, (size_t)mesh->node_count * sizeof *floor->row);
+    hash_bytes(hash, floor->start, (size_t)(rows + 1) * sizeof *floor->start);
+    hash_bytes(hash, floor->node, (size_t)floor->start[rows] * sizeof *floor->node);
+    hash_bytes(hash, floor->share, (size_t)floor->start[rows] * sizeof *floor->share);
 }

@@ -128,8 +128,8 @@ static void apply(const Responses *responses, BulkTerm term, DenseView x, double
     if (term != BULK_MASS)
         sparse_apply_many(&bulk->pattern, term == BULK_DAMPING ? bulk->damping : bulk->stiffness,
                           x.values, x.columns, y);
-    for (int64_t k = 0; term == BULK_MASS && k < count; k++)
-        y[k] = bulk->mass[k % x.rows] * x.values[k];
+    for (int64_t j = 0; term == BULK_MASS && j < x.columns; j++)
+        bulk_apply_mass(bulk, x.values + j * x.rows, y + j * x.rows);
     for (int64_t k = 0; scale != 1 && k < count; k++) y[k] /= scale;
 }
 

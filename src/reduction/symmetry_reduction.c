@@ -20,8 +20,8 @@ static bool join(ReducedBulk *reduced, Error *err)
     return reduced->load != NULL;
 }
 
-// Lists rigid motions of the unknowns on the border; a rigid motion is a static one, so that all
-// else follows.
+// Lists rigid motions of the block as unknowns on the border, over a base that stands still; a rigid
+// motion is a static one, so that all else follows.
 static bool list_rigid_motions(const Bulk *bulk, const int32_t *border, const ReductionDef *def,
                                ReducedBulk *reduced, Error *err)
 {
@@ -30,7 +30,8 @@ static bool list_rigid_motions(const Bulk *bulk, const int32_t *border, const Re
     for (int32_t which = 0; next && which < rigid_count(dim); which++)
         for (int32_t k = 0; k < count; k++) {
             const double *place = def->position + node_dof(dim, dof_node(dim, border[k]), 0);
-            *next++ = rigid_motion(dim, which, place, dof_axis(dim, border[k]));
+            bool still = bulk->in_base && bulk->in_base[border[k]];
+            *next++ = still ? 0 : rigid_motion(dim, which, place, dof_axis(dim, border[k]));
         }
     return next != NULL;
 }

@@ -262,6 +262,7 @@ static bool transform_matrices(const Bulk *from, const Transform *by, Bulk *to, 
     to->pattern.index = NEW_ARRAY(int32_t, entries, err);
     to->stiffness = NEW_ARRAY(double, entries, err);
     to->damping = NEW_ARRAY(double, entries, err);
+    if (from->mass_beside) to->mass_beside = NEW_ARRAY(double, entries, err);
     work.image = NEW_ARRAY(double, work.most_listed *columns, err);
     work.moved = NEW_ARRAY(double, work.most_listed *columns, err);
     work.product = NEW_ARRAY(double, columns *columns, err);
@@ -271,6 +272,7 @@ static bool transform_matrices(const Bulk *from, const Transform *by, Bulk *to, 
         fill_pattern(&work, b);
         fill_values(&work, b, from->stiffness, to->stiffness);
         fill_values(&work, b, from->damping, to->damping);
+        if (from->mass_beside) fill_values(&work, b, from->mass_beside, to->mass_beside);
     }
 cleanup:
     congruence_destroy(&work);

@@ -20,15 +20,18 @@ bool explicit_loop_prepare(Simulation *simulation, Error *err)
     StepControl *control = &simulation->control;
     double step = 0, interval = simulation->t_end / RECORDS;
     if (scene->time.scheme != SCHEME_EXPLICIT) return true;
-    if (!stable_step(&simulation->model.bulk, &step, err)) return false;
+    const Model *model = &simulation->model;
+    const Bulk *bulk = model->mesh.is_base ? &model->bulk_of_nodes : &model->bulk;
+    if (!stable_step(bulk, &step, err)) return false;
     if (scene->time.step_max > 0) step = fmin(step, scene->time.step_max);
     double steps = ceil(interval / step);
     if (steps < 1 || steps > 1e15)
         return FAULT(err, ERROR_COMPUTE, "explicit steps of %g in %g of time cannot be counted",
                      step, interval);
     simulation->explicit_steps = (int64_t)steps;
-    ExplicitDef def = {.bulk = &simulation->model.bulk,
-                       .interface = &simulation->model.interface,
+    ExplicitDef def = {.bulk = bulk,
+                       .mesh = &model->mesh,
+                       .interface = &model->interface,
                        .friction = &simulation->friction,
                        .rod = &simulation->rod,
                        .course = control->scheme.course,

@@ -2,6 +2,7 @@
 // Quantities that a caller of amontons.h may read between two steps.
 #include "base/decimal_point.h"
 #include "base/memory.h"
+#include "fem/floor.h"
 #include "run/simulation_state.h"
 #include "run/summary.h"
 
@@ -31,6 +32,8 @@ bool amontons_simulation_block(Simulation *simulation, BlockView *view, Error *e
     if (!bulk_operator_recover(system, 2, (const double *[]){now->displacement, now->velocity},
                                (double *[]){displacement, velocity}, err))
         return false;
+    floor_displace(mesh, displacement);
+    floor_displace(mesh, velocity);
     *view = (BlockView){.nodes = mesh->node_count,
                         .dimensions = mesh->dim,
                         .elements = mesh->element_count,

@@ -173,12 +173,18 @@ static bool check_groups(const Check *check)
 {
     const Scene *scene = check->scene;
     const char *top = scene->groups.top, *rod = scene->groups.rod;
+    const char *floor = scene->groups.floor;
     if (strcmp(top, rod) == 0) return blame(check, "groups.rod", "`%s` is groups.top as well", rod);
+    if (strcmp(floor, top) == 0 || strcmp(floor, rod) == 0)
+        return blame(check, "groups.floor", "`%s` is groups.%s as well", floor,
+                     strcmp(floor, top) == 0 ? "top" : "rod");
     for (int32_t i = 0; i < scene->groups.contact.count; i++) {
         const char *contact = scene->groups.contact.name[i];
-        if (strcmp(contact, top) == 0 || strcmp(contact, rod) == 0)
+        if (strcmp(contact, top) == 0 || strcmp(contact, rod) == 0 || strcmp(contact, floor) == 0)
             return blame(check, "groups.contact", "`%s` is groups.%s as well", contact,
-                         strcmp(contact, top) == 0 ? "top" : "rod");
+                         strcmp(contact, top) == 0   ? "top"
+                         : strcmp(contact, rod) == 0 ? "rod"
+                                                     : "floor");
     }
     return true;
 }

@@ -58,6 +58,7 @@ typedef struct Scene {
     } mesh;
     struct {
         char top[GROUP_NAME_SIZE], rod[GROUP_NAME_SIZE];   // groups.top, groups.rod
+        char floor[GROUP_NAME_SIZE];   // groups.floor: the upper side of the base, if there is one
         SceneNames contact;   // groups.contact: one name or a list; empty: every curve
             // group called "contact" or "contact_..."
         SceneNames body;   // regions that are the block; none: all

@@ -5,6 +5,7 @@
 
 #include "algebra/dense.h"
 #include "base/memory.h"
+#include "fem/floor.h"
 #include "friction/friction.h"
 #include "contact/slip.h"
 
@@ -24,19 +25,60 @@ void explicit_reference_destroy(ExplicitReference *scheme)
     *scheme = (ExplicitReference){0};
 }
 
+// The state in displacements and forces of nodes, in the place of jumps; and back.
+static void to_nodes(const Mesh *mesh, State *state)
+{
+    floor_displace(mesh, state->displacement);
+    floor_displace(mesh, state->velocity);
+}
+static void to_jumps(const Mesh *mesh, State *state)
+{
+    floor_find_jumps(mesh, state->displacement);
+    floor_find_jumps(mesh, state->velocity);
+}
+
+// The floor node under a contact node, -1: the floor is rigid.
+static int32_t node_under(const ExplicitReference *scheme, int32_t node)
+{
+    const Floor *floor = &scheme->def.mesh->floor;
+    int32_t row = floor_row(floor, node);
+    return row < 0 ? -1 : floor->node[floor->start[row]];
+}
+
+// By how much velocity a unit force in a step changes component d of a floor node; 0: it is held.
+static double kick_under(const ExplicitReference *scheme, int32_t under, int32_t d)
+{
+    const Bulk *bulk = scheme->def.bulk;
+    return under < 0 || bulk->held[node_dof(bulk->dim, under, d)] ? 0 : scheme->mesh.kick[under];
+}
+
+// sum [dofs] -= the reactions, and what they do to the floor.
+static void subtract_reactions(const ExplicitReference *scheme, const State *state, double *sum)
+{
+    const Interface *interface = scheme->def.interface;
+    for (int32_t k = 0; k < state->interface_count; k++)
+        sum[interface->dofs[k]] -= state->reaction[k];
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        int32_t under = node_under(scheme, interface->node[i]);
+        for (int32_t d = 0; under >= 0 && d < interface->dim; d++)
+            sum[node_dof(interface->dim, under, d)] +=
+                state->reaction[interface_unknown(interface, i, d)];
+    }
+}
+
 // v half a step before the start, v_0 - (dt/2) a_0, with M a_0 = f + r - K u - C v from the
 // equation itself: a load put on at once is not in the inertia of the state it is put on.
-void explicit_reference_start(ExplicitReference *scheme, const State *state)
+void explicit_reference_start(ExplicitReference *scheme, State *state)
 {
     const Bulk *bulk = scheme->def.bulk;
     double *elastic = scheme->mesh.force, *viscous = scheme->mesh.force + bulk->dof_count;
     scheme->time = state->time;
     scheme->rod_way = state->rod_way;
     scheme->steps = 0;
+    to_nodes(scheme->def.mesh, state);
     sparse_apply(&bulk->pattern, bulk->stiffness, state->displacement, elastic);
     sparse_apply(&bulk->pattern, bulk->damping, state->velocity, viscous);
-    for (int32_t k = 0; k < state->interface_count; k++)
-        elastic[scheme->def.interface->dofs[k]] -= state->reaction[k];
+    subtract_reactions(scheme, state, elastic);
     for (int32_t i = 0; i < scheme->mesh.node_count; i++) {
         for (int32_t d = 0; d < bulk->dim; d++) {
             int32_t dof = node_dof(bulk->dim, i, d);
@@ -46,6 +88,7 @@ void explicit_reference_start(ExplicitReference *scheme, const State *state)
                 state->velocity[dof] - 0.5 * scheme->mesh.kick[i] * inertia;
         }
     }
+    to_jumps(scheme->def.mesh, state);
 }
 
 // w + strength mu(w) - free_speed, strength = (dt/m) r_n: by how much speed w is more than what
@@ -101,9 +144,9 @@ static double mean_power(double force, double before, double after)
     return 0.5 * force * (before + after);
 }
 
-// Reduces the free v [dim] of a pressed node by friction; its direction stays.
-static void resolve_slip(const ExplicitReference *scheme, int32_t i, double strength, double *v,
-                         State *state)
+// Reduces the free v [dim] of a pressed node by friction; its direction stays. kick: dt/m.
+static void resolve_slip(const ExplicitReference *scheme, int32_t i, double kick, double strength,
+                         double *v, State *state)
 {
     const Interface *interface = scheme->def.interface;
     int32_t t = interface_tangent(interface, i), tangents = slip_tangents(interface);
@@ -115,7 +158,7 @@ static void resolve_slip(const ExplicitReference *scheme, int32_t i, double stre
     state->status[i] = speed == 0 ? CONTACT_STICK : status_of_slip(v[0]);
     for (int32_t c = 0; c < tangents; c++) {
         double left = speed == 0 ? copysign(0, v[c]) : speed * (v[c] / free_speed);
-        state->reaction[t + c] = (left - v[c]) / scheme->mesh.kick[interface->node[i]];
+        state->reaction[t + c] = (left - v[c]) / kick;
         v[c] = left;
     }
 }
@@ -138,23 +181,34 @@ static void end_memory(const ExplicitReference *scheme, int32_t i, State *state)
     for (int32_t k = 0; k < node->law->states; k++) theta[k] = 2 * middle[k] - theta[k];
 }
 
-// Contact node i; returns the power it dissipates.
+// Contact node i; returns the power it dissipates. Places and velocities are those against the floor
+// until the last lines.
 static double resolve_contact(ExplicitReference *scheme, int32_t i, State *state)
 {
     const Interface *interface = scheme->def.interface;
     int32_t t = interface_tangent(interface, i), last = interface->dim - 1;
-    int32_t node = scheme->def.interface->node[i];
+    int32_t node = interface->node[i], under = node_under(scheme, node);
     double step = scheme->def.step, kick = scheme->mesh.kick[node], power = 0;
-    double *u = scheme->mesh.next + explicit_place(&scheme->mesh, node),
-           *v = u + explicit_room(&scheme->mesh);
-    const double *start = scheme->mesh.now + explicit_place(&scheme->mesh, node);
-    const double *before = start + explicit_room(&scheme->mesh);
+    double start[DIM_MAX], before[DIM_MAX], v[DIM_MAX];
+    for (int32_t d = 0; d <= last; d++) {
+        int64_t place = explicit_place(&scheme->mesh, node) + d;
+        int64_t velocity = explicit_velocity(&scheme->mesh, node) + d;
+        start[d] = scheme->mesh.now[place];
+        before[d] = scheme->mesh.now[velocity];
+        v[d] = scheme->mesh.next[velocity];
+        if (under < 0) continue;
+        start[d] -= scheme->mesh.now[explicit_place(&scheme->mesh, under) + d];
+        before[d] -= scheme->mesh.now[explicit_velocity(&scheme->mesh, under) + d];
+        v[d] -= scheme->mesh.next[explicit_velocity(&scheme->mesh, under) + d];
+    }
+    kick += kick_under(scheme, under, last);
     double *reaction = state->reaction + t, *slip_rate = state->slip_rate + t;
-    double initial = interface_gap(scheme->def.interface, i);
+    double initial = interface_gap(interface, i);
     double gap = start[last] + initial, bound = -gap / step;
+    bool open = v[last] >= bound;
     scheme->bound[t + last] = bound;
     start_memory(scheme, i, state);
-    if (v[last] >= bound) {
+    if (open) {
         state->status[i] = CONTACT_OPEN;
         for (int32_t d = 0; d <= last; d++) reaction[d] = 0;
     } else {
@@ -162,15 +216,25 @@ static double resolve_contact(ExplicitReference *scheme, int32_t i, State *state
         if (scheme->def.stage_friction)
             friction_set_pressure(&scheme->def.stage_friction[i],
                                   strength / kick / interface->weight[i], 0);
-        resolve_slip(scheme, i, strength, v, state);
+        resolve_slip(scheme, i, kick, strength, v, state);
         reaction[last] = strength / kick;
-        for (int32_t c = 0; c < last; c++) u[c] = start[c] + step * v[c];
         v[last] = bound;
-        u[last] = -initial;
     }
     for (int32_t d = 0; d <= last; d++) {
         slip_rate[d] = v[d];
         power -= mean_power(reaction[d], before[d], v[d]);
+        if (open) continue;
+        double *u = &scheme->mesh.next[explicit_place(&scheme->mesh, node) + d], floor = 0;
+        if (under >= 0) {
+            double *way = &scheme->mesh.next[explicit_place(&scheme->mesh, under) + d];
+            double *speed = &scheme->mesh.next[explicit_velocity(&scheme->mesh, under) + d];
+            *speed -= kick_under(scheme, under, d) * reaction[d];
+            *way = scheme->mesh.now[explicit_place(&scheme->mesh, under) + d] + step * *speed;
+            v[d] += *speed;
+            floor = *way;
+        }
+        *u = d == last ? floor - initial : floor + (start[d] + step * slip_rate[d]);
+        scheme->mesh.next[explicit_velocity(&scheme->mesh, node) + d] = v[d];
     }
     end_memory(scheme, i, state);
     return power;
@@ -297,17 +361,17 @@ static double centred_residual(ExplicitReference *scheme, const State *state)
     sparse_apply(&bulk->pattern, bulk->stiffness, field, sum);
     for (int32_t k = 0; k < dofs; k++)
         sum[k] += state->inertia[k] + viscous[k] - scheme->factor * bulk->load[k];
-    for (int32_t k = 0; k < state->interface_count; k++)
-        sum[scheme->def.interface->dofs[k]] -= state->reaction[k];
+    subtract_reactions(scheme, state, sum);
     return dense_max_abs(sum, dofs);
 }
 
-// The last step as a state; `next` still holds the v before it. Returns the work of the loads since
-// the state handed in.
+// The last step as a state of nodes; `next` still holds the v before it. Returns the work of the
+// loads since the state handed in, one of jumps.
 static double fill_state(ExplicitReference *scheme, State *state)
 {
     const Bulk *bulk = scheme->def.bulk;
     double load_work = 0;
+    to_nodes(scheme->def.mesh, state);
     for (int32_t i = 0; i < scheme->mesh.node_count; i++) {
         for (int32_t d = 0; d < bulk->dim; d++) {
             int32_t dof = node_dof(bulk->dim, i, d);
@@ -346,6 +410,10 @@ bool explicit_reference_advance(ExplicitReference *scheme, int64_t steps, State 
             "the explicit steps of %g have blown up before t = %g: they are longer than is stable",
             scheme->def.step, state->time);
     scheme->residual = centred_residual(scheme, state);
+    to_jumps(scheme->def.mesh, state);
+    floor_gather(scheme->def.mesh, state->momentum);
+    floor_gather(scheme->def.mesh, state->inertia);
+    floor_gather(scheme->def.mesh, state->elastic_force);
     return true;
 }
 

@@ -16,6 +16,9 @@
 //                which has the direction of the free v_t
 //     rod        v'_x >= (target(t_n+1) - u_n)/dt,  r_x >= 0, complementary; bonded: =
 //
+// Over a base (fem/floor) u and v of a contact node in these conditions are those against the floor
+// node below it, and 1/m is 1/m_c + 1/m_f: r_n moves both.
+//
 // The states of friction are stepped by the midpoint rule, theta' = theta + dt g(|v'_t|, (theta +
 // theta')/2), and friction takes the mean, too: both stand at the time of v', half a step on.
 //
@@ -33,7 +36,8 @@
 #include "stepping/load_course.h"
 
 typedef struct ExplicitDef {
-    const Bulk *bulk;
+    const Bulk *bulk;   // of displacements of nodes
+    const Mesh *mesh;   // its floor; every row of it is one node
     const Interface *interface;
     const Friction *friction;
     const Rod *rod;
@@ -57,8 +61,9 @@ typedef struct ExplicitReference {
 bool explicit_reference_create(const ExplicitDef *def, ExplicitReference *scheme, Error *err);
 void explicit_reference_destroy(ExplicitReference *scheme);
 
-// Begins at `state` (u, v and a at one time; of the full mesh).
-void explicit_reference_start(ExplicitReference *scheme, const State *state);
+// Begins at `state` (u, v and a at one time; of the full mesh), which is as before afterwards, but for
+// rounding over a base.
+void explicit_reference_start(ExplicitReference *scheme, State *state);
 
 // `steps` steps, and `state` at their end: u there, everything else of the last step (v', slip
 // rates and reactions that belong together). The ledger's works are summed step by step

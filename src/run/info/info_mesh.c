@@ -98,7 +98,7 @@ void info_write_mesh(const Mesh *mesh, FILE *out)
 static void write_parts(const Mesh *mesh, const MeshParts *parts, FILE *out)
 {
     char text[PART_TEXT_SIZE];
-    fprintf(out, "  %d parts that share no node; a scene is one block on a rigid floor\n",
+    fprintf(out, "  %d parts that share no node, none of them a base with a group `floor`\n",
             parts->count);
     for (int32_t k = 0; k < parts->count; k++)
         fprintf(out, "    %s\n", mesh_part_text(mesh, parts, k, text));
@@ -142,10 +142,13 @@ bool info_mesh(const char *path, const InfoOptions *options, FILE *out, Error *e
         TRY(read_parameter(options->overrides[k], &parameters[k], err));
     TRY(mesh_file_read(path, parameters, options->override_count, options->trust, NULL, &file,
                        err));
-    TRY(mesh_build_parts(&file, path, &mesh, &parts, err));
-    if (parts.count == 1) TRY(stand(&mesh, err));
+    TRY(mesh_build_parts(&file, path, "floor", &mesh, &parts, err));
+    if (parts.count == 1 || mesh.is_base) TRY(stand(&mesh, err));
     info_write_mesh(&mesh, out);
-    if (parts.count > 1) write_parts(&mesh, &parts, out);
+    if (mesh.is_base)
+        fprintf(out, "  block on a base that deforms: `floor` is the base's upper side\n");
+    else if (parts.count > 1)
+        write_parts(&mesh, &parts, out);
     if (options->picture) TRY(info_draw_mesh(&mesh, NULL, NULL, options, err));
 cleanup:
     mesh_file_destroy(&file);

@@ -11,6 +11,7 @@
 #include "base/memory.h"
 #include "friction/friction.h"
 #include "fem/element_group.h"
+#include "fem/floor.h"
 #include "contact/contact_check.h"
 #include "model/contact_laws.h"
 #include "model/gaps.h"
@@ -149,6 +150,7 @@ static bool static_solve(Model *model, StaticSolution *solution, Error *err)
             friction_constant(friction_threshold(friction_at(&model->friction, i)));
     solution->friction = friction_of_nodes(solution->friction_nodes, interface->contact_count);
     memcpy(solution->load, bulk->load, (size_t)bulk->dof_count * sizeof(double));
+    floor_scatter(&model->mesh, solution->load);
     TRY(model_hold_supports(model, err));
     TRY(bulk_assemble(&model->mesh, model->materials.list, bulk, err));
     TRY(bulk_operator_create(bulk, model->mesh.position, interface->dofs, interface->count, &system,
@@ -168,6 +170,7 @@ static bool static_solve(Model *model, StaticSolution *solution, Error *err)
                                   err));
     for (int32_t k = 0; k < interface->count; k++)
         solution->displacement[interface->dofs[k]] = solution->contact_displacement[k];
+    floor_displace(&model->mesh, solution->displacement);
     find_reactions(model, solution);
 cleanup:
     interface_operator_destroy(stiffness);
@@ -212,6 +215,7 @@ static double find_residual(const Model *model, const StaticSolution *solution,
     memset(interface_force, 0, (size_t)dofs * sizeof(double));
     for (int32_t k = 0; k < interface->count; k++)
         interface_force[interface->dofs[k]] = solution->contact_reaction[k];
+    floor_scatter(&model->mesh, interface_force);
     double worst = 0;
     for (int32_t dof = 0; dof < dofs; dof++)
         if (!held[dof]) worst = fmax(worst, fabs(solution->reaction[dof] - interface_force[dof]));

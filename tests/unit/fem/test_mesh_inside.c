@@ -160,7 +160,7 @@ TEST(test_parts)
         snprintf(region->name, sizeof region->name, k ? "slider" : "base");
         region->elements = hand_copy(&k, 1, sizeof k);
     }
-    if (!mesh_build_parts(&file, "a.msh", &mesh, &parts, &err)) fail_msg("%s", err.message);
+    if (!mesh_build_parts(&file, "a.msh", NULL, &mesh, &parts, &err)) fail_msg("%s", err.message);
     assert_int_equal(parts.count, 2);
     mesh_part_text(&mesh, &parts, 0, text);
     assert_string_equal(text, "4 nodes in x = 0 ... 1, z = 0 ... 1, groups 'contact', 'slider'");

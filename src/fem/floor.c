@@ -1,0 +1,526 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The dual mortar of fem/floor.h. Of each face of the contact
+//
+//     M_ab = int N_a N_b dA,   D_a = int N_a dA,   B_af = int N_a N_f dA
+//
+// are added up at the same points of the same pieces, so that psi_a = D_a sum_b (M^-1)_ab N_b is
+// dual to rounding and matching meshes give the identity. Places are those on a grid of 2^-30 of the
+// block's length, so that P has the same bits in any unit.
+#include "fem/floor.h"
+
+#include "algebra/dense.h"
+#include "base/memory.h"
+#include "base/order.h"
+#include "fem/mesh_faces.h"
+#include "io/mesh/shape_functions.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double GRID = 0x1p30;
+// Shares below this, and what misses from 1, are rounding.
+static const double SHARE_ROUNDING = 1e-9;
+// Part of a face of the contact that may lie over no face of the floor: rounding of coordinates.
+static const double COVER_ROUNDING = 1e-6;
+// A contact node so much above the floor stands on it, over the block's length.
+static const double GAP_ROUNDING = 1e-9;
+// A face whose shadow is smaller, over the square of its extent, stands upright.
+static const double UPRIGHT = 1e-9;
+
+enum {
+    SHADOW_DIM = DIM_MAX - 1,
+    POLYGON_MAX = 2 * FACE_CORNERS_MAX,   // corners of what two convex faces have in common
+    NEWTON_STEPS = 20,
+    GAUSS_POINTS = 5   // exact to degree 9 along a line
+};
+
+static const double GAUSS_PLACE[GAUSS_POINTS] = {-0.906179845938664, -0.5384693101056831, 0,
+                                                 0.5384693101056831, 0.906179845938664};
+static const double GAUSS_WEIGHT[GAUSS_POINTS] = {0.23692688505618908, 0.47862867049936647,
+                                                  0.5688888888888889, 0.47862867049936647,
+                                                  0.23692688505618908};
+
+typedef double Shadow[SHADOW_DIM];
+
+// A face seen from above.
+typedef struct ShadowFace {
+    FaceNodes face;
+    Shadow place[FACE_NODES_MAX];   // of its nodes
+    Shadow low, high;   // box of its corners
+} ShadowFace;
+
+// B of one face of the contact and one of the floor.
+typedef struct FacePair {
+    int32_t floor_face;
+    double product[FACE_NODES_MAX][FACE_NODES_MAX];   // [node of the contact's][of the floor's]
+} FacePair;
+
+typedef struct FloorEntry {
+    int32_t row, node;
+    double value;
+} FloorEntry;
+
+typedef struct Mortar {
+    const Mesh *mesh;
+    int32_t dim;   // of a shadow
+    ShadowFace *floor;   // [floor_count] by ascending low[0]; owned
+    int32_t floor_count;
+    double widest;   // along x of a face of the floor
+    int32_t *row;   // [nodes] row of a contact node, -1
+    double *total;   // [rows] int psi_i dA; owned
+    FacePair *pairs;   // of the face at hand; owned
+    int32_t pair_count, pair_room;
+    FloorEntry *entries;   // owned
+    int32_t entry_count, entry_room;
+} Mortar;
+
+static void mortar_destroy(Mortar *mortar)
+{
+    memory_free_all(mortar->floor, mortar->total, mortar->pairs, mortar->entries);
+}
+
+void floor_destroy(Floor *floor)
+{
+    memory_free_all(floor->row, floor->start, floor->node, floor->share);
+    *floor = (Floor){0};
+}
+
+// --- places -------------------------------------------------------------------------------------
+
+static double on_grid(const Mesh *mesh, int32_t node, int32_t axis)
+{
+    double length = mesh->x_max - mesh->x_min, start = axis == 0 ? mesh->x_min : 0;
+    return round((mesh_place(mesh, node)[axis] - start) / length * GRID) / GRID;
+}
+
+static ShadowFace shadow_of(const Mesh *mesh, FaceNodes face)
+{
+    ShadowFace shadow = {.face = face};
+    for (int32_t d = 0; d < mesh->dim - 1; d++) {
+        shadow.low[d] = INFINITY;
+        shadow.high[d] = -INFINITY;
+        for (int32_t a = 0; a < element_node_count(face.kind); a++)
+            shadow.place[a][d] = on_grid(mesh, face.node[a], d);
+        for (int32_t a = 0; a < element_corner_count(face.kind); a++) {
+            shadow.low[d] = fmin(shadow.low[d], shadow.place[a][d]);
+            shadow.high[d] = fmax(shadow.high[d], shadow.place[a][d]);
+        }
+    }
+    return shadow;
+}
+
+// Twice the area, positive where corners run counter-clockwise.
+static double double_area(const Shadow *corner, int32_t count)
+{
+    double sum = 0;
+    for (int32_t a = 0; a < count; a++) {
+        const double *one = corner[a], *next = corner[(a + 1) % count];
+        sum += one[0] * next[1] - one[1] * next[0];
+    }
+    return sum;
+}
+
+// Corners of a face, counter-clockwise; in the plane its two ends, ascending. Returns how many.
+static int32_t corners_of(const ShadowFace *shadow, int32_t dim, Shadow *corner)
+{
+    int32_t count = element_corner_count(shadow->face.kind);
+    memcpy(corner, shadow->place, (size_t)count * sizeof *corner);
+    bool turned = dim == 1 ? corner[0][0] > corner[1][0] : double_area(corner, count) < 0;
+    for (int32_t a = 0; turned && a < count / 2; a++)
+        for (int32_t d = 0; d < SHADOW_DIM; d++) {
+            double kept = corner[a][d];
+            corner[a][d] = corner[count - 1 - a][d];
+            corner[count - 1 - a][d] = kept;
+        }
+    return count;
+}
+
+// Length or area of a polygon.
+static double size_of(const Shadow *corner, int32_t count, int32_t dim)
+{
+    return dim == 1 ? corner[1][0] - corner[0][0] : double_area(corner, count) / 2;
+}
+
+// What two faces have in common: an interval, or a convex polygon (Sutherland and Hodgman, Comm.
+// ACM 17, 1974). Returns the number of corners, 0: nothing.
+static int32_t overlap(const ShadowFace *one, const ShadowFace *other, int32_t dim, Shadow *corner)
+{
+    Shadow edge[FACE_CORNERS_MAX], before[POLYGON_MAX];
+    int32_t count = corners_of(one, dim, corner), edges = corners_of(other, dim, edge);
+    if (dim == 1) {
+        corner[0][0] = fmax(corner[0][0], edge[0][0]);
+        corner[1][0] = fmin(corner[1][0], edge[1][0]);
+        return corner[0][0] < corner[1][0] ? 2 : 0;
+    }
+    for (int32_t k = 0; k < edges; k++) {
+        const double *from = edge[k], *to = edge[(k + 1) % edges];
+        int32_t left = 0;
+        memcpy(before, corner, (size_t)count * sizeof *corner);
+        for (int32_t a = 0; a < count; a++) {
+            const double *at = before[a], *next = before[(a + 1) % count];
+            double here = (to[0] - from[0]) * (at[1] - from[1]) -
+                          (to[1] - from[1]) * (at[0] - from[0]);
+            double there = (to[0] - from[0]) * (next[1] - from[1]) -
+                           (to[1] - from[1]) * (next[0] - from[0]);
+            if (here >= 0 && left < POLYGON_MAX) memcpy(corner[left++], at, sizeof(Shadow));
+            if ((here > 0 && there < 0) || (here < 0 && there > 0)) {
+                double part = here / (here - there);
+                if (left == POLYGON_MAX) continue;
+                for (int32_t d = 0; d < SHADOW_DIM; d++)
+                    corner[left][d] = at[d] + part * (next[d] - at[d]);
+                left++;
+            }
+        }
+        count = left;
+        if (count < 3) return 0;
+    }
+    return count;
+}
+
+// Newton's method for the reference coordinates of a place under a face, and its shape functions
+// there. It ends at the place that is nearest where there is none.
+static ShapeValues shape_under(const ShadowFace *shadow, int32_t dim, const double *at)
+{
+    ElementKind kind = shadow->face.kind;
+    int32_t count = element_node_count(kind);
+    double point[DIM_MAX] = {0};
+    ShapeValues shape;
+    for (int32_t a = 0; a < count; a++)
+        for (int32_t d = 0; d < dim; d++) point[d] += shape_node(kind, a)[d] / count;
+    for (int32_t step = 0;; step++) {
+        double away[SHADOW_DIM] = {0}, slope[SHADOW_DIM][SHADOW_DIM] = {{0}}, moved = 0;
+        shape = shape_at(kind, point);
+        for (int32_t d = 0; d < dim; d++) {
+            away[d] = at[d];
+            for (int32_t a = 0; a < count; a++) {
+                away[d] -= shape.value[a] * shadow->place[a][d];
+                for (int32_t e = 0; e < dim; e++)
+                    slope[d][e] += shape.slope[a][e] * shadow->place[a][d];
+            }
+        }
+        double way[SHADOW_DIM] = {away[0] / slope[0][0], 0};
+        if (dim == 2) {
+            double determinant = slope[0][0] * slope[1][1] - slope[0][1] * slope[1][0];
+            way[0] = (slope[1][1] * away[0] - slope[0][1] * away[1]) / determinant;
+            way[1] = (slope[0][0] * away[1] - slope[1][0] * away[0]) / determinant;
+        }
+        for (int32_t d = 0; d < dim; d++) {
+            point[d] += way[d];
+            moved = fmax(moved, fabs(way[d]));
+        }
+        if (!(moved > 1e-15) || step == NEWTON_STEPS) return shape;
+    }
+}
+
+// --- integrals ----------------------------------------------------------------------------------
+
+typedef struct PiecePoints {
+    int32_t count;
+    Shadow at[POLYGON_MAX * GAUSS_POINTS * GAUSS_POINTS];
+    double weight[POLYGON_MAX * GAUSS_POINTS * GAUSS_POINTS];
+} PiecePoints;
+
+// Gauss's points of an interval; of a polygon those of the triangles around its first corner, each
+// a square with one side pulled together (Duffy).
+static void set_points(const Shadow *corner, int32_t count, int32_t dim, PiecePoints *points)
+{
+    points->count = 0;
+    for (int32_t k = 0; dim == 1 && k < GAUSS_POINTS; k++) {
+        double half = 0.5 * (corner[1][0] - corner[0][0]);
+        points->at[k][0] = corner[0][0] + half * (1 + GAUSS_PLACE[k]);
+        points->weight[points->count++] = half * GAUSS_WEIGHT[k];
+    }
+    for (int32_t t = 1; dim == 2 && t + 1 < count; t++) {
+        const Shadow triangle[3] = {{corner[0][0], corner[0][1]},
+                                    {corner[t][0], corner[t][1]},
+                                    {corner[t + 1][0], corner[t + 1][1]}};
+        double twice = double_area(triangle, 3);
+        for (int32_t k = 0; k < GAUSS_POINTS; k++)
+            for (int32_t l = 0; l < GAUSS_POINTS; l++) {
+                double out = 0.5 * (1 + GAUSS_PLACE[k]), along = 0.5 * (1 + GAUSS_PLACE[l]);
+                int32_t at = points->count++;
+                for (int32_t d = 0; d < SHADOW_DIM; d++)
+                    points->at[at][d] = (1 - out) * triangle[0][d] +
+                                        out * ((1 - along) * triangle[1][d] +
+                                               along * triangle[2][d]);
+                points->weight[at] = 0.25 * GAUSS_WEIGHT[k] * GAUSS_WEIGHT[l] * out * twice;
+            }
+    }
+}
+
+// The corners of a T6 have no weight: half of what they have goes to each mid-side beside them, as
+// for the weights of the contact (fem/assembly).
+static void share_corners(double share[FACE_NODES_MAX])
+{
+    for (int32_t a = 0; a < 3; a++) {
+        share[3 + a] += 0.5 * share[a];
+        share[3 + (a + 2) % 3] += 0.5 * share[a];
+        share[a] = 0;
+    }
+}
+
+static int32_t first_floor_face(const Mortar *mortar, double low)
+{
+    int32_t from = 0, to = mortar->floor_count;
+    while (from < to) {
+        int32_t middle = from + (to - from) / 2;
+        if (mortar->floor[middle].low[0] < low)
+            from = middle + 1;
+        else
+            to = middle;
+    }
+    return from;
+}
+
+static bool refuse_cover(const Mesh *mesh, const char *pad, FaceNodes face, double cover,
+                         const char *floor, Error *err)
+{
+    char at[PLACE_TEXT_SIZE];
+    return REFUSE(err,
+                  "%s: contact group '%s' near %s lies over group '%s' of the base with %.3g of its "
+                  "%s: the floor must reach over all of the contact, once (draw the base longer, "
+                  "and name its upper side alone)",
+                  mesh->path, pad, mesh_place_text(mesh, face.node[0], at), floor, cover,
+                  mesh->dim == 2 ? "length" : "area");
+}
+
+// Adds the rows of one face of the contact.
+static bool add_face(Mortar *mortar, const char *pad, FaceNodes face, const char *floor, Error *err)
+{
+    ShadowFace own = shadow_of(mortar->mesh, face);
+    int32_t dim = mortar->dim, nodes = element_node_count(face.kind);
+    double mass[FACE_NODES_MAX * FACE_NODES_MAX] = {0}, share[FACE_NODES_MAX] = {0}, covered = 0;
+    Shadow corner[POLYGON_MAX];
+    PiecePoints points;
+    mortar->pair_count = 0;
+    for (int32_t k = first_floor_face(mortar, own.low[0] - mortar->widest);
+         k < mortar->floor_count && mortar->floor[k].low[0] < own.high[0]; k++) {
+        const ShadowFace *under = &mortar->floor[k];
+        if (dim == 2 && (under->high[1] <= own.low[1] || under->low[1] >= own.high[1])) continue;
+        int32_t corners = overlap(&own, under, dim, corner);
+        if (corners == 0) continue;
+        if (!memory_grow(&mortar->pairs, mortar->pair_count, &mortar->pair_room,
+                         sizeof *mortar->pairs, err))
+            return false;
+        FacePair *pair = &mortar->pairs[mortar->pair_count++];
+        *pair = (FacePair){.floor_face = k};
+        set_points(corner, corners, dim, &points);
+        for (int32_t q = 0; q < points.count; q++) {
+            ShapeValues upper = shape_under(&own, dim, points.at[q]);
+            ShapeValues lower = shape_under(under, dim, points.at[q]);
+            double weight = points.weight[q];
+            covered += weight;
+            for (int32_t a = 0; a < nodes; a++) {
+                share[a] += weight * upper.value[a];
+                for (int32_t b = 0; b < nodes; b++)
+                    mass[b * nodes + a] += weight * upper.value[a] * upper.value[b];
+                for (int32_t f = 0; f < element_node_count(under->face.kind); f++)
+                    pair->product[a][f] += weight * upper.value[a] * lower.value[f];
+            }
+        }
+    }
+    int32_t corners = corners_of(&own, dim, corner);
+    double size = size_of(corner, corners, dim);
+    if (!(fabs(covered - size) <= COVER_ROUNDING * size))
+        return refuse_cover(mortar->mesh, pad, face, covered / size, floor, err);
+    if (!dense_cholesky(mass, nodes) || !dense_invert_factored(mass, nodes))
+        return FAULT(err, ERROR_COMPUTE, "%s: a face of contact group '%s' has no area",
+                     mortar->mesh->path, pad);
+    if (dim == 2 && face.kind == ELEMENT_T6) share_corners(share);
+    for (int32_t a = 0; a < nodes; a++) {
+        int32_t row = mortar->row[face.node[a]];
+        mortar->total[row] += share[a];
+        for (int32_t p = 0; share[a] != 0 && p < mortar->pair_count; p++) {
+            const FacePair *pair = &mortar->pairs[p];
+            FaceNodes under = mortar->floor[pair->floor_face].face;
+            for (int32_t f = 0; f < element_node_count(under.kind); f++) {
+                double value = 0;
+                for (int32_t b = 0; b < nodes; b++)
+                    value += share[a] * mass[b * nodes + a] * pair->product[b][f];
+                if (!memory_grow(&mortar->entries, mortar->entry_count, &mortar->entry_room,
+                                 sizeof *mortar->entries, err))
+                    return false;
+                mortar->entries[mortar->entry_count++] = (FloorEntry){row, under.node[f], value};
+            }
+        }
+    }
+    return true;
+}
+
+// --- P ------------------------------------------------------------------------------------------
+
+static int compare_entries(const void *a, const void *b)
+{
+    const FloorEntry *one = a, *other = b;
+    if (one->row != other->row) return one->row < other->row ? -1 : 1;
+    if (one->node != other->node) return one->node < other->node ? -1 : 1;
+    return (one->value > other->value) - (one->value < other->value);
+}
+
+static int compare_shadows(const void *a, const void *b)
+{
+    const ShadowFace *one = a, *other = b;
+    if (one->low[0] != other->low[0]) return one->low[0] < other->low[0] ? -1 : 1;
+    return (one->face.node[0] > other->face.node[0]) - (one->face.node[0] < other->face.node[0]);
+}
+
+// Faces of the floor that do not stand upright.
+static bool list_floor(const MeshBoundary *boundary, Mortar *mortar, Error *err)
+{
+    Shadow corner[FACE_CORNERS_MAX];
+    if (!(mortar->floor = NEW_ARRAY(ShadowFace, boundary->face_count, err))) return false;
+    for (int32_t k = 0; k < boundary->face_count; k++) {
+        FaceNodes face = mesh_boundary_face(boundary, k);
+        ShadowFace shadow = shadow_of(mortar->mesh, face);
+        int32_t corners = corners_of(&shadow, mortar->dim, corner);
+        double extent = shadow.high[0] - shadow.low[0];
+        if (mortar->dim == 2) extent = pow(fmax(extent, shadow.high[1] - shadow.low[1]), 2);
+        if (!(size_of(corner, corners, mortar->dim) > UPRIGHT * extent)) continue;
+        mortar->widest = fmax(mortar->widest, shadow.high[0] - shadow.low[0]);
+        mortar->floor[mortar->floor_count++] = shadow;
+    }
+    qsort(mortar->floor, (size_t)mortar->floor_count, sizeof *mortar->floor, compare_shadows);
+    return true;
+}
+
+// Sums entries of one place, over the row's total; leaves out rows without weight and shares of
+// rounding.
+static bool fill_rows(Mortar *mortar, Floor *floor, Error *err)
+{
+    int32_t rows = 0, filled = 0, *number = NULL;
+    double largest = 0;
+    TRY((number = NEW_ARRAY(int32_t, floor->row_count, err)));
+    TRY((floor->start = NEW_ARRAY(int32_t, (int64_t)floor->row_count + 1, err)));
+    TRY((floor->node = NEW_ARRAY(int32_t, mortar->entry_count, err)));
+    TRY((floor->share = NEW_ARRAY(double, mortar->entry_count, err)));
+    qsort(mortar->entries, (size_t)mortar->entry_count, sizeof *mortar->entries, compare_entries);
+    for (int32_t row = 0; row < floor->row_count; row++)
+        largest = fmax(largest, mortar->total[row]);
+    floor->matches = true;
+    for (int32_t row = 0, k = 0; row < floor->row_count; row++) {
+        bool weightless = mortar->total[row] < SHARE_ROUNDING * largest;
+        number[row] = weightless ? -1 : rows;
+        while (k < mortar->entry_count && mortar->entries[k].row == row) {
+            int32_t node = mortar->entries[k].node;
+            double share = 0;
+            for (; k < mortar->entry_count && mortar->entries[k].row == row &&
+                   mortar->entries[k].node == node;
+                 k++)
+                share += mortar->entries[k].value / mortar->total[row];
+            if (weightless || fabs(share) < SHARE_ROUNDING) continue;
+            floor->node[filled] = node;
+            floor->share[filled++] = fabs(share - 1) < SHARE_ROUNDING ? 1 : share;
+        }
+        if (weightless) continue;
+        floor->matches = floor->matches && filled == floor->start[rows] + 1;
+        floor->start[++rows] = filled;
+    }
+    for (int32_t i = 0; i < mortar->mesh->node_count; i++)
+        if (floor->row[i] >= 0) floor->row[i] = number[floor->row[i]];
+    floor->row_count = rows;
+cleanup:
+    memory_free(number);
+    return error_is_clean(err);
+}
+
+double floor_height(const Mesh *mesh, int32_t node)
+{
+    const Floor *floor = &mesh->floor;
+    int32_t row = floor_row(floor, node);
+    double height = 0;
+    for (int32_t k = row < 0 ? 0 : floor->start[row]; row >= 0 && k < floor->start[row + 1]; k++)
+        height += floor->share[k] * mesh_height(mesh, floor->node[k]);
+    return height;
+}
+
+// The block stands on the base, nowhere in it.
+static bool check_gaps(const Mesh *mesh, const MeshContact *contact, Error *err)
+{
+    int32_t lowest = -1;
+    double least = INFINITY;
+    for (int32_t k = 0; k < contact->node_count; k++) {
+        if (floor_row(&mesh->floor, contact->nodes[k]) < 0) continue;
+        double gap = mesh_height(mesh, contact->nodes[k]) - floor_height(mesh, contact->nodes[k]);
+        if (gap < least) {
+            least = gap;
+            lowest = contact->nodes[k];
+        }
+    }
+    if (lowest < 0 || fabs(least) <= GAP_ROUNDING * (mesh->x_max - mesh->x_min)) return true;
+    return REFUSE(err,
+                  "%s: contact node %lld at x = %g is %g %s the floor of the base: draw the block "
+                  "so that it stands on the base",
+                  mesh->path, (long long)mesh->node_number[lowest], mesh_place(mesh, lowest)[0],
+                  fabs(least), least < 0 ? "below" : "above, and is the lowest over");
+}
+
+bool floor_find(const char (*names)[GROUP_NAME_SIZE], int32_t name_count, const char *floor,
+                Mesh *mesh, Error *err)
+{
+    MeshContact contact = {0};
+    MeshBoundary boundary;
+    Mortar mortar = {.mesh = mesh, .dim = mesh->dim - 1};
+    if (!mesh->is_base) return true;
+    TRY(mesh_contact(mesh, names, name_count, &contact, err));
+    TRY(mesh_boundary(mesh, floor, &boundary, err));
+    TRY(list_floor(&boundary, &mortar, err));
+    TRY((mesh->floor.row = NEW_ARRAY(int32_t, mesh->node_count, err)));
+    TRY((mortar.total = NEW_ARRAY(double, contact.node_count, err)));
+    for (int32_t i = 0; i < mesh->node_count; i++) mesh->floor.row[i] = -1;
+    for (int32_t k = 0; k < contact.node_count; k++) mesh->floor.row[contact.nodes[k]] = k;
+    mesh->floor.row_count = contact.node_count;
+    mortar.row = mesh->floor.row;
+    for (int32_t c = 0; c < contact.pad_count; c++)
+        for (int32_t k = 0; k < contact.pads[c].face_count; k++)
+            TRY(add_face(&mortar, contact.pads[c].name, mesh_boundary_face(&contact.pads[c], k),
+                         floor, err));
+    TRY(fill_rows(&mortar, &mesh->floor, err));
+    TRY(check_gaps(mesh, &contact, err));
+cleanup:
+    mortar_destroy(&mortar);
+    mesh_contact_destroy(&contact);
+    return error_is_clean(err);
+}
+
+// --- fields and forces --------------------------------------------------------------------------
+
+// Adds sign * P times the floor's entries to the contact's, or of forces the contact's to the
+// floor's. Contact nodes and those of the floor are different, so that the order does not matter.
+static void add_rows(const Mesh *mesh, double sign, bool forces, double *field)
+{
+    const Floor *floor = &mesh->floor;
+    for (int32_t i = 0; floor->row && i < mesh->node_count; i++) {
+        int32_t row = floor->row[i];
+        for (int32_t k = row < 0 ? 0 : floor->start[row]; row >= 0 && k < floor->start[row + 1];
+             k++)
+            for (int32_t d = 0; d < mesh->dim; d++) {
+                double *contact = &field[node_dof(mesh->dim, i, d)];
+                double *under = &field[node_dof(mesh->dim, floor->node[k], d)];
+                if (forces)
+                    *under += sign * floor->share[k] * *contact;
+                else
+                    *contact += sign * floor->share[k] * *under;
+            }
+    }
+}
+
+void floor_displace(const Mesh *mesh, double *field)
+{
+    add_rows(mesh, 1, false, field);
+}
+
+void floor_find_jumps(const Mesh *mesh, double *field)
+{
+    add_rows(mesh, -1, false, field);
+}
+
+void floor_gather(const Mesh *mesh, double *force)
+{
+    add_rows(mesh, 1, true, force);
+}
+
+void floor_scatter(const Mesh *mesh, double *force)
+{
+    add_rows(mesh, -1, true, force);
+}
