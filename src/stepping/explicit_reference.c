@@ -25,14 +25,16 @@ void explicit_reference_destroy(ExplicitReference *scheme)
     *scheme = (ExplicitReference){0};
 }
 
-// The state in displacements and forces of nodes, in the place of jumps; and back.
+// The state in displacements of nodes, in the place of jumps; and back.
 static void to_nodes(const Mesh *mesh, State *state)
 {
+    if (!mesh) return;
     floor_displace(mesh, state->displacement);
     floor_displace(mesh, state->velocity);
 }
 static void to_jumps(const Mesh *mesh, State *state)
 {
+    if (!mesh) return;
     floor_find_jumps(mesh, state->displacement);
     floor_find_jumps(mesh, state->velocity);
 }
@@ -40,9 +42,9 @@ static void to_jumps(const Mesh *mesh, State *state)
 // The floor node under a contact node, -1: the floor is rigid.
 static int32_t node_under(const ExplicitReference *scheme, int32_t node)
 {
-    const Floor *floor = &scheme->def.mesh->floor;
-    int32_t row = floor_row(floor, node);
-    return row < 0 ? -1 : floor->node[floor->start[row]];
+    const Mesh *mesh = scheme->def.mesh;
+    int32_t row = mesh ? floor_row(&mesh->floor, node) : -1;
+    return row < 0 ? -1 : mesh->floor.node[mesh->floor.start[row]];
 }
 
 // By how much velocity a unit force in a step changes component d of a floor node; 0: it is held.
@@ -411,9 +413,8 @@ bool explicit_reference_advance(ExplicitReference *scheme, int64_t steps, State 
             scheme->def.step, state->time);
     scheme->residual = centred_residual(scheme, state);
     to_jumps(scheme->def.mesh, state);
-    floor_gather(scheme->def.mesh, state->momentum);
-    floor_gather(scheme->def.mesh, state->inertia);
-    floor_gather(scheme->def.mesh, state->elastic_force);
+    double *const forces[] = {state->momentum, state->inertia, state->elastic_force};
+    for (int k = 0; k < 3 && scheme->def.mesh; k++) floor_gather(scheme->def.mesh, forces[k]);
     return true;
 }
 

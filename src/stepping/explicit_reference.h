@@ -37,7 +37,7 @@
 
 typedef struct ExplicitDef {
     const Bulk *bulk;   // of displacements of nodes
-    const Mesh *mesh;   // its floor; every row of it is one node
+    const Mesh *mesh;   // every row of its floor is one node; NULL: the floor is rigid
     const Interface *interface;
     const Friction *friction;
     const Rod *rod;
