@@ -7,12 +7,13 @@
 //                4---------3
 //           rod  |  body   |  leading
 //    14----------1---------2----------17
-//     |  base     contact / floor      |
+//     |           contact / floor      |
+//     | base_rear   base    base_front |
 //    24--------------------------------27
 //                  bottom
 //
 // Physical groups: body and base (surfaces), contact, top, rod, leading, floor (the base's upper
-// side), bottom and sides of the base (curves).
+// side), bottom, base_rear and base_front (curves).
 //
 //   In a scene:   mesh: {file: base.geo, set: {nx: 40, base_height: 0.5}}
 //                 load: {supports: [{group: bottom, x: true, z: true}]}
@@ -39,8 +40,8 @@ If (length <= 0 || height <= 0 || base_height <= 0)
           base_height);
     Abort;
 EndIf
-If (behind <= 0 || before <= 0)
-    Error("behind and before must be above 0, found %g and %g", behind, before);
+If (behind < 0 || before < 0)
+    Error("behind and before must be from 0 on, found %g and %g", behind, before);
     Abort;
 EndIf
 If (nx < 1 || nz < 1 || nx != Floor(nx) || nz != Floor(nz))
@@ -105,33 +106,42 @@ Transfinite Surface {1} = {1, 2, 3, 4};
 // --- the base: behind the block, below it, before it ----------------------------------------------
 x[] = {-behind, 0, length, length + before};
 cells[] = {rear, under, ahead};
-For k In {0 : 3}
+first = behind > 0 ? 0 : 1;
+last = before > 0 ? 2 : 1;
+For k In {first : last + 1}
     Point(14 + k) = {x[k], 0, 0};
     Point(24 + k) = {x[k], -base_height, 0};
     Line(14 + k) = {14 + k, 24 + k};
     Transfinite Curve {14 + k} = deep + 1 Using Progression
                                  (deep > 1 ? grade_z ^ (1 / (deep - 1)) : 1);
 EndFor
-For k In {0 : 2}
+base[] = {};
+floor[] = {};
+bottom[] = {};
+For k In {first : last}
     Line(34 + k) = {14 + k, 15 + k};
     Line(44 + k) = {24 + k, 25 + k};
     Transfinite Curve {34 + k, 44 + k} = cells[k] + 1;
     Curve Loop(14 + k) = {-(34 + k), 14 + k, 44 + k, -(15 + k)};
     Plane Surface(14 + k) = {14 + k};
     Transfinite Surface {14 + k} = {14 + k, 24 + k, 25 + k, 15 + k};
+    base[] += {14 + k};
+    floor[] += {34 + k};
+    bottom[] += {44 + k};
 EndFor
 
 Physical Surface("body") = {1};
-Physical Surface("base") = {14, 15, 16};
+Physical Surface("base") = {base[]};
 Physical Curve("contact") = {1};
 Physical Curve("leading") = {2};
 Physical Curve("top") = {3};
 Physical Curve("rod") = {4};
-Physical Curve("floor") = {34, 35, 36};
-Physical Curve("bottom") = {44, 45, 46};
-Physical Curve("sides") = {14, 17};
+Physical Curve("floor") = {floor[]};
+Physical Curve("bottom") = {bottom[]};
+Physical Curve("base_rear") = {14 + first};
+Physical Curve("base_front") = {15 + last};
 
 If (StrCmp(shape, "quad") == 0)
-    Recombine Surface {1, 14, 15, 16};
+    Recombine Surface {1, base[]};
 EndIf
 Mesh.ElementOrder = order;

@@ -89,12 +89,25 @@ double load_reference(const Scene *scene)
     return largest > 0 ? largest : 1;
 }
 
+// Whether a support is on the block; a group that is not there is told later.
+static bool supports_block(const Model *model)
+{
+    MeshBoundary boundary;
+    Error ignored = {0};
+    for (int32_t k = 0; k < model->scene->load.support_count; k++)
+        if (!mesh_boundary(&model->mesh, model->scene->load.supports[k].group, &boundary,
+                           &ignored) ||
+            !mesh_in_base(&model->mesh, boundary.nodes[0]))
+            return true;
+    return false;
+}
+
 // A block that is held needs no load, and a block that flies towards the plane has its momentum.
 static bool set_load(Model *model, Error *err)
 {
     const Scene *scene = model->scene;
     double load = model->unit_load.resultant * load_reference(scene);
-    bool held = scene->load.support_count > 0 || scene->start.velocity_z < 0;
+    bool held = supports_block(model) || scene->start.velocity_z < 0;
     if (!(load > 0) && held) load = free_scale(model, load);
     if (!(load > 0))
         return REFUSE(
@@ -167,25 +180,16 @@ bool model_lay_bulk(Model *model, Error *err)
     return scene_blame(scene, "materials", done, err);
 }
 
-// An unknown of a contact node is its jump: it stays at 0 with the node where the floor under it
-// does, too.
-static bool check_held_contact(const Model *model, Error *err)
+// An unknown of a contact node over a base is its jump, which is 0 where the floor under the node is
+// held, too. Else the node is left to its neighbours, as a rod leaves it to the floor.
+static bool may_hold(const Model *model, int32_t dof)
 {
     const Mesh *mesh = &model->mesh;
     const Floor *floor = &mesh->floor;
-    for (int32_t dof = 0; floor->row && dof < model->bulk.dof_count; dof++) {
-        int32_t node = dof_node(mesh->dim, dof), row = floor->row[node];
-        if (row < 0 || !model->bulk.held[dof]) continue;
-        for (int32_t k = floor->start[row]; k < floor->start[row + 1]; k++) {
-            int32_t under = node_dof(mesh->dim, floor->node[k], dof_axis(mesh->dim, dof));
-            if (!model->bulk.held[under])
-                return REFUSE(err,
-                              "%s: load.supports hold contact node %lld at x = %g, but not the "
-                              "floor under it: hold both, or none of them",
-                              model->scene->path, (long long)mesh->node_number[node],
-                              mesh_place(mesh, node)[0]);
-        }
-    }
+    int32_t row = floor_row(floor, dof_node(mesh->dim, dof));
+    for (int32_t k = row < 0 ? 0 : floor->start[row]; row >= 0 && k < floor->start[row + 1]; k++)
+        if (!model->bulk.held[node_dof(mesh->dim, floor->node[k], dof_axis(mesh->dim, dof))])
+            return false;
     return true;
 }
 
@@ -222,20 +226,27 @@ static bool check_base(const Model *model, Error *err)
                   model->scene->path, dim > 2 ? "y: true, " : "");
 }
 
+// What of the base is held is known before the block is looked at.
 bool model_hold_supports(Model *model, Error *err)
 {
     const Scene *scene = model->scene;
-    for (int32_t k = 0; k < scene->load.support_count; k++) {
-        const SceneSupport *support = &scene->load.supports[k];
-        MeshBoundary boundary;
-        bool found = mesh_boundary(&model->mesh, support->group, &boundary, err);
-        if (!scene_blame(scene, "load.supports", found, err)) return false;
-        for (int32_t i = 0; i < boundary.node_count; i++) {
-            int32_t first = node_dof(model->mesh.dim, boundary.nodes[i], 0);
-            if (support->x) bulk_hold(first, &model->bulk);
-            if (support->y) bulk_hold(first + 1, &model->bulk);
-            if (support->z) bulk_hold(first + model->mesh.dim - 1, &model->bulk);
+    const Mesh *mesh = &model->mesh;
+    for (int32_t pass = 0; pass < 2; pass++)
+        for (int32_t k = 0; k < scene->load.support_count; k++) {
+            const SceneSupport *support = &scene->load.supports[k];
+            MeshBoundary boundary;
+            bool found = mesh_boundary(mesh, support->group, &boundary, err);
+            if (!scene_blame(scene, "load.supports", found, err)) return false;
+            const bool along[] = {support->x, mesh->dim > 2 ? support->y : support->z, support->z};
+            for (int32_t i = 0; i < boundary.node_count; i++) {
+                int32_t node = boundary.nodes[i];
+                if (mesh_in_base(mesh, node) != (pass == 0)) continue;
+                model->block_is_held = model->block_is_held || pass == 1;
+                for (int32_t d = 0; d < mesh->dim; d++) {
+                    int32_t dof = node_dof(mesh->dim, node, d);
+                    if (along[d] && may_hold(model, dof)) bulk_hold(dof, &model->bulk);
+                }
+            }
         }
-    }
-    return check_held_contact(model, err) && check_base(model, err);
+    return check_base(model, err);
 }

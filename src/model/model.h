@@ -47,6 +47,7 @@ typedef struct Model {
     double middle;   // x of its middle, length
     MeshOrigin mesh_origin;   // where it was read
     ObservationScales scales;   // what forces, times and velocities are measured with
+    bool block_is_held;   // by a support: its forces are not known
     bool is_reduced;   // else the whole mesh is stepped
     bool from_cache;   // the basis was: nothing of the full mesh was factored
     double memory;   // that a run takes at most, about, bytes; 0: not known

@@ -104,7 +104,7 @@ static bool record_step(Simulation *simulation, Error *err)
     errors->penetration = fmax(errors->penetration, seen.penetration);
     errors->equation = fmax(errors->equation, seen.equation_error);
     // The forces of supports are not known here, so no balance of moments is checked with them.
-    bool balances = simulation->scene.load.support_count == 0;
+    bool balances = !simulation->model.block_is_held;
     if (balances && control->counters.accepted > 0)
         errors->moment = fmax(errors->moment, seen.moment_error);
     TRY(recorders_record(&simulation->recorders, &seen, err));
