@@ -33,10 +33,14 @@ static const Color CONTACT[CONTACTS] = {{0.05f, 0.45f, 0.30f, 1}, {0.45f, 0.62f,
                                         {0.20f, 0.75f, 0.50f, 1}, {0.72f, 0.60f, 0.15f, 1}};
 static const Color OTHER = {0.45f, 0.25f, 0.55f, 1};
 
+// A block stands on z = 0 but for rounding, length.
+static const double BASE_BELOW = -1e-9;
+
 typedef struct MeshPage {
     const RenderMesh *mesh;
     Page *page;
     Axes axes;
+    bool base_below;   // the names of contact and floor stand in the block and in the base
 } MeshPage;
 
 static Point node_place(const MeshPage *map, int32_t node)
@@ -257,6 +261,8 @@ static void draw_name(const MeshPage *map, const MeshGroup *group, Color color, 
     const char *name = group_name(group, form, buffer);
     if (extent.right - extent.left >= extent.bottom - extent.top) {
         bool below = y > (box->top + box->bottom) / 2;
+        if (map->base_below && is_contact(group)) below = false;   // the base is there
+        if (map->base_below && strcmp(group->name, "floor") == 0) below = true;
         style.up = below ? 1 : 0;
         text_draw(page->text, &style, (Point){x, y + (below ? gap : -gap)}, name);
         return;
@@ -284,8 +290,11 @@ static void draw_rod(const MeshPage *map)
 {
     const RenderMesh *mesh = map->mesh;
     double face = INFINITY;
-    for (int32_t node = 0; node < mesh->node_count; ++node)
-        face = fmin(face, mesh->position[2 * (int64_t)node]);
+    for (int32_t node = 0; node < mesh->node_count; ++node) {
+        const double *place = mesh->position + 2 * (int64_t)node;
+        bool pushed = mesh->rod_low < 0 ? place[1] < 0 : place[1] > 0;   // a base lies below z = 0
+        if (pushed) face = fmin(face, place[0]);
+    }
     RodMark rod = {face, mesh->rod_low, mesh->rod_high, 1};
     rod_mark_draw(map->page, &map->axes, &rod);
 }
@@ -323,6 +332,8 @@ static void draw_key(const MeshPage *map)
 static void draw_page(const RenderMesh *mesh, Page *page)
 {
     MeshPage map = {.mesh = mesh, .page = page};
+    for (int32_t node = 0; node < mesh->node_count; ++node)
+        map.base_below = map.base_below || mesh->position[2 * (int64_t)node + 1] < BASE_BELOW;
     draw_key(&map);
     place_frame(&map);
     canvas_clip(page->canvas, &map.axes.box);
