@@ -28,8 +28,10 @@ DefineConstant[
     nz = 40,                // cells of the block along z
     ratio = 1,              // cells of the floor to a cell of the contact; 1: their nodes match
     shape = "quad",         // "quad" or "triangle"
+    glued = 0,              // 1: one body, without contact and floor, for comparison
     order = 1,              // 1: Q4, T3; 2: Q9, T6
     crown = 0,              // how much higher the ends of the contact lie than its middle
+    grade_x = 1,            // length of a cell in the middle of the block over one at its ends, about
     grade_z = 1,            // height of a cell far from the contact over that of one at it
     refine = 1              // so many times as many cells along each side, for a study of the mesh
 ];
@@ -60,8 +62,9 @@ If (crown < 0 || crown >= height)
     Error("crown must be from 0 on and below height = %g, found %g", height, crown);
     Abort;
 EndIf
-If (grade_z <= 0 || grade_z > 1e6)
-    Error("grade_z must be above 0 (1: even) and at most 1e6, found %g", grade_z);
+If (grade_x <= 0 || grade_z <= 0 || grade_x > 1e6 || grade_z > 1e6)
+    Error("grade_x and grade_z must be above 0 (1: even) and at most 1e6, found %g and %g", grade_x,
+          grade_z);
     Abort;
 EndIf
 If (StrCmp(shape, "quad") != 0 && StrCmp(shape, "triangle") != 0)
@@ -99,19 +102,30 @@ Line(3) = {3, 4};
 Line(4) = {1, 4};
 Curve Loop(1) = {1, 2, 3, -4};
 Plane Surface(1) = {1};
-Transfinite Curve {1, 3} = nx + 1;
+Transfinite Curve {1, 3} = nx + 1 Using Bump 1 / grade_x;
 Transfinite Curve {2, 4} = nz + 1 Using Progression (nz > 1 ? grade_z ^ (1 / (nz - 1)) : 1);
 Transfinite Surface {1} = {1, 2, 3, 4};
+
+If (glued != 0 && (glued != 1 || ratio != 1 || crown != 0))
+    Error("glued must be 0 or 1, and then ratio is 1 and crown 0; found %g", glued);
+    Abort;
+EndIf
 
 // --- the base: behind the block, below it, before it ----------------------------------------------
 x[] = {-behind, 0, length, length + before};
 cells[] = {rear, under, ahead};
+top[] = {};
 first = behind > 0 ? 0 : 1;
 last = before > 0 ? 2 : 1;
 For k In {first : last + 1}
-    Point(14 + k) = {x[k], 0, 0};
+    If (glued == 0 || k == 0 || k == 3)
+        top[] += {14 + k};
+        Point(14 + k) = {x[k], 0, 0};
+    Else
+        top[] += {k};   // a corner of the block
+    EndIf
     Point(24 + k) = {x[k], -base_height, 0};
-    Line(14 + k) = {14 + k, 24 + k};
+    Line(14 + k) = {top[k - first], 24 + k};
     Transfinite Curve {14 + k} = deep + 1 Using Progression
                                  (deep > 1 ? grade_z ^ (1 / (deep - 1)) : 1);
 EndFor
@@ -119,24 +133,37 @@ base[] = {};
 floor[] = {};
 bottom[] = {};
 For k In {first : last}
-    Line(34 + k) = {14 + k, 15 + k};
+    If (glued == 0 || k != 1)
+        Line(34 + k) = {top[k - first], top[k + 1 - first]};
+        upper = 34 + k;
+        floor[] += {upper};
+    Else
+        upper = 1;   // the block's lower side
+    EndIf
     Line(44 + k) = {24 + k, 25 + k};
-    Transfinite Curve {34 + k, 44 + k} = cells[k] + 1;
-    Curve Loop(14 + k) = {-(34 + k), 14 + k, 44 + k, -(15 + k)};
+    If (k == 1)
+        Transfinite Curve {upper, 44 + k} = cells[k] + 1 Using Bump 1 / grade_x;
+    Else
+        Transfinite Curve {upper, 44 + k} = cells[k] + 1;
+    EndIf
+    Curve Loop(14 + k) = {-upper, 14 + k, 44 + k, -(15 + k)};
     Plane Surface(14 + k) = {14 + k};
-    Transfinite Surface {14 + k} = {14 + k, 24 + k, 25 + k, 15 + k};
+    Transfinite Surface {14 + k} = {top[k - first], 24 + k, 25 + k, top[k + 1 - first]};
     base[] += {14 + k};
-    floor[] += {34 + k};
     bottom[] += {44 + k};
 EndFor
 
 Physical Surface("body") = {1};
 Physical Surface("base") = {base[]};
-Physical Curve("contact") = {1};
+If (glued == 0)
+    Physical Curve("contact") = {1};
+EndIf
 Physical Curve("leading") = {2};
 Physical Curve("top") = {3};
 Physical Curve("rod") = {4};
-Physical Curve("floor") = {floor[]};
+If (#floor[] > 0)
+    Physical Curve("floor") = {floor[]};
+EndIf
 Physical Curve("bottom") = {bottom[]};
 Physical Curve("base_rear") = {14 + first};
 Physical Curve("base_front") = {15 + last};

@@ -185,12 +185,13 @@ class Static:
             self.contact = file["contact/node"][:]
             self.status = file["contact/status"][:]
             self.weight = file["contact/weight"][:]
+            self.jump = file["contact/jump"][:]
         self.check(study, name, slack)
 
     def check(self, study, name, slack):
         """No penetration, no pull, the cone, complementarity; equations, forces, moments, energy.
         slack: how many times more rounding a badly conditioned bulk leaves."""
-        u, r = self.displacement[self.contact], self.reaction[self.contact]
+        u, r = self.jump, self.reaction[self.contact]
         length, force = np.abs(self.displacement).max(), np.abs(self.reaction).max()
         held = {s["group"] for s in self.scene["load"]["supports"]}
         if not any(g.startswith("contact") for g in held):

@@ -96,6 +96,21 @@ double material_slip_speed(const Material *material)
     return fmin(speeds.longitudinal, 2 * speeds.shear);
 }
 
+// Kolosov's constant of the plane's two moduli, (lambda + 3 mu)/(lambda + mu).
+static double kolosov(Moduli moduli)
+{
+    return (moduli.trace + 3 * moduli_shear(moduli)) / (moduli.trace + moduli_shear(moduli));
+}
+
+Dundurs materials_dundurs(const Material *block, const Material *base)
+{
+    Moduli upper = material_elastic(block), lower = material_elastic(base);
+    double m1 = moduli_shear(upper), m2 = moduli_shear(lower);
+    double k1 = kolosov(upper), k2 = kolosov(lower), sum = m1 * (k2 + 1) + m2 * (k1 + 1);
+    return (Dundurs){.alpha = (m1 * (k2 + 1) - m2 * (k1 + 1)) / sum,
+                     .beta = (m1 * (k2 - 1) - m2 * (k1 - 1)) / sum};
+}
+
 // Trace over deviator, lambda (1 + nu)/E or eta2/eta1.
 static const double AREA_RESISTS = 4;
 

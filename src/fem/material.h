@@ -83,6 +83,13 @@ double material_slip_speed(const Material *material);
 // to be a mean (fem/element_group).
 bool material_resists_area(const Material *material);
 
+// Dundurs' numbers of a block on a base (J. Appl. Mech. 36, 1969): alpha > 0 where the block is
+// stiffer; beta, 0 for like bodies, is by how much slip changes the pressure.
+typedef struct Dundurs {
+    double alpha, beta;
+} Dundurs;
+Dundurs materials_dundurs(const Material *block, const Material *base);
+
 enum { MATERIALS_MAX = 17 };
 
 // The materials of a block: one, or one in each region of its mesh (Mesh.region).

@@ -26,6 +26,7 @@ typedef struct Model {
     Materials materials;
     RodEnd rod_end[2];   // the lower and the upper end of the rod's strip
     int32_t contact_region;   // of which of them the contact (its first pad) is
+    int32_t floor_region;   // of which of them the base's floor is; 0 where it is rigid
     bool on_contact[MATERIALS_MAX];   // which of them have a side in the contact
     Friction friction;
     FrictionNode *friction_nodes;   // [contact_count] where they differ, or laws remember

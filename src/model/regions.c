@@ -141,7 +141,7 @@ bool model_place_regions(Model *model, double low, double high, Error *err)
     const Scene *scene = model->scene;
     const Mesh *mesh = &model->mesh;
     const Interface *interface = &model->interface;
-    uint8_t *on_pad = NULL, *on_contact = NULL, *on_rod = NULL;
+    uint8_t *on_pad = NULL, *on_floor = NULL, *on_contact = NULL, *on_rod = NULL;
     MeshBoundary rod;
     int32_t pad = 0;   // contact nodes of the first pad
     model->on_contact[0] = !mesh->region;
@@ -150,6 +150,12 @@ bool model_place_regions(Model *model, double low, double high, Error *err)
     TRY((on_pad = mark_nodes(mesh, interface->node, pad, err)));
     model->contact_region = find_region(mesh, on_pad, NULL);
     if (model->contact_region < 0) model->contact_region = 0;
+    if (mesh->is_base) {
+        TRY((on_floor = mark_nodes(mesh, mesh->floor.node, mesh->floor.start[mesh->floor.row_count],
+                                   err)));
+        model->floor_region = find_region(mesh, on_floor, NULL);
+        if (model->floor_region < 0) model->floor_region = 0;
+    }
     TRY((on_contact = mark_nodes(mesh, interface->node, interface->contact_count, err)));
     for (int32_t e = 0; e < mesh->element_count; e++) {
         int32_t count = 0;
@@ -163,6 +169,6 @@ bool model_place_regions(Model *model, double low, double high, Error *err)
     model->rod_end[0] = find_end(model, &rod, on_rod, 0, low, high);
     model->rod_end[1] = find_end(model, &rod, on_rod, interface->rod_count - 1, low, high);
 cleanup:
-    memory_free_all(on_pad, on_contact, on_rod);
+    memory_free_all(on_pad, on_floor, on_contact, on_rod);
     return error_is_clean(err);
 }

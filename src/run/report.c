@@ -10,6 +10,7 @@
 #include "base/computation.h"
 #include "base/kernels.h"
 #include "io/text/json_writer.h"
+#include "run/warnings.h"
 #include "scene/keys.h"
 
 #include <math.h>
@@ -90,6 +91,24 @@ static void write_model(JsonWriter *json, const Model *model, int64_t relaxation
                                       fmax(model->length, model->height)));
     json_integer(json, "relaxation_steps", relaxation_steps);
     json_text(json, "cache_note", model->cache_note[0] ? model->cache_note : NULL);
+    json_end(json);
+}
+
+// A block on a base: how unlike they are, and how far the block went; nothing where the floor is rigid.
+static void write_base(JsonWriter *json, const Simulation *simulation)
+{
+    const Model *model = &simulation->model;
+    const Material *block = &model->materials.list[model->contact_region];
+    const Material *base = &model->materials.list[model->floor_region];
+    if (!model->mesh.is_base || !simulation->control.now.displacement) return;
+    Dundurs dundurs = materials_dundurs(block, base);
+    json_begin_object(json, "base");
+    json_boolean(json, "matches", model->mesh.floor.matches);
+    json_numbers_of(json, {"slip_over_contact", base_slip(model, &simulation->control.now)},
+                    {"dundurs_alpha", dundurs.alpha}, {"dundurs_beta", dundurs.beta},
+                    {"shear_impedance_over_block",
+                     base->density * material_speeds(base).shear /
+                         (block->density * material_speeds(block).shear)});
     json_end(json);
 }
 
@@ -208,6 +227,7 @@ static void write_all(JsonWriter *json, const char *folder, const RunReport *rep
     write_dt_levels(json, &simulation->control.dt_levels);
     write_timing(json, &simulation->model, &simulation->timing);
     write_model(json, &simulation->model, simulation->relaxation_steps);
+    write_base(json, simulation);
     write_results(json, report);
     if (simulation->levels) levels_write_json(simulation->levels, json);
     write_errors(json, &simulation->errors);

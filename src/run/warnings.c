@@ -158,6 +158,35 @@ void warnings_of_strain(const Model *model, double mu, RunWarnings *warnings)
         100 * material_gradient(material, pressure, 0), 100 * GRADIENT_SMALL);
 }
 
+double base_slip(const Model *model, const State *state)
+{
+    const Interface *interface = &model->interface;
+    const double *x = interface->x;
+    double slip = 0, weight = 0, low = INFINITY, high = -INFINITY;
+    if (!model->mesh.is_base || interface->contact_count == 0) return 0;
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        int32_t dof = model->system.interface_dofs[interface_tangent(interface, i)];
+        slip += interface->weight[i] * fabs(state->displacement[dof]);
+        weight += interface->weight[i];
+        low = fmin(low, x[i]);
+        high = fmax(high, x[i]);
+    }
+    return slip / weight / (high - low);
+}
+
+// Slip over the length of the contact from which on pairs of the start are not those that touch.
+static const double BASE_SLIP_SMALL = 0.05;
+
+void warnings_of_base(double slip, RunWarnings *warnings)
+{
+    if (slip < BASE_SLIP_SMALL) return;
+    warnings_add(warnings,
+                 "the block went far over its base: %.2g %% of the contact's length; each contact "
+                 "node stays with the piece of floor that it began on, so that ends and changes of "
+                 "the base, and waves in it, are met where they were at the start",
+                 100 * slip);
+}
+
 // Part of the way along the drive that the block's sides may go ahead or behind, or the block go
 // across the drive, before a warning. A symmetric block keeps within rounding.
 static const double TURNING_SEEN = 0.01;

@@ -19,13 +19,15 @@ SPACE = {"shape": "tet", "nx": 5, "ny": 4, "nz": 4}
 FREE_SPACE = {"shape": "tet", "layout": "free", "nx": 6, "ny": 5, "nz": 5, "grade_z": 3}
 PADS_SPACE = {"shape": "tet", "n": 2, "m": 2, "cells_x": 3, "cells_y": 3, "cells_pad_height": 1, "nz": 4}
 MESHES = {"regular": REGULAR, "graded": GRADED, "unstructured": FREE}
-OTHERS = {"four pads": PADS, "on a layer": LAYERS, "32x32": SQUARE}
+BODIES = {"shape": "triangle", "nx": 12, "nz": 6, "base_height": 0.5}
+OTHERS = {"on a base": BODIES, "four pads": PADS, "on a layer": LAYERS, "32x32": SQUARE}
 
 # Nothing but rounding tells the two apart: 1e-9 of the largest displacement leaves room for four
 # digits of conditioning, sums and stresses have one more. With contact the statuses must be equal too.
 CASES = [("bonded", "block"), ("traction", "block"), ("uplift", "block"), ("friction", "block"),
-         ("pads", "pads"), ("layers", "layers"), ("ssnv128", "block")]
+         ("pads", "pads"), ("layers", "layers"), ("bodies", "base"), ("ssnv128", "block")]
 TOLERANCE = 1e-9
+LOWERED = 10   # by which block.idp writes a base lower than it is
 
 
 def solve_both(study, case, geo, parameters, order):
@@ -42,8 +44,14 @@ def solve_both(study, case, geo, parameters, order):
     assert len(theirs) == len(ours.position)
     stress = np.loadtxt(folder / "freefem.txt.stress")
     # Where materials meet stress jumps: FreeFEM's mean over both is no stress of either.
-    inside = np.abs(stress[:, 1] - 0.1) > 1e-9 if geo == "layers" else np.full(len(stress), True)
-    return (ours, theirs[match(ours.position, theirs[:, :2])], stress[inside, 2:],
+    joint = {"layers": 0.1, "base": 0}.get(geo, np.inf)
+    inside = np.abs(stress[:, 1] - joint) > 1e-9
+    position = ours.position.copy()
+    if geo == "base":
+        below = position[:, 1] < 1e-9
+        below[ours.contact] = False
+        position[below, 1] -= LOWERED
+    return (ours, theirs[match(position, theirs[:, :2])], stress[inside, 2:],
             match(stress[inside, :2], ours.position))
 
 
@@ -69,7 +77,7 @@ def compare(study, case, geo, mesh_name, order):
         sums["rod force"] = (theirs[rod, 4].sum(), ours.results["rod_force"])
     for name, (reference, value) in sums.items():
         study.add(GROUP, label, name, reference, value, relative(value, reference), 10 * TOLERANCE)
-    if case in ("friction", "pads", "uplift", "layers", "ssnv128"):
+    if case in ("friction", "pads", "uplift", "layers", "bodies", "ssnv128"):
         states = "{open} open, {sticking} stick, {slipping} slip".format(**ours.results)
         theirs_open = int((np.abs(contact[:, 4:6]).max(axis=1) <= 1e-10 * largest).sum())
         study.add(GROUP, label, "open contact nodes", theirs_open, ours.results["open"],
@@ -179,7 +187,7 @@ def run(study):
     if not have_freefem():
         raise RuntimeError("FreeFem++ is not installed: ./amontons validate installs it")
     for case, geo in CASES:
-        names = {"pads": ["four pads"], "layers": ["on a layer"], "ssnv128": ["32x32"]}.get(case, list(MESHES))
+        names = {"pads": ["four pads"], "layers": ["on a layer"], "bodies": ["on a base"], "ssnv128": ["32x32"]}.get(case, list(MESHES))
         if study.quick:
             names = names[-1:]
         for name in names:

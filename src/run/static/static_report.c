@@ -53,7 +53,7 @@ typedef struct Column {
     int64_t rows;
 } Column;
 
-// number: [nodes], stress: of the solution; contact: [4][contacts] node, status, x, weight.
+// number: [nodes], stress: of the solution; contact: [2][contacts] node, status.
 static bool write_arrays(const char *folder, const Model *model, const StaticSolution *solution,
                          const NodalStress *stress, Error *err)
 {
@@ -102,6 +102,9 @@ static bool write_arrays(const char *folder, const Model *model, const StaticSol
         {{"contact/weight", ARRAY_FLOAT64, 1, plane ? "length" : "length^2",
           "integral of the shape function"},
          interface->weight,
+         contacts},
+        {{"contact/jump", ARRAY_FLOAT64, dim, "length", "displacement against the floor"},
+         solution->contact_displacement,
          contacts}};
     snprintf(path, sizeof path, "%s/static.h5", folder);
     TRY((file = array_file_create(path, err)));
