@@ -30,6 +30,7 @@ DefineConstant[
     shape = "quad",         // "quad" or "triangle"
     glued = 0,              // 1: one body, without contact and floor, for comparison
     order = 1,              // 1: Q4, T3; 2: Q9, T6
+    incomplete = 0,         // 1: order 2 gives Q8 in place of Q9
     crown = 0,              // how much higher the ends of the contact lie than its middle
     grade_x = 1,            // length of a cell in the middle of the block over one at its ends, about
     grade_z = 1,            // height of a cell far from the contact over that of one at it
@@ -56,6 +57,10 @@ If (ratio <= 0 || refine <= 0)
 EndIf
 If (order != 1 && order != 2)
     Error("order must be 1 or 2, found %g", order);
+    Abort;
+EndIf
+If (incomplete != 0 && incomplete != 1)
+    Error("incomplete must be 0 or 1, found %g", incomplete);
     Abort;
 EndIf
 If (crown < 0 || crown >= height)
@@ -172,3 +177,4 @@ If (StrCmp(shape, "quad") == 0)
     Recombine Surface {1, base[]};
 EndIf
 Mesh.ElementOrder = order;
+Mesh.SecondOrderIncomplete = incomplete;
