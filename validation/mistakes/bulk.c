@@ -4,6 +4,7 @@
 
 #include "reduction/interface_operator.h"
 #include "fem/assembly.h"
+#include "fem/floor.h"
 #include "fem/material.h"
 #include "fem/mesh_faces.h"
 
@@ -16,6 +17,9 @@ REPLACED(material_elastic);
 REPLACED(material_viscous);
 REPLACED(interface_operator_create);
 REPLACED(boundary_add_weights);
+REPLACED(bulk_assemble);
+REPLACED(floor_find);
+REPLACED(floor_displace);
 
 Mistake mistake_made(void)
 {
@@ -73,4 +77,32 @@ InterfaceOperator *__wrap_interface_operator_create(BulkOperator *system, Operat
 {
     if (mistake_made() == MISTAKE_STAGE_MATRIX && terms.mass > 0) terms.stiffness *= 2;
     return __real_interface_operator_create(system, terms, err);
+}
+
+bool __wrap_bulk_assemble(const Mesh *mesh, const Material *materials, Bulk *bulk, Error *err)
+{
+    static const double LIGHT = 1e-3;
+    if (!__real_bulk_assemble(mesh, materials, bulk, err)) return false;
+    for (int32_t dof = 0; mistake_made() == MISTAKE_LIGHT_BASE && dof < bulk->dof_count; dof++)
+        if (bulk->in_base && bulk->in_base[dof]) bulk->mass[dof] *= LIGHT;
+    if (mistake_made() == MISTAKE_MASS_APART && bulk->mass_beside)
+        memset(bulk->mass_beside, 0,
+               (size_t)bulk->pattern.start[bulk->dof_count] * sizeof *bulk->mass_beside);
+    return true;
+}
+
+// Each row has the node of the row that follows it in the list.
+bool __wrap_floor_find(const char (*names)[GROUP_NAME_SIZE], int32_t count, const char *floor,
+                       Mesh *mesh, Error *err)
+{
+    if (!__real_floor_find(names, count, floor, mesh, err)) return false;
+    int32_t *node = mesh->floor.node, last = mesh->floor.row_count - 1;
+    if (mistake_made() == MISTAKE_FLOOR_BESIDE && mesh->floor.matches)
+        memmove(node, node + 1, (size_t)last * sizeof *node);
+    return true;
+}
+
+void __wrap_floor_displace(const Mesh *mesh, double *field)
+{
+    if (mistake_made() != MISTAKE_ONE_SIDED) __real_floor_displace(mesh, field);
 }

@@ -25,6 +25,10 @@
     X(MISTAKE_LAST_DIRECTION, "last-direction") /* friction along the slip of the solve before */  \
     X(MISTAKE_NO_ACROSS, "no-across") /* no friction across the drive */                           \
     X(MISTAKE_HALF_WEIGHT, "half-weight") /* of one contact node */                                \
+    X(MISTAKE_FLOOR_BESIDE, "floor-beside") /* P of the neighbour */                               \
+    X(MISTAKE_LIGHT_BASE, "light-base") /* a base without mass */                                  \
+    X(MISTAKE_MASS_APART, "mass-apart") /* M of jumps without what couples them to the floor */    \
+    X(MISTAKE_ONE_SIDED, "one-sided") /* displacements of the block without the floor's */         \
     X(MISTAKE_BENT_CORNERS, "bent-corners") /* corners of curved T6 faces touch, too */            \
     /* of scenes.c, in words in scenes.py */                                                       \
     X(MISTAKE_REGION_DENSITY, "region-density")                                                    \
