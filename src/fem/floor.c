@@ -449,10 +449,10 @@ static bool check_gaps(const Mesh *mesh, const MeshContact *contact, Error *err)
     }
     if (lowest < 0 || fabs(least) <= GAP_ROUNDING * (mesh->x_max - mesh->x_min)) return true;
     return REFUSE(err,
-                  "%s: contact node %lld at x = %g is %g %s the floor of the base: draw the block "
-                  "so that it stands on the base",
+                  "%s: contact node %lld at x = %g, the lowest, is %g %s the floor of the base: draw "
+                  "the block so that it stands on the base",
                   mesh->path, (long long)mesh->node_number[lowest], mesh_place(mesh, lowest)[0],
-                  fabs(least), least < 0 ? "below" : "above, and is the lowest over");
+                  fabs(least), least < 0 ? "below" : "above");
 }
 
 bool floor_find(const char (*names)[GROUP_NAME_SIZE], int32_t name_count, const char *floor,
