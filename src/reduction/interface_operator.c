@@ -101,7 +101,9 @@ void bulk_operator_destroy(BulkOperator *system)
 
 const Spectrum *bulk_operator_spectrum(const BulkOperator *system)
 {
-    return system->bulk ? &system->bulk->spectrum : &system->reduced->spectrum;
+    static const Spectrum none = {0};   // of a system without a bulk
+    if (system->bulk) return &system->bulk->spectrum;
+    return system->reduced ? &system->reduced->spectrum : &none;
 }
 
 // x, y: [dof_count], distinct.

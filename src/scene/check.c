@@ -383,6 +383,10 @@ const char *amontons_scene_warning(const Scene *scene)
     for (int32_t i = 0; i < scene->materials.count; i++)
         if (scene_material_number(scene, &scene->materials.region[i], MATERIAL_ETA1) > 0)
             return NULL;
+    if (scene->material.relaxation.count > 0)
+        return "material.eta1 is 0, and branches of `relaxation` are elastic at once: with friction "
+               "that weakens, the shortest wave that the mesh can hold grows fastest, so the answer "
+               "has no limit as the mesh gets finer (an ill-posed problem); give eta1 beside them";
     return "material.eta1 is 0: with friction that weakens, the shortest wave that the mesh can "
            "hold grows fastest, so the answer has no limit as the mesh gets finer (an ill-posed "
            "problem)";
