@@ -130,6 +130,38 @@ bool spectrum_find(const Materials *materials, int32_t dim, Spectrum *spectrum, 
     return true;
 }
 
+static void drop_branches(double fastest, Material *material)
+{
+    int32_t kept = 0;
+    for (int32_t k = 0; k < material->branch_count; k++)
+        if (material->branch[k].time > fastest) material->branch[kept++] = material->branch[k];
+    material->branch_count = kept;
+}
+
+bool spectrum_fold(double fastest, Materials *materials, Spectrum *spectrum)
+{
+    int32_t kept = 0, count = spectrum->count;
+    for (int32_t k = 0; k < count; k++) {
+        double time = spectrum->time[k];
+        for (int32_t j = 0; time <= fastest && j < spectrum->shape_count; j++) {
+            const SpectrumShape *shape = &spectrum->shape[j];
+            double viscosity = time * spectrum->share[k][j];
+            materials->list[shape->region].eta1 += viscosity * shape->moduli.deviator;
+            materials->list[shape->region].eta2 += viscosity * shape->moduli.trace;
+        }
+        if (time <= fastest) continue;
+        spectrum->time[kept] = time;
+        memcpy(spectrum->share[kept++], spectrum->share[k], sizeof *spectrum->share);
+    }
+    spectrum->count = kept;
+    if (kept == 0) spectrum->shape_count = 0;
+    for (int32_t k = kept; k < count; k++)
+        memset(spectrum->share[k], 0, sizeof *spectrum->share);
+    for (int32_t k = 0; kept < count && k < materials->count; k++)
+        drop_branches(fastest, &materials->list[k]);
+    return kept < count;
+}
+
 void spectrum_weights(const Spectrum *spectrum, double damping, double stiffness, double *weight)
 {
     memset(weight, 0, (size_t)spectrum->shape_count * sizeof *weight);

@@ -32,6 +32,10 @@ typedef struct Spectrum {
 // dim: of the block. ERROR_INPUT: more than there is room for.
 bool spectrum_find(const Materials *materials, int32_t dim, Spectrum *spectrum, Error *err);
 
+// Branches that relax within `fastest` become viscosities of their materials, tau G_k and tau K_k.
+// Returns whether there were any.
+bool spectrum_fold(double fastest, Materials *materials, Spectrum *spectrum);
+
 // A = m M + c C + k K stands for the rate s = c/k, at which branches resist, too: the factor of K_k
 // in A, k s tau/(1 + s tau); 0 where c or k is.
 static inline double spectrum_factor(double time, double damping, double stiffness)
