@@ -20,7 +20,7 @@ typedef struct Bulk {
     double *damping;   // same; owned
     double *mass;   // [dof_count] lumped, all directions alike; owned
     Spectrum spectrum;   // of the materials' branches; set before bulk_assemble
-    double *shape[SPECTRUM_SHAPES_MAX];   // [spectrum.shape_count][entries] S_j; owned
+    double *shape[SPECTRUM_SHAPES_MAX];   // [spectrum.matrix_count][entries] S_j; owned
     double area;   // length^2; in space the volume
 } Bulk;
 

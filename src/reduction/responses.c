@@ -46,7 +46,7 @@ bool responses_create(const BulkOperator *full, const BulkScales *scales, Respon
     const Bulk *bulk = full->bulk;
     *responses = (Responses){.full = full,
                              .scales = *scales,
-                             .term_count = BULK_TERMS + bulk->spectrum.shape_count,
+                             .term_count = BULK_TERMS + bulk->spectrum.matrix_count,
                              .shelf_count = 2,
                              .shelf_of = {0, 1}};
     responses->unit_load = NEW_ARRAY(double, bulk->dof_count, err);

@@ -73,14 +73,14 @@ static int32_t list_moduli(const Materials *materials, const BulkScales *scales,
     int32_t count = 0;
     OperatorTerms terms = {.damping = v / scales->damping, .stiffness = (1 - v) / scales->stiffness};
     double weight[SPECTRUM_SHAPES_MAX];
-    spectrum_weights(spectrum, terms.damping, terms.stiffness, weight);
+    terms.stiffness += spectrum_weights(spectrum, terms.damping, terms.stiffness, weight);
     for (int32_t k = 0; k < materials->count; k++) {
         if (!materials_use(materials, k)) continue;
         Moduli elastic = material_elastic(&materials->list[k]),
                viscous = material_viscous(&materials->list[k]);
         Moduli sum = {terms.stiffness * elastic.deviator + terms.damping * viscous.deviator,
                       terms.stiffness * elastic.trace + terms.damping * viscous.trace};
-        for (int32_t j = 0; j < spectrum->shape_count; j++) {
+        for (int32_t j = 0; j < spectrum->matrix_count; j++) {
             if (spectrum->shape[j].region != k) continue;
             sum.deviator += weight[j] * spectrum->shape[j].moduli.deviator;
             sum.trace += weight[j] * spectrum->shape[j].moduli.trace;
@@ -210,7 +210,9 @@ void parameter_factors(ParameterPoint point, const BulkScales *scales, const Spe
     factor[BULK_STIFFNESS] = 1 - point.viscosity;
     factor[BULK_DAMPING] = point.viscosity;
     factor[BULK_MASS] = point.inertia;
-    spectrum_weights(spectrum, terms.damping, terms.stiffness, factor + BULK_SHAPE);
+    factor[BULK_STIFFNESS] +=
+        scales->stiffness *
+        spectrum_weights(spectrum, terms.damping, terms.stiffness, factor + BULK_SHAPE);
 }
 
 static void add(TrainingPoints *training, const ReductionErrors *errors, double viscosity,

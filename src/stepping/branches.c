@@ -67,15 +67,21 @@ static void add_up_images(const Branches *branches, int32_t k, double *restrict 
 }
 
 double branches_end_stage(Branches *branches, const Tableau *tableau, double step, int32_t i,
-                          const double *restrict velocity, State *to, double *restrict force)
+                          const double *restrict velocity, const double *elastic, State *to,
+                          double *restrict force)
 {
     const BulkOperator *system = branches->system;
     const Spectrum *spectrum = branches->spectrum;
     int32_t dofs = system->dof_count;
     double scaled = tableau->gamma * step, power = 0;
     bool last = i + 1 == tableau->stages;
-    for (int32_t j = 0; j < spectrum->shape_count; j++)
-        bulk_operator_apply(system, BULK_SHAPE + j, velocity, branches->image + (int64_t)j * dofs);
+    for (int32_t j = 0; j < spectrum->shape_count; j++) {
+        double *image = branches->image + (int64_t)j * dofs;
+        if (j < spectrum->matrix_count)
+            bulk_operator_apply(system, BULK_SHAPE + j, velocity, image);
+        else
+            memcpy(image, elastic, (size_t)dofs * sizeof *image);
+    }
     for (int32_t k = 0; k < spectrum->count; k++) {
         double left = 1 / (1 + scaled / spectrum->time[k]), rate = 1 / spectrum->time[k];
         double *restrict stretch = to->stretch + (int64_t)k * dofs;
