@@ -26,7 +26,8 @@ typedef struct Bulk {
 
 // Without loads and supports, and without matrices.
 bool bulk_create(const Mesh *mesh, Bulk *bulk, Error *err);
-// Fills pattern, K, C, M and the shape matrices of bulk->spectrum. materials: one, or as many as the mesh has regions, by their numbers.
+// Fills pattern, K, C, M and the shape matrices of bulk->spectrum. materials: one, or as many as
+// the mesh has regions, by their numbers.
 bool bulk_assemble(const Mesh *mesh, const Material *materials, Bulk *bulk, Error *err);
 void bulk_destroy(Bulk *bulk);
 

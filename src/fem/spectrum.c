@@ -119,7 +119,8 @@ static bool take_material(const Material *material, int32_t region, int32_t dim,
         double as_whole = by_whole ? branch[k].bulk / moduli_bulk(elastic, dim) : 0;
         if (shear > 0)
             spectrum->share[time][first] += branch[k].shear - as_whole * moduli_shear(elastic);
-        if (!alike) spectrum->share[time][first + shapes - 1] += by_whole ? as_whole : branch[k].bulk;
+        if (!alike)
+            spectrum->share[time][first + shapes - 1] += by_whole ? as_whole : branch[k].bulk;
     }
     return true;
 }
@@ -163,8 +164,7 @@ bool spectrum_fold(double fastest, Materials *materials, Spectrum *spectrum)
     }
     spectrum->count = kept;
     if (kept == 0) spectrum->shape_count = spectrum->matrix_count = 0;
-    for (int32_t k = kept; k < count; k++)
-        memset(spectrum->share[k], 0, sizeof *spectrum->share);
+    for (int32_t k = kept; k < count; k++) memset(spectrum->share[k], 0, sizeof *spectrum->share);
     for (int32_t k = 0; kept < count && k < materials->count; k++)
         drop_branches(fastest, &materials->list[k]);
     return kept < count;

@@ -28,8 +28,8 @@ typedef struct Spectrum {
         // material the last may be K itself
     SpectrumShape shape[SPECTRUM_SHAPES_MAX];   // [shape_count]
     double time[SPECTRUM_TIMES_MAX];   // [count] tau_k
-    double share[SPECTRUM_TIMES_MAX][SPECTRUM_SHAPES_MAX];   // [count][shape_count] g_kj, stress; of
-        // K itself 1
+    // [count][shape_count] g_kj, stress; of K itself 1.
+    double share[SPECTRUM_TIMES_MAX][SPECTRUM_SHAPES_MAX];
 } Spectrum;
 
 // dim: of the block. ERROR_INPUT: more than there is room for.
@@ -47,7 +47,8 @@ static inline double spectrum_factor(double time, double damping, double stiffne
     return product > 0 ? product / (stiffness + damping * time) : 0;
 }
 
-// The factors of the shape matrices in A: weight [matrix_count]; returns what is added to that of K.
+// The factors of the shape matrices in A: weight [matrix_count]; returns what is added to that of
+// K.
 double spectrum_weights(const Spectrum *spectrum, double damping, double stiffness, double *weight);
 
 // The same in other units: factors of stresses and times.

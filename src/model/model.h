@@ -27,8 +27,9 @@ typedef struct Model {
     RodEnd rod_end[2];   // the lower and the upper end of the rod's strip
     int32_t contact_region;   // of which of them the contact (its first pad) is
     bool on_contact[MATERIALS_MAX];   // which of them have a side in the contact
-    double folded_time;   // branches that relax faster are a viscosity, as nothing that the mesh can
-        // hold is so fast (model/regions); 0: none does, time
+    // Branches that relax within this are a viscosity, as not even waves within an element are so
+    // fast (model/regions); 0: there are none, time.
+    double folded_time;
     Friction friction;
     FrictionNode *friction_nodes;   // [contact_count] where they differ, or laws remember
         // (model/contact_laws); owned

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// K, C, M and the shape matrices are compared with their images entry by entry: so elements, materials and supports
-// need not be looked at.
+// K, C, M and the shape matrices are compared with their images entry by entry: so elements,
+// materials and supports need not be looked at.
 #include "reduction/mirror.h"
 
 #include "base/memory.h"

@@ -155,8 +155,8 @@ static unsigned needed_products(const Responses *responses, const ResponseBlock 
     ParameterPoint old = one->point, new = other->point;
     bool ascends = old.inertia < new.inertia;
     ParameterPoint low = ascends ? old : new, high = ascends ? new : old;
-    unsigned mass = 1u << BULK_MASS, all = all_products(responses), shapes = all >> BULK_SHAPE
-                                                                                    << BULK_SHAPE;
+    unsigned mass = 1u << BULK_MASS, all = all_products(responses),
+             shapes = all >> BULK_SHAPE << BULK_SHAPE;
     unsigned light = 1u << (low.viscosity < 0.5 ? BULK_DAMPING : BULK_STIFFNESS);
     if (one->formed || other->formed) return all;
     if (fabs(low.viscosity - high.viscosity) * FAR >= 1) return shapes | mass;

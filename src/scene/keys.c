@@ -87,7 +87,8 @@ static const SceneKey keys[] = {
            "Viscosity of the volume rate: stress eta2 tr(eps') I.", .given_in_si = true),
     KEY("material.relaxation", KEY_BRANCHES, material.relaxation, "1", RANGE_ANY, NULL,
         "Branches of a generalised Maxwell solid (a Prony series) beside all else, each a spring "
-        "of shear modulus `shear` and bulk modulus `bulk` (0 if not given) that relaxes in `time`."),
+        "of shear modulus `shear` and bulk modulus `bulk` (0 if not given) that relaxes in "
+        "`time`."),
     CHOICE(material.plane, "stress",
            "Plane stress (a thin plate) or plane strain (a wide block); in space neither.",
            "stress", "strain"),

@@ -13,7 +13,7 @@ bool branches_create(const BulkOperator *system, int32_t stages, Branches *branc
     *branches = (Branches){.system = system, .spectrum = spectrum};
     branches->stretch_rate = NEW_ARRAY(double, (stages - 1) * size, err);
     branches->pull_rate = NEW_ARRAY(double, (stages - 1) * size, err);
-    branches->image = NEW_ARRAY(double, (int64_t)spectrum->shape_count *system->dof_count, err);
+    branches->image = NEW_ARRAY(double, (int64_t)spectrum->shape_count * system->dof_count, err);
     branches->work = NEW_ARRAY(double, spectrum->count > 0 ? system->dof_count : 0, err);
     return error_is_clean(err);
 }

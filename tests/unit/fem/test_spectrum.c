@@ -133,7 +133,8 @@ TEST(test_plate_by_hand)
     assert_int_equal(spectrum.count, 2);
     assert_near("time", spectrum.time[1], 10. / 3, 1e-14);
     // k from 9 1.5/9 = 1.5 to 9 3/15 = 1.8.
-    assert_near("areal", spectrum.share[1][1] * moduli_bulk(spectrum.shape[1].moduli, 2), 0.3, 1e-14);
+    assert_near("areal", spectrum.share[1][1] * moduli_bulk(spectrum.shape[1].moduli, 2), 0.3,
+                1e-14);
     assert_near("shear", spectrum.share[0][0], 1.5, 1e-15);
 }
 

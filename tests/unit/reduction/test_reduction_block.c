@@ -19,7 +19,10 @@ typedef struct Case {
     int32_t interface;   // unknowns of it
 } Case;
 
-#define MATERIAL(...) {__VA_ARGS__, .branch_count = 0}
+#define MATERIAL(...)                                                                              \
+    {                                                                                              \
+        __VA_ARGS__, .branch_count = 0                                                             \
+    }
 static const Case BASE = {1, 0, MATERIAL(1, 0.34, 1, 1, 1, false), 0.003, 0.001, -1, -1, 12};
 
 // Builds mesh and bulk of a case, then the block and its name.
@@ -59,8 +62,7 @@ TEST(test_similar_blocks_are_one)
     Case cases[] = {BASE, BASE, BASE, BASE};
     cases[0].length = 0.04;
     cases[1] = (Case){4, -1.7, MATERIAL(1, 0.34, 7, 1, 1, false), 0.3, 0.1, -1, -1, 12};
-    cases[2] = (Case){0.1, 0, MATERIAL(3e9, 0.34, 1200, 6e4, 6e4, false), 2e6, 2e6 / 3, -1,
-                      -1, 12};
+    cases[2] = (Case){0.1, 0, MATERIAL(3e9, 0.34, 1200, 6e4, 6e4, false), 2e6, 2e6 / 3, -1, -1, 12};
     cases[3].length = 1.0 / 3;
     Mesh mesh, other;
     ReductionBlock base, block;
