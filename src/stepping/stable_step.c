@@ -92,17 +92,21 @@ bool stable_step(const Bulk *bulk, double *step, Error *err)
 {
     double viscous = 0, elastic = 0, *at_once = NULL;
     const Spectrum *spectrum = &bulk->spectrum;
+    const double *stiffest = bulk->stiffness;
     int64_t entries = bulk->pattern.start[bulk->dof_count];
     *step = 0;
     TRY(largest_rate(bulk, bulk->damping, &viscous, err));
-    TRY((at_once = NEW_ARRAY(double, entries, err)));
-    memcpy(at_once, bulk->stiffness, (size_t)entries * sizeof *at_once);
+    if (spectrum->count > 0) {   // K and all branches, as they are at once
+        TRY((at_once = NEW_ARRAY(double, entries, err)));
+        memcpy(at_once, bulk->stiffness, (size_t)entries * sizeof *at_once);
+        stiffest = at_once;
+    }
     for (int32_t j = 0; j < spectrum->shape_count; j++)
         for (int32_t k = 0; k < spectrum->count; k++)
             for (int64_t i = 0; spectrum->share[k][j] != 0 && i < entries; i++)
                 at_once[i] += spectrum->share[k][j] *
                               (j < spectrum->matrix_count ? bulk->shape[j] : bulk->stiffness)[i];
-    TRY(largest_rate(bulk, at_once, &elastic, err));
+    TRY(largest_rate(bulk, stiffest, &elastic, err));
     *step = SAFETY * 4 / (viscous + sqrt(viscous * viscous + 4 * elastic));
     if (!(*step > 0 && isfinite(*step)))
         FAIL(err, ERROR_COMPUTE, "no stable explicit step: the largest rates are %g and %g",
