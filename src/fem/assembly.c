@@ -69,14 +69,16 @@ static bool mover_at(const Floor *floor, int32_t node, int32_t k, Mover *mover)
     *mover = (Mover){node, 1};
     if (k == 0) return true;
     if (row < 0 || floor->start[row] + k > floor->start[row + 1]) return false;
-    *mover = (Mover){floor->node[floor->start[row] + k - 1], floor->share[floor->start[row] + k - 1]};
+    int32_t at = floor->start[row] + k - 1;
+    *mover = (Mover){floor->node[at], floor->share[at]};
     return true;
 }
 
-// T' (K, C) T of a block of two nodes, T the shares. The unknowns of a node stand side by side in
-// every row, and the rows of a node are alike, so one look-up serves a whole block.
+// Adds T' (K, C) T of a block of two nodes, T the shares, to values on the bulk's pattern
+// (stiffness NULL: to none). The unknowns of a node stand side by side in every row, and the rows
+// of a node are alike, so one look-up serves a whole block.
 static void add_block(const ElementMatrices *matrices, int32_t a, int32_t b, Mover row, Mover column,
-                      Bulk *bulk)
+                      const Bulk *bulk, double *stiffness, double *damping)
 {
     int32_t dim = bulk->dim, first = node_dof(dim, row.node, 0);
     int32_t length = bulk->pattern.start[first + 1] - bulk->pattern.start[first];
@@ -85,39 +87,44 @@ static void add_block(const ElementMatrices *matrices, int32_t a, int32_t b, Mov
     double share = row.share * column.share;
     for (int32_t d = 0; d < dim; d++, entry += length) {
         for (int32_t f = 0; f < dim; f++) {
-            bulk->stiffness[entry + f] += share * matrices->stiffness[i + d][j + f];
-            bulk->damping[entry + f] += share * matrices->damping[i + d][j + f];
+            if (stiffness) stiffness[entry + f] += share * matrices->stiffness[i + d][j + f];
+            damping[entry + f] += share * matrices->damping[i + d][j + f];
         }
     }
 }
 
-static void add_mass(double mass, Mover row, Mover column, Bulk *bulk)
-{
-    for (int32_t d = 0; d < bulk->dim; d++) {
-        int32_t i = node_dof(bulk->dim, row.node, d), j = node_dof(bulk->dim, column.node, d);
-        double value = row.share * column.share * mass;
-        if (i == j)
-            bulk->mass[i] += value;
-        else
-            bulk->mass_beside[sparse_entry(&bulk->pattern, i, j)] += value;
-    }
-}
-
 static void add_group(const Mesh *mesh, const ElementGroup *group, const ElementMatrices *matrices,
-                      Bulk *bulk)
+                      const Bulk *bulk, double *stiffness, double *damping)
 {
     const Floor *floor = &mesh->floor;
     const int32_t *node = group->node;
     Mover row, column;
     for (int32_t a = 0; a < group->node_count; a++)
-        for (int32_t k = 0; mover_at(floor, node[a], k, &row); k++) {
-            for (int32_t l = 0; mover_at(floor, node[a], l, &column); l++)
-                add_mass(matrices->mass[a], row, column, bulk);
+        for (int32_t k = 0; mover_at(floor, node[a], k, &row); k++)
             for (int32_t b = 0; b < group->node_count; b++)
                 for (int32_t l = 0; mover_at(floor, node[b], l, &column); l++)
-                    add_block(matrices, a, b, row, column, bulk);
-        }
-    if (!mesh_in_base(mesh, node[0])) bulk->area += matrices->area;
+                    add_block(matrices, a, b, row, column, bulk, stiffness, damping);
+}
+
+// Adds the masses of a group's nodes: T' M T, and its area.
+static void add_mass(const Mesh *mesh, const ElementGroup *group, const ElementMatrices *matrices,
+                     Bulk *bulk)
+{
+    Mover row, column;
+    for (int32_t a = 0; a < group->node_count; a++)
+        for (int32_t k = 0; mover_at(&mesh->floor, group->node[a], k, &row); k++)
+            for (int32_t l = 0; mover_at(&mesh->floor, group->node[a], l, &column); l++) {
+                double value = row.share * column.share * matrices->mass[a];
+                for (int32_t d = 0; d < bulk->dim; d++) {
+                    int32_t i = node_dof(bulk->dim, row.node, d);
+                    int32_t j = node_dof(bulk->dim, column.node, d);
+                    if (i == j)
+                        bulk->mass[i] += value;
+                    else
+                        bulk->mass_beside[sparse_entry(&bulk->pattern, i, j)] += value;
+                }
+            }
+    if (!mesh_in_base(mesh, group->node[0])) bulk->area += matrices->area;
 }
 
 bool bulk_create(const Mesh *mesh, Bulk *bulk, Error *err)
@@ -149,6 +156,23 @@ static void empty_row(int32_t dof, Bulk *bulk)
         bulk->stiffness[k] = bulk->stiffness[mirror] = 0;
         bulk->damping[k] = bulk->damping[mirror] = 0;
         if (bulk->mass_beside) bulk->mass_beside[k] = bulk->mass_beside[mirror] = 0;
+        for (int32_t j = 0; j < bulk->spectrum.matrix_count; j++)
+            bulk->shape[j][k] = bulk->shape[j][mirror] = 0;
+    }
+}
+
+// S_j is the damping of a material with those viscosities.
+static void add_shape(const Mesh *mesh, const SpectrumShape *shape, Bulk *bulk, double *values)
+{
+    ElementGroup group;
+    ElementMatrices matrices;
+    Material like[MATERIALS_MAX] = {0};
+    like[shape->region] =
+        (Material){.young = 1, .eta1 = shape->moduli.deviator, .eta2 = shape->moduli.trace};
+    for (int32_t e = 0; e < mesh->element_count; e++) {
+        if (mesh_region(mesh, e) != shape->region || !element_group_at(mesh, e, &group)) continue;
+        element_group_matrices(mesh, like, &group, &matrices);
+        add_group(mesh, &group, &matrices, bulk, NULL, values);
     }
 }
 
@@ -166,7 +190,12 @@ bool bulk_assemble(const Mesh *mesh, const Material *materials, Bulk *bulk, Erro
     for (int32_t e = 0; error_is_clean(err) && e < mesh->element_count; e++) {
         if (!element_group_at(mesh, e, &group)) continue;
         element_group_matrices(mesh, materials, &group, &matrices);
-        add_group(mesh, &group, &matrices, bulk);
+        add_group(mesh, &group, &matrices, bulk, bulk->stiffness, bulk->damping);
+        add_mass(mesh, &group, &matrices, bulk);
+    }
+    for (int32_t j = 0; j < bulk->spectrum.matrix_count; j++) {
+        bulk->shape[j] = NEW_ARRAY(double, entries, err);
+        if (error_is_clean(err)) add_shape(mesh, &bulk->spectrum.shape[j], bulk, bulk->shape[j]);
     }
     for (int32_t dof = 0; error_is_clean(err) && dof < bulk->dof_count; dof++)
         if (bulk->held[dof]) empty_row(dof, bulk);
@@ -178,6 +207,7 @@ void bulk_destroy(Bulk *bulk)
     sparse_pattern_destroy(&bulk->pattern);
     memory_free_all(bulk->stiffness, bulk->damping, bulk->mass, bulk->load, bulk->held);
     memory_free_all(bulk->mass_beside, bulk->in_base);
+    for (int32_t j = 0; j < SPECTRUM_SHAPES_MAX; j++) memory_free(bulk->shape[j]);
     *bulk = (Bulk){0};
 }
 

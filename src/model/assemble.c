@@ -157,6 +157,8 @@ bool model_lay_bulk(Model *model, Error *err)
     double middle = 0, width = 0;
     model_rod_strip(scene, model->height, &middle, &width);
     if (!bulk_create(&model->mesh, &model->bulk, err) || !add_loads(model, err)) return false;
+    bool fits = model_lay_branches(model, err);
+    if (!scene_blame(scene, "material.relaxation", fits, err)) return false;
     bool found = floor_find(scene->groups.contact.name, scene->groups.contact.count,
                             scene->groups.floor, &model->mesh, err);
     if (!scene_blame(scene, "groups.floor", found, err)) return false;

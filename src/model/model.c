@@ -5,6 +5,7 @@
 #include "scene/materials.h"
 
 #include <math.h>
+#include <string.h>
 
 void model_destroy(Model *model)
 {
@@ -27,7 +28,24 @@ static const double FLOOR_PART = 0.9;
 static bool is_alike(const Material *a, const Material *b)
 {
     return a->young == b->young && a->poisson == b->poisson && a->density == b->density &&
-           a->eta1 == b->eta1 && a->eta2 == b->eta2;
+           a->eta1 == b->eta1 && a->eta2 == b->eta2 && a->branch_count == b->branch_count &&
+           memcmp(a->branch, b->branch, (size_t)a->branch_count * sizeof *a->branch) == 0;
+}
+
+// Branches, and the modulus as that of the long-time response. A scene that leaves none was refused
+// (scene/check).
+static void set_branches(const Scene *scene, const SceneMaterial *region, Material *material)
+{
+    const SceneRelaxation *relaxation = scene_material_relaxation(scene, region);
+    material->branch_count = relaxation->count;
+    for (int32_t k = 0; k < relaxation->count; k++)
+        material->branch[k] = (Branch){.time = relaxation->branch[k].time,
+                                       .shear = relaxation->branch[k].shear,
+                                       .bulk = relaxation->branch[k].bulk};
+    if (!scene_material_is_short(scene, region)) return;
+    material->young = region ? scene_material_number(scene, region, MATERIAL_YOUNG_SHORT)
+                             : scene->material.young_short;
+    material_relax(material);
 }
 
 // 0 its `material`, then its regions in their order; areas are not known yet. A scene of one
@@ -42,6 +60,7 @@ static Materials scene_materials(const Scene *scene)
                               .eta1 = scene->material.eta1,
                               .eta2 = scene->material.eta2,
                               .plane_strain = scene->material.plane == PLANE_STRAIN};
+    set_branches(scene, NULL, &made.list[0]);
     for (int32_t i = 0; i < scene->materials.count; i++) {
         const SceneMaterial *region = &scene->materials.region[i];
         Material *one = &made.list[i + 1];
@@ -51,6 +70,7 @@ static Materials scene_materials(const Scene *scene)
                           .eta1 = scene_material_number(scene, region, MATERIAL_ETA1),
                           .eta2 = scene_material_number(scene, region, MATERIAL_ETA2),
                           .plane_strain = made.list[0].plane_strain};
+        set_branches(scene, region, one);
         alike = alike && is_alike(one, &made.list[0]);
     }
     if (alike) made.count = 1;
@@ -110,6 +130,16 @@ double model_crossing(const Model *model)
 bool model_floor_is_slow(const Model *model)
 {
     return crossing_floor(model) > crossing_along(model);
+}
+
+double model_settling_time(const Model *model)
+{
+    return model->scales.time + materials_relaxation_time(&model->materials);
+}
+
+double model_stiffening(const Model *model)
+{
+    return material_at_once(&model->materials.mean).young / model->materials.mean.young;
 }
 
 // Slip times E L/H is the drop (mu_S - mu_K) F_N.

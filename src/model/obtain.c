@@ -73,6 +73,8 @@ static bool adopt_basis(Model *model, Error *err)
 {
     double load = model->unit_load.size * load_reference(model->scene);
     model->reduced.scales = bulk_scales(model, load);
+    double deep = model->reduced.scales.stiffness / model->materials.mean.young;
+    model->reduced.spectrum = spectrum_scaled(&model->bulk.spectrum, deep, 1);
     return bulk_operator_reduce(&model->reduced, model->length,
                                 model->reduced.area * model->reduced.scales.mass, &model->system,
                                 err);
@@ -85,7 +87,8 @@ static bool load_basis(Model *model, const ReductionBlock *block, const char *na
     bool *found = &model->from_cache;
     if (!basis_cache_load(name, wants_modes(model->scene), reduced, found, model->cache_note, err))
         return false;
-    if (*found && reduced->interface_count == model->interface.count &&
+    if (*found && reduced->part[0].shape_count == block->bulk.spectrum.matrix_count &&
+        reduced->interface_count == model->interface.count &&
         reduced->full_dofs == block->bulk.dof_count)
         return true;
     *found = false;
@@ -270,6 +273,7 @@ static bool assemble_nodes(Model *model, Error *err)
     size_t unknowns = (size_t)nodes->dof_count;
     memcpy(nodes->load, model->bulk.load, unknowns * sizeof *nodes->load);
     floor_scatter(&model->mesh, nodes->load);
+    nodes->spectrum = model->bulk.spectrum;
     memcpy(nodes->held, model->bulk.held, unknowns * sizeof *nodes->held);
     return bulk_assemble(&apart, model->materials.list, nodes, err);
 }
