@@ -11,7 +11,7 @@
 #include "io/text/yaml_document.h"
 #include "scene/scene_values.h"
 
-enum { SCENE_KEYS_MAX = 128 };   // of scene/keys
+enum { SCENE_KEYS_MAX = 144 };   // of scene/keys
 
 typedef enum SceneUnits { UNITS_NORMALISED, UNITS_SI } SceneUnits;
 typedef enum ScenePlane { PLANE_STRESS, PLANE_STRAIN } ScenePlane;
@@ -48,6 +48,7 @@ typedef struct Scene {
     char path[SCENE_TEXT_SIZE];   // of the scene file, as given
     char title[SCENE_TEXT_SIZE];
     SceneUnits units;
+    double thickness;   // of a block in the plane, length; 0: not given, forces are per width
     struct {
         char file[SCENE_TEXT_SIZE];   // resolved against the scene file's folder
         int32_t parameter_count;
@@ -77,6 +78,7 @@ typedef struct Scene {
     } contact;
     struct {
         double pressure;
+        double force;   // on the top, in the place of the pressure; 0: not given
         int32_t traction_count;   // load.tractions: [{group, x, y, z}]
         SceneTraction tractions[SCENE_LIST_MAX];
         int32_t support_count;   // load.supports: [{group, direction}]
@@ -86,6 +88,8 @@ typedef struct Scene {
     struct {
         double velocity, displacement;   // V; how far it is moved in `amontons static`
         double stiffness, height, width, breadth;   // of its spring; of the strip; 0: not given
+        bool
+            stiffness_is_whole;   // of the whole machine, force/length; else per width of the block
         SceneRodKind kind;
         SceneRodEnds ends;
         bool whole;   // all of its group, no strip

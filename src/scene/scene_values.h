@@ -74,7 +74,11 @@ typedef struct SceneMaterials {
     SceneMaterial region[SCENE_MATERIALS_MAX];
 } SceneMaterials;
 
-typedef enum SceneInterpolation { INTERPOLATION_CUBIC, INTERPOLATION_LINEAR } SceneInterpolation;
+typedef enum SceneInterpolation {
+    INTERPOLATION_CUBIC,
+    INTERPOLATION_LINEAR,
+    INTERPOLATION_LOG
+} SceneInterpolation;
 typedef enum SceneEvolution { EVOLUTION_AGEING, EVOLUTION_SLIP } SceneEvolution;
 
 // friction.state: {NAME: {rate: FORMULA, start: FORMULA}}.
@@ -89,7 +93,7 @@ typedef struct SceneOwnFriction {
     SceneInterpolation interpolation;
     char formula[SCENE_TEXT_SIZE];
     SceneStates states;   // of a formula
-    char file[SCENE_TEXT_SIZE];   // of a plug-in, resolved against the scene file's folder
+    char file[SCENE_TEXT_SIZE];   // of a plug-in or a table, resolved against the scene's folder
     double velocity_max;   // 0: the speed of sound
 #define X(number, symbol) double number;   // 0: not given
     FRICTION_NUMBERS(X)
