@@ -58,7 +58,9 @@ static inline void rig_build(const RigDef *def, BlockRig *rig)
                               .rod_name = "rod",
                               .rod_height = def->rod_height,
                               .rod_width = def->rod_width};
+    Materials materials = materials_of(&def->material);
     bool done = bulk_create(&rig->mesh, &rig->bulk, &err) &&
+                spectrum_find(&materials, 2, &rig->bulk.spectrum, &err) &&
                 bulk_assemble(&rig->mesh, &def->material, &rig->bulk, &err) &&
                 mesh_boundary(&rig->mesh, "top", &top, &err);
     if (done) bulk_add_traction(&rig->mesh, &top, def->traction, &rig->bulk);

@@ -31,27 +31,27 @@ cleanup:
     return error_is_clean(err);
 }
 
-// The unknowns of a node stand side by side in every row, and the rows of a node are alike, so one
+// Adds a group's stiffness (NULL: to none) and damping to values on the bulk's pattern. The
+// unknowns of a node stand side by side in every row, and the rows of a node are alike, so one
 // look-up serves a whole block.
-static void add_group(const ElementGroup *group, const ElementMatrices *matrices, Bulk *bulk)
+static void add_group(const ElementGroup *group, const ElementMatrices *matrices, const Bulk *bulk,
+                      double *stiffness, double *damping)
 {
     const int32_t *element = group->node, *start = bulk->pattern.start;
     int32_t nodes = group->node_count, dim = bulk->dim;
     for (int32_t a = 0; a < nodes; a++) {
         int32_t row = node_dof(dim, element[a], 0), length = start[row + 1] - start[row];
-        for (int32_t d = 0; d < dim; d++) bulk->mass[row + d] += matrices->mass[a];
         for (int32_t b = 0; b < nodes; b++) {
             int32_t entry = sparse_entry(&bulk->pattern, row, node_dof(dim, element[b], 0));
             int32_t i = node_dof(dim, a, 0), j = node_dof(dim, b, 0);
             for (int32_t d = 0; d < dim; d++, entry += length) {
                 for (int32_t f = 0; f < dim; f++) {
-                    bulk->stiffness[entry + f] += matrices->stiffness[i + d][j + f];
-                    bulk->damping[entry + f] += matrices->damping[i + d][j + f];
+                    if (stiffness) stiffness[entry + f] += matrices->stiffness[i + d][j + f];
+                    damping[entry + f] += matrices->damping[i + d][j + f];
                 }
             }
         }
     }
-    bulk->area += matrices->area;
 }
 
 bool bulk_create(const Mesh *mesh, Bulk *bulk, Error *err)
@@ -72,6 +72,23 @@ static void empty_row(int32_t dof, Bulk *bulk)
         int32_t mirror = sparse_entry(pattern, other, dof);
         bulk->stiffness[k] = bulk->stiffness[mirror] = 0;
         bulk->damping[k] = bulk->damping[mirror] = 0;
+        for (int32_t j = 0; j < bulk->spectrum.shape_count; j++)
+            bulk->shape[j][k] = bulk->shape[j][mirror] = 0;
+    }
+}
+
+// S_j is the damping of a material with those viscosities.
+static void add_shape(const Mesh *mesh, const SpectrumShape *shape, Bulk *bulk, double *values)
+{
+    ElementGroup group;
+    ElementMatrices matrices;
+    Material like[MATERIALS_MAX] = {0};
+    like[shape->region] =
+        (Material){.young = 1, .eta1 = shape->moduli.deviator, .eta2 = shape->moduli.trace};
+    for (int32_t e = 0; e < mesh->element_count; e++) {
+        if (mesh_region(mesh, e) != shape->region || !element_group_at(mesh, e, &group)) continue;
+        element_group_matrices(mesh, like, &group, &matrices);
+        add_group(&group, &matrices, bulk, NULL, values);
     }
 }
 
@@ -88,7 +105,15 @@ bool bulk_assemble(const Mesh *mesh, const Material *materials, Bulk *bulk, Erro
     for (int32_t e = 0; error_is_clean(err) && e < mesh->element_count; e++) {
         if (!element_group_at(mesh, e, &group)) continue;
         element_group_matrices(mesh, materials, &group, &matrices);
-        add_group(&group, &matrices, bulk);
+        add_group(&group, &matrices, bulk, bulk->stiffness, bulk->damping);
+        for (int32_t a = 0; a < group.node_count; a++)
+            for (int32_t d = 0; d < bulk->dim; d++)
+                bulk->mass[node_dof(bulk->dim, group.node[a], d)] += matrices.mass[a];
+        bulk->area += matrices.area;
+    }
+    for (int32_t j = 0; j < bulk->spectrum.shape_count; j++) {
+        bulk->shape[j] = NEW_ARRAY(double, entries, err);
+        if (error_is_clean(err)) add_shape(mesh, &bulk->spectrum.shape[j], bulk, bulk->shape[j]);
     }
     for (int32_t dof = 0; error_is_clean(err) && dof < bulk->dof_count; dof++)
         if (bulk->held[dof]) empty_row(dof, bulk);
@@ -99,6 +124,7 @@ void bulk_destroy(Bulk *bulk)
 {
     sparse_pattern_destroy(&bulk->pattern);
     memory_free_all(bulk->stiffness, bulk->damping, bulk->mass, bulk->load, bulk->held);
+    for (int32_t j = 0; j < SPECTRUM_SHAPES_MAX; j++) memory_free(bulk->shape[j]);
     *bulk = (Bulk){0};
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The semi-discrete bulk M u'' + C u' + K u = f: sparse K and C on one pattern, lumped M, loads.
+// Branches of materials (fem/spectrum) have matrices of their own on that pattern.
 // Unknowns: node_dof(dim, node, d) is the displacement along axis d.
 #ifndef AMONTONS_FEM_ASSEMBLY_H
 #define AMONTONS_FEM_ASSEMBLY_H
@@ -7,6 +8,7 @@
 #include "algebra/sparse.h"
 #include "fem/material.h"
 #include "fem/mesh.h"
+#include "fem/spectrum.h"
 
 typedef struct Bulk {
     int32_t dim;   // unknowns of a node
@@ -17,12 +19,14 @@ typedef struct Bulk {
     double *stiffness;   // [pattern.start[dof_count]]; owned
     double *damping;   // same; owned
     double *mass;   // [dof_count] lumped, all directions alike; owned
+    Spectrum spectrum;   // of the materials' branches; set before bulk_assemble
+    double *shape[SPECTRUM_SHAPES_MAX];   // [spectrum.shape_count][entries] S_j; owned
     double area;   // length^2; in space the volume
 } Bulk;
 
 // Without loads and supports, and without matrices.
 bool bulk_create(const Mesh *mesh, Bulk *bulk, Error *err);
-// Fills pattern, K, C and M. materials: one, or as many as the mesh has regions, by their numbers.
+// Fills pattern, K, C, M and the shape matrices of bulk->spectrum. materials: one, or as many as the mesh has regions, by their numbers.
 bool bulk_assemble(const Mesh *mesh, const Material *materials, Bulk *bulk, Error *err);
 void bulk_destroy(Bulk *bulk);
 
@@ -30,7 +34,7 @@ void bulk_destroy(Bulk *bulk);
 void bulk_add_traction(const Mesh *mesh, const MeshBoundary *boundary, const double *traction,
                        Bulk *bulk);
 
-// Holds an unknown at 0: its couplings in K and C and its load become 0, its mass and diagonal
+// Holds an unknown at 0: its couplings in K, C and S_j and its load become 0, its mass and diagonal
 // entries stay.
 void bulk_hold(int32_t dof, Bulk *bulk);
 

@@ -36,6 +36,48 @@ Moduli material_viscous(const Material *material)
     return (Moduli){material->eta1, material->eta2};
 }
 
+double material_shear(const Material *material)
+{
+    return material->young / (2 * (1 + material->poisson));
+}
+
+double material_bulk(const Material *material)
+{
+    return material->young / (3 * (1 - 2 * material->poisson));
+}
+
+static void set_moduli(double shear, double bulk, Material *material)
+{
+    material->young = 9 * bulk * shear / (3 * bulk + shear);
+    material->poisson = (3 * bulk - 2 * shear) / (2 * (3 * bulk + shear));
+}
+
+Material material_at_once(const Material *material)
+{
+    Material made = *material;
+    double shear = material_shear(material), bulk = material_bulk(material);
+    if (material->branch_count == 0) return made;
+    for (int32_t k = 0; k < material->branch_count; k++) {
+        shear += material->branch[k].shear;
+        bulk += material->branch[k].bulk;
+    }
+    set_moduli(shear, bulk, &made);
+    made.branch_count = 0;
+    return made;
+}
+
+bool material_relax(Material *material)
+{
+    double shear = material_shear(material), bulk = material_bulk(material);
+    for (int32_t k = 0; k < material->branch_count; k++) {
+        shear -= material->branch[k].shear;
+        bulk -= material->branch[k].bulk;
+    }
+    if (!(shear > 0 && bulk > 0)) return false;
+    if (material->branch_count > 0) set_moduli(shear, bulk, material);
+    return true;
+}
+
 // In plane strain the stress that keeps the faces in place.
 double material_out_of_plane(const Material *material, const double strain[3],
                              const double strain_rate[3])
@@ -57,7 +99,8 @@ static double rayleigh_function(double s, double k)
 WaveSpeeds material_speeds(const Material *material)
 {
     WaveSpeeds speeds;
-    Moduli elastic = material_elastic(material);
+    Material fast = material_at_once(material);
+    Moduli elastic = material_elastic(&fast);
     double axial = moduli_axial(elastic), shear = moduli_shear(elastic);
     speeds.longitudinal = sqrt(axial / material->density);
     speeds.shear = sqrt(shear / material->density);
@@ -77,7 +120,8 @@ WaveSpeeds material_speeds(const Material *material)
 double material_wave_damping(const Material *material, double length)
 {
     const double pi = 3.14159265358979323846;
-    Moduli elastic = material_elastic(material), viscous = material_viscous(material);
+    Material fast = material_at_once(material);
+    Moduli elastic = material_elastic(&fast), viscous = material_viscous(material);
     double axial = moduli_axial(viscous) / sqrt(moduli_axial(elastic) * material->density);
     double shear = moduli_shear(viscous) / sqrt(moduli_shear(elastic) * material->density);
     return fmin(axial, shear) * pi / (2 * length);
@@ -99,10 +143,16 @@ double material_slip_speed(const Material *material)
 // Trace over deviator, lambda (1 + nu)/E or eta2/eta1.
 static const double AREA_RESISTS = 4;
 
-bool material_resists_area(const Material *material)
+static bool elastic_resists_area(const Material *material)
 {
     double deviator = material->young / (1 + material->poisson);
-    return lame_lambda(material) > AREA_RESISTS * deviator ||
+    return lame_lambda(material) > AREA_RESISTS * deviator;
+}
+
+bool material_resists_area(const Material *material)
+{
+    Material fast = material_at_once(material);
+    return elastic_resists_area(material) || elastic_resists_area(&fast) ||
            material->eta2 > AREA_RESISTS * material->eta1;
 }
 
@@ -113,15 +163,10 @@ Materials materials_of(const Material *material)
     return (Materials){.count = 1, .list = {*material}, .mean = *material};
 }
 
-static bool is_used(const Materials *materials, int32_t k)
-{
-    return materials->count == 1 || materials->area[k] > 0;
-}
-
 void materials_find_mean(Materials *materials)
 {
     Material sum = {.plane_strain = materials->list[0].plane_strain};
-    double area = 0, compliance = 0;
+    double area = 0, compliance = 0, at_once = 0;
     materials->mean = materials->list[0];
     if (materials->count == 1) return;
     for (int32_t k = 0; k < materials->count; k++) {
@@ -129,6 +174,7 @@ void materials_find_mean(Materials *materials)
         double part = materials->area[k];
         area += part;
         compliance += part / one->young;
+        at_once += part / material_at_once(one).young;
         sum.poisson += part * one->poisson;
         sum.density += part * one->density;
         sum.eta1 += part * one->eta1;
@@ -139,14 +185,30 @@ void materials_find_mean(Materials *materials)
     sum.density /= area;
     sum.eta1 /= area;
     sum.eta2 /= area;
+    double slowest = materials_relaxation_time(materials), stiffer = area / at_once - sum.young;
+    if (slowest > 0) {
+        sum.branch_count = 1;
+        sum.branch[0] = (Branch){.time = slowest,
+                                 .shear = stiffer / (2 * (1 + sum.poisson)),
+                                 .bulk = stiffer / (3 * (1 - 2 * sum.poisson))};
+    }
     materials->mean = sum;
+}
+
+double materials_relaxation_time(const Materials *materials)
+{
+    double longest = 0;
+    for (int32_t k = 0; k < materials->count; k++)
+        for (int32_t i = 0; materials_use(materials, k) && i < materials->list[k].branch_count; i++)
+            longest = fmax(longest, materials->list[k].branch[i].time);
+    return longest;
 }
 
 double materials_slip_speed(const Materials *materials)
 {
     double fastest = 0;
     for (int32_t k = 0; k < materials->count; k++)
-        if (is_used(materials, k))
+        if (materials_use(materials, k))
             fastest = fmax(fastest, material_slip_speed(&materials->list[k]));
     return fastest;
 }
@@ -156,7 +218,7 @@ double materials_viscous_time(const Materials *materials)
     double longest = 0;
     for (int32_t k = 0; k < materials->count; k++) {
         const Material *one = &materials->list[k];
-        if (is_used(materials, k)) longest = fmax(longest, (one->eta1 + one->eta2) / one->young);
+        if (materials_use(materials, k)) longest = fmax(longest, (one->eta1 + one->eta2) / one->young);
     }
     return longest;
 }
@@ -175,7 +237,7 @@ ViscousTimes materials_viscous_range(const Materials *materials)
     bool first = true;
     if (materials->count == 1) return range;
     for (int32_t k = 0; k < materials->count; k++) {
-        if (!is_used(materials, k)) continue;
+        if (!materials_use(materials, k)) continue;
         ViscousTimes own = viscous_times(&materials->list[k]);
         double low = fmin(own.volume, own.shear), high = fmax(own.volume, own.shear);
         range.volume = first ? low : fmin(range.volume, low);

@@ -4,7 +4,8 @@
 //     sigma = E/(1+nu) eps + lambda tr(eps) I  +  eta1 eps' + eta2 tr(eps') I
 //     lambda = E nu/(1-nu^2) in plane stress,  E nu/((1+nu)(1-2nu)) in plane strain and in space.
 //
-// Used by fem/element and fem/recovery; its wave speeds by model/ and run/.
+// Used by fem/element and fem/recovery; its wave speeds by model/ and run/. Beside these terms it may
+// have branches of a generalised Maxwell solid (fem/spectrum).
 #ifndef AMONTONS_FEM_MATERIAL_H
 #define AMONTONS_FEM_MATERIAL_H
 
@@ -13,13 +14,35 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+enum { BRANCHES_MAX = 20 };
+
+// A spring behind a dashpot, beside all else: stress 2 G e_dev + K tr(e) I, e' = eps' - e/tau.
+typedef struct Branch {
+    double time;   // tau, time
+    double shear, bulk;   // G and K of its spring, in space, stress
+} Branch;
+
 typedef struct Material {
-    double young;   // E, stress
-    double poisson;   // nu, 1; in (-1, 1) in plane stress, (-1, 1/2) in plane strain
+    double young;   // E, stress; of the long-time response
+    double poisson;   // nu, 1, of the same; in (-1, 1) in plane stress, (-1, 1/2) in plane strain
     double density;   // rho, mass per volume
     double eta1, eta2;   // viscosities, stress * time
     bool plane_strain;   // in space always true: nothing is free of stress across
+    int32_t branch_count;
+    Branch branch[BRANCHES_MAX];   // [branch_count]; then nu is below 1/2
 } Material;
+
+// G and K in space of the long-time response.
+double material_shear(const Material *material);
+double material_bulk(const Material *material);
+
+// The material as it is at rates that no branch follows: its E and nu are those of the short-time
+// response, and it has no branches.
+Material material_at_once(const Material *material);
+
+// Makes E and nu, which are those of the short-time response, those of the long-time one. false:
+// its branches resist more than all of it, and it is as it was.
+bool material_relax(Material *material);
 
 // stress = deviator * strain + trace * tr(strain) I, stress; of the viscous part, * time.
 typedef struct Moduli {
@@ -64,11 +87,12 @@ double material_out_of_plane(const Material *material, const double strain[3],
 typedef struct WaveSpeeds {
     double longitudinal, shear, rayleigh;   // velocity, elastic limit
 } WaveSpeeds;
-// Rayleigh's equation is solved to rounding (Achenbach, Wave Propagation in Elastic Solids, 5.11).
+// Those of the short-time response. Rayleigh's equation is solved to rounding (Achenbach, Wave Propagation in Elastic Solids, 5.11).
 WaveSpeeds material_speeds(const Material *material);
 
 // Damping over critical damping of the least damped wave of `length` (half a wave long): above 1 no
-// wave of this length or shorter runs, as damping grows with the wave number.
+// wave of this length or shorter runs, as damping grows with the wave number. Branches stiffen it
+// as they do at once, and damp nothing.
 double material_wave_damping(const Material *material, double length);
 
 // The norm of the displacement gradient under a pressure across it and a shear stress along it:
@@ -98,8 +122,18 @@ typedef struct Materials {
 
 Materials materials_of(const Material *material);   // a block of one
 // Sets the mean: by area of density, Poisson's ratio and viscosities; of E that of regions one
-// above the other, 1/E = mean of 1/E.
+// above the other, 1/E = mean of 1/E. Of several regions' branches it has a single one, which makes
+// its short-time E such a mean, too.
 void materials_find_mean(Materials *materials);
+
+// Region k has elements, or there is only one material.
+static inline bool materials_use(const Materials *materials, int32_t k)
+{
+    return materials->count == 1 || materials->area[k] > 0;
+}
+
+// The longest relaxation time of a branch; 0: there are none.
+double materials_relaxation_time(const Materials *materials);
 
 // Over the regions that there are: the fastest material_slip_speed, and the longest viscous time
 // (eta1 + eta2)/E.

@@ -219,11 +219,29 @@ static double von_mises(int32_t dim, const double *stress, double across)
                 shear);
 }
 
+// Adds the stress of the branches of one shape; returns their sigma_yy in plane strain.
+static double add_branches(const NodalStress *stress, int32_t point, const Material *material,
+                           Moduli moduli, const double *stretched, double *held, double *total)
+{
+    double matrix[STRAINS_MAX][STRAINS_MAX];
+    int32_t strains = strain_count(stress->dim);
+    Strains at = strains_at(stress, point, stretched, stretched);
+    moduli_matrix(moduli, stress->dim, matrix);
+    for (int32_t r = 0; r < strains; r++) {
+        double pulled = 0;
+        for (int32_t c = 0; c < strains; c++) pulled += matrix[r][c] * at.strain[c];
+        held[r] += pulled;
+        total[r] += pulled;
+    }
+    return material->plane_strain ? moduli.trace * (at.strain[0] + at.strain[1]) : 0;
+}
+
 // Von Mises is that of the mean stress, not the mean of the elements' von Mises.
 // displacement, velocity: [dim * nodes] of the full mesh. stress->total has the viscous part, C's
 // stress at this velocity, stress->elastic has not.
 void nodal_stress_recover(const Material *materials, const double *displacement,
-                          const double *velocity, NodalStress *stress)
+                          const double *velocity, const Spectrum *spectrum,
+                          const double *const *relaxing, NodalStress *stress)
 {
     double elastic[STRAINS_MAX][STRAINS_MAX], viscous[STRAINS_MAX][STRAINS_MAX];
     int32_t strains = strain_count(stress->dim);
@@ -242,7 +260,12 @@ void nodal_stress_recover(const Material *materials, const double *displacement,
             }
             total[r] = held[r] + damped;
         }
-        stress->von_mises[point] =
-            von_mises(stress->dim, total, material_out_of_plane(material, at.strain, at.rate));
+        double across = material_out_of_plane(material, at.strain, at.rate);
+        for (int32_t j = 0; relaxing && j < spectrum->shape_count; j++) {
+            const SpectrumShape *shape = &spectrum->shape[j];
+            if (shape->region != (stress->region ? stress->region[point] : 0)) continue;
+            across += add_branches(stress, point, material, shape->moduli, relaxing[j], held, total);
+        }
+        stress->von_mises[point] = von_mises(stress->dim, total, across);
     }
 }

@@ -6,12 +6,13 @@
 
 #include "fem/material.h"
 #include "fem/mesh.h"
+#include "fem/spectrum.h"
 
 // Components in the order xx, zz, xz; in space xx, yy, zz, xy, yz, xz. Where materials meet, stress
 // jumps: a node there is a point in each of them. The first points are the nodes of the mesh, each
 // with the lowest number of its materials; the others follow.
 typedef struct NodalStress {
-    double *elastic;   // [point_count * strain_count(dim)] stress; owned
+    double *elastic;   // [point_count * strain_count(dim)] of all springs, stress; owned
     double *total;   // [point_count * strain_count(dim)] elastic and viscous, stress; owned
     double *von_mises;   // [point_count] of the total stress, stress; owned
     int32_t *row, *row_length;   // [point_count] where a point's row of the operator begins; owned
@@ -33,8 +34,11 @@ const int32_t *nodal_stress_points(const NodalStress *stress, const Mesh *mesh, 
 bool nodal_stress_create(const Mesh *mesh, NodalStress *stress, Error *err);
 void nodal_stress_destroy(NodalStress *stress);
 
-// displacement, velocity: [dim * node_count]
+// displacement, velocity: [dim * node_count]. relaxing: [spectrum->shape_count] likewise, what the
+// materials' branches are stretched by, sum_k g_kj e_k of each shape (fem/spectrum), stress * length;
+// NULL: none is stretched.
 void nodal_stress_recover(const Material *materials, const double *displacement,
-                          const double *velocity, NodalStress *stress);
+                          const double *velocity, const Spectrum *spectrum,
+                          const double *const *relaxing, NodalStress *stress);
 
 #endif

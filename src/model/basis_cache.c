@@ -50,6 +50,9 @@ static void archive_part(ReducedPart *part, int32_t border, Archive *archive)
     archive_lend_numbers(archive, &part->masses, all - m);
     archive_lend_numbers(archive, &part->damping, all * all);
     archive_lend_numbers(archive, &part->stiffness, m * m);
+    archive_index(archive, &part->shape_count, 0, SPECTRUM_SHAPES_MAX + 1);
+    for (int32_t j = 0; j < part->shape_count; j++)
+        archive_lend_numbers(archive, &part->shape[j], all * all);
     archive_images(&part->border, part->border_count, border, archive);
 }
 

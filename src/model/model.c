@@ -5,6 +5,7 @@
 #include "scene/materials.h"
 
 #include <math.h>
+#include <string.h>
 
 void model_destroy(Model *model)
 {
@@ -26,7 +27,24 @@ static const double FLOOR_PART = 0.9;
 static bool is_alike(const Material *a, const Material *b)
 {
     return a->young == b->young && a->poisson == b->poisson && a->density == b->density &&
-           a->eta1 == b->eta1 && a->eta2 == b->eta2;
+           a->eta1 == b->eta1 && a->eta2 == b->eta2 && a->branch_count == b->branch_count &&
+           memcmp(a->branch, b->branch, (size_t)a->branch_count * sizeof *a->branch) == 0;
+}
+
+// Branches, and the modulus as that of the long-time response. A scene that leaves none was refused
+// (scene/check).
+static void set_branches(const Scene *scene, const SceneMaterial *region, Material *material)
+{
+    const SceneRelaxation *relaxation = scene_material_relaxation(scene, region);
+    material->branch_count = relaxation->count;
+    for (int32_t k = 0; k < relaxation->count; k++)
+        material->branch[k] = (Branch){.time = relaxation->branch[k].time,
+                                       .shear = relaxation->branch[k].shear,
+                                       .bulk = relaxation->branch[k].bulk};
+    if (!scene_material_is_short(scene, region)) return;
+    material->young = region ? scene_material_number(scene, region, MATERIAL_YOUNG_SHORT)
+                             : scene->material.young_short;
+    material_relax(material);
 }
 
 // 0 its `material`, then its regions in their order; areas are not known yet. A scene of one
@@ -41,6 +59,7 @@ static Materials scene_materials(const Scene *scene)
                               .eta1 = scene->material.eta1,
                               .eta2 = scene->material.eta2,
                               .plane_strain = scene->material.plane == PLANE_STRAIN};
+    set_branches(scene, NULL, &made.list[0]);
     for (int32_t i = 0; i < scene->materials.count; i++) {
         const SceneMaterial *region = &scene->materials.region[i];
         Material *one = &made.list[i + 1];
@@ -50,6 +69,7 @@ static Materials scene_materials(const Scene *scene)
                           .eta1 = scene_material_number(scene, region, MATERIAL_ETA1),
                           .eta2 = scene_material_number(scene, region, MATERIAL_ETA2),
                           .plane_strain = made.list[0].plane_strain};
+        set_branches(scene, region, one);
         alike = alike && is_alike(one, &made.list[0]);
     }
     if (alike) made.count = 1;
@@ -68,14 +88,16 @@ Model model_of(const Scene *scene)
 double model_friction_slip(const Model *model)
 {
     double pressure = model->scales.load / (model->length * model->breadth);
-    return friction_slip(&model->friction, pressure, model->height, model->materials.mean.young);
+    return friction_slip(&model->friction, pressure, model->height,
+                         material_at_once(&model->materials.mean).young);
 }
 
 double model_slip_per_mu(const Model *model)
 {
     Friction one = friction_everywhere(friction_constant(1));
     double pressure = model->scales.load / (model->length * model->breadth);
-    return friction_slip(&one, pressure, model->height, model->materials.mean.young);
+    return friction_slip(&one, pressure, model->height,
+                         material_at_once(&model->materials.mean).young);
 }
 
 // Mean height of the layer or the pads that the block stands on, where these have a material of
@@ -111,11 +133,17 @@ bool model_floor_is_slow(const Model *model)
     return crossing_floor(model) > crossing_along(model);
 }
 
+double model_settling_time(const Model *model)
+{
+    return model->scales.time + materials_relaxation_time(&model->materials);
+}
+
 // Slip times E L/H is the drop (mu_S - mu_K) F_N.
 double model_machine_yield(const Model *model)
 {
     double stiffness = model_machine(model).stiffness;
-    double block = model->materials.mean.young * model->length * model->breadth / model->height;
+    double young = material_at_once(&model->materials.mean).young;
+    double block = young * model->length * model->breadth / model->height;
     return stiffness > 0 ? model_friction_slip(model) * block / stiffness : 0;
 }
 

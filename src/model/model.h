@@ -61,8 +61,7 @@ void model_destroy(Model *model);   // zeroed and half-built too
 Model model_of(const Scene *scene);
 
 // The slip that the drop of friction can drive, (mu_S - mu_K) p H / E with p the mean pressure and
-// E that of the mean material,
-// length. For Coulomb friction, which has no drop, mu_S stands in its place; without friction 1.
+// E that of the mean material, at once where it has branches, length. For Coulomb friction, which has no drop, mu_S stands in its place; without friction 1.
 // Tolerances of slip are measured by it, so that they hold for any load and any units.
 double model_friction_slip(const Model *model);
 
@@ -74,6 +73,9 @@ double model_slip_per_mu(const Model *model);
 // block above it hardly come through.
 double model_crossing(const Model *model);
 bool model_floor_is_slow(const Model *model);   // the latter
+
+// How long the block takes to settle: waves along it, viscosity, the slowest branch; time.
+double model_settling_time(const Model *model);
 
 // By how much the machine yields less when the load falls by that drop, length; 0: it is rigid.
 double model_machine_yield(const Model *model);

@@ -72,6 +72,8 @@ static bool adopt_basis(Model *model, Error *err)
 {
     double load = model->unit_load.size * load_reference(model);
     model->reduced.scales = bulk_scales(model, load);
+    double deep = model->reduced.scales.stiffness / model->materials.mean.young;
+    model->reduced.spectrum = spectrum_scaled(&model->bulk.spectrum, deep, 1);
     return bulk_operator_reduce(&model->reduced, model->length,
                                 model->reduced.area * model->reduced.scales.mass, &model->system,
                                 err);
@@ -84,7 +86,8 @@ static bool load_basis(Model *model, const ReductionBlock *block, const char *na
     bool *found = &model->from_cache;
     if (!basis_cache_load(name, wants_modes(model->scene), reduced, found, model->cache_note, err))
         return false;
-    if (*found && reduced->interface_count == model->interface.count &&
+    if (*found && reduced->part[0].shape_count == block->bulk.spectrum.shape_count &&
+        reduced->interface_count == model->interface.count &&
         reduced->full_dofs == block->bulk.dof_count)
         return true;
     *found = false;

@@ -156,7 +156,8 @@ bool field_files_write_bulk(FieldFiles *files, const FieldState *state, const ch
             velocity[3 * i + d] = state->velocity[first + d];
         }
     }
-    nodal_stress_recover(files->materials, state->displacement, state->velocity, &files->stress);
+    nodal_stress_recover(files->materials, state->displacement, state->velocity, files->spectrum,
+                         state->relaxing, &files->stress);
     FieldArray arrays[] = {
         {.name = "displacement", .components = 3, .values = displacement},
         {.name = "velocity", .components = 3, .values = velocity},

@@ -28,6 +28,7 @@ typedef struct FieldCells {
 typedef struct FieldFiles {
     const Mesh *mesh;   // not owned
     const Material *materials;   // not owned; the caller's to set, before the first file
+    const Spectrum *spectrum;   // of their branches; likewise
     NodalStress stress;   // of the last .vtu; owned, like all that follows
     FieldCells bulk;   // of stress.point_count points
     FieldCells line;   // contact nodes, and behind them corners of faces that touch nothing
@@ -40,6 +41,7 @@ typedef struct FieldFiles {
 // State of the whole mesh. Nothing is owned.
 typedef struct FieldState {
     const double *displacement, *velocity;   // [dim * nodes]
+    const double *const *relaxing;   // [shapes of the spectrum] as in fem/recovery; NULL: none
     double time;
 } FieldState;
 

@@ -25,18 +25,25 @@ enum {
 
 // --- the writer's thread -------------------------------------------------------------------------
 
+// Vectors of a time: displacement, velocity, and one for each shape of the materials' branches.
+static int32_t vectors_of(const Fields *fields)
+{
+    return 2 + fields->files.spectrum->shape_count;
+}
+
 // The mesh in all times that wait: its modes, tens of megabytes, come from memory once for them.
 static bool recover_waiting(Fields *fields, int32_t slot, int32_t waiting, Error *err)
 {
-    const double *unknowns[2 * FIELD_SLOTS];
-    double *whole[2 * FIELD_SLOTS];
-    for (int32_t k = 0; k < 2 * waiting; k++) {
-        const FieldTimeCopy *copy = &fields->slots[(slot + k / 2) % FIELD_SLOTS];
-        unknowns[k] = copy->unknowns[k % 2];
-        whole[k] = copy->whole[k % 2];
+    const double *unknowns[(2 + SPECTRUM_SHAPES_MAX) * FIELD_SLOTS];
+    double *whole[(2 + SPECTRUM_SHAPES_MAX) * FIELD_SLOTS];
+    int32_t each = vectors_of(fields);
+    for (int32_t k = 0; k < each * waiting; k++) {
+        const FieldTimeCopy *copy = &fields->slots[(slot + k / each) % FIELD_SLOTS];
+        unknowns[k] = copy->unknowns[k % each];
+        whole[k] = copy->whole[k % each];
     }
     fields->recovered = waiting;
-    return bulk_operator_recover(fields->system, 2 * waiting, unknowns, whole, err);
+    return bulk_operator_recover(fields->system, each * waiting, unknowns, whole, err);
 }
 
 // The list is written anew whenever no other time waits: a run that is cut off leaves one that
@@ -46,8 +53,10 @@ static bool write_time(void *self, int32_t slot, int32_t waiting, Error *err)
     Fields *fields = self;
     const FieldTimeCopy *copy = &fields->slots[slot];
     char path[PATH_SIZE];
-    FieldState state = {
-        .displacement = copy->whole[0], .velocity = copy->whole[1], .time = copy->time};
+    FieldState state = {.displacement = copy->whole[0],
+                        .velocity = copy->whole[1],
+                        .relaxing = (const double *const *)copy->whole + 2,
+                        .time = copy->time};
     double started = clock_seconds();
     if (fields->recovered == 0) TRY(recover_waiting(fields, slot, waiting, err));
     fields->recovered--;
@@ -105,15 +114,16 @@ static bool start_writer(Fields *fields, const Observation *seen, Error *err)
     int64_t dofs = seen->system->dof_count, whole = (int64_t)mesh->dim * mesh->node_count;
     int64_t line = (int64_t)field_line_columns(mesh->dim - 1) * seen->interface->contact_count;
     WorkerDef def = {.slots = FIELD_SLOTS, .work = write_time, .context = fields};
+    int32_t each = vectors_of(fields);
     if (fields->writer) return true;
     fields->system = seen->system;
     for (int32_t k = 0; k < FIELD_SLOTS; k++) {
         FieldTimeCopy *copy = &fields->slots[k];
-        if (!copy->storage) copy->storage = memory_bytes(8 * (2 * dofs + 2 * whole + line), err);
+        if (!copy->storage) copy->storage = memory_bytes(8 * (each * (dofs + whole) + line), err);
         if (!copy->storage) return false;
         double *next = copy->storage;
-        for (int which = 0; which < 2; which++, next += dofs) copy->unknowns[which] = next;
-        for (int which = 0; which < 2; which++, next += whole) copy->whole[which] = next;
+        for (int which = 0; which < each; which++, next += dofs) copy->unknowns[which] = next;
+        for (int which = 0; which < each; which++, next += whole) copy->whole[which] = next;
         copy->line = next;
     }
     return worker_create(&def, &fields->writer, err);
@@ -154,6 +164,19 @@ static void copy_line(const Fields *fields, const Observation *seen, double *lin
     }
 }
 
+static void copy_branches(const Fields *fields, const State *state, FieldTimeCopy *copy)
+{
+    const Spectrum *spectrum = fields->files.spectrum;
+    int32_t dofs = state->dof_count;
+    for (int32_t j = 0; j < spectrum->shape_count; j++) {
+        double *sum = copy->unknowns[2 + j];
+        memset(sum, 0, (size_t)dofs * sizeof *sum);
+        for (int32_t k = 0; k < state->branch_count; k++)
+            for (int32_t d = 0; d < dofs; d++)
+                sum[d] += spectrum->share[k][j] * state->stretch[(int64_t)k * dofs + d];
+    }
+}
+
 static bool hand_over(Fields *fields, const Observation *seen, Error *err)
 {
     int32_t slot;
@@ -163,6 +186,7 @@ static bool hand_over(Fields *fields, const Observation *seen, Error *err)
     copy->time = seen->t;
     memcpy(copy->unknowns[0], seen->state->displacement, (size_t)dofs * sizeof(double));
     memcpy(copy->unknowns[1], seen->state->velocity, (size_t)dofs * sizeof(double));
+    copy_branches(fields, seen->state, copy);
     copy_line(fields, seen, copy->line);
     worker_submit(fields->writer);
     return true;

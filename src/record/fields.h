@@ -22,8 +22,10 @@ enum { FIELD_SLOTS = 8 };
 // Data of one time that the writer needs.
 typedef struct FieldTimeCopy {
     double *storage;   // of all that follows; owned
-    double *unknowns[2];   // [dof_count] displacement and velocity of the system that is stepped
-    double *whole[2];   // [dim * nodes] of the mesh: the writer's
+    // [dof_count] displacement and velocity of the system that is stepped, and what the branches of
+    // each shape are stretched by (fem/recovery).
+    double *unknowns[2 + SPECTRUM_SHAPES_MAX];
+    double *whole[2 + SPECTRUM_SHAPES_MAX];   // [dim * nodes] of the mesh: the writer's
     double *line;   // [field_line_columns * contact_count]
     double time;
 } FieldTimeCopy;

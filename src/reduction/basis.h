@@ -17,9 +17,9 @@ typedef struct Basis {
     int32_t full_dofs, interface_count, interior_count;   // m, r
     Responses responses;   // the first m of them are Psi; owned, like all below
     double loss_max;   // of digits, from which on a block is made orthonormal
-    double *statics[BULK_TERMS];   // [m^2] Psi' (K, C, M) Psi
-    double *beside[BULK_TERMS];   // [m * r] Psi' (C, M) Phi; none of K
-    double *interior[BULK_TERMS];   // [r^2] Phi' (K, C, M) Phi, both triangles
+    double *statics[BULK_TERMS_MAX];   // [m^2] Psi' (K, C, M, S_j) Psi
+    double *beside[BULK_TERMS_MAX];   // [m * r] Psi' (C, M, S_j) Phi; none of K
+    double *interior[BULK_TERMS_MAX];   // [r^2] Phi' (K, C, M, S_j) Phi, both triangles
     double *lower;   // [r^2] Cholesky factor of that of K
     double *load;   // [m + r] f' (Psi, Phi), f the unit load
     double *parts;   // [m * r] X_b
@@ -35,7 +35,7 @@ bool basis_start(Basis *basis, InterfaceOperator *statics, Error *err);
 // Adds what the next block of responses has beside all modes.
 bool basis_extend(Basis *basis, Error *err);
 
-// The response to A, the sum of factor[term], by BulkTerm, times K/E, C/eta, M/(rho L^2): schur
+// The response to A, the sum of factor[term], by BulkTerm, times K/E, C/eta, M/(rho L^2), S_j: schur
 // [interface^2], and the energy of the response to the unit load, the interface at rest. *definite:
 // false, and no more, where rounding left A of the interior with a negative eigenvalue.
 bool basis_condense(const Basis *basis, const double *factor, double *schur, double *energy,

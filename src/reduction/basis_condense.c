@@ -42,13 +42,13 @@ static void square_columns(void *context, int32_t k, int32_t worker)
 }
 
 // out := sum of factor * term, those that are there, stretch by stretch in the cache.
-static void combine(double *const terms[BULK_TERMS], const double *factor, int64_t count,
+static void combine(double *const *terms, int32_t term_count, const double *factor, int64_t count,
                     double *out)
 {
     for (int64_t from = 0; from < count; from += STRETCH) {
         int64_t end = from + STRETCH < count ? from + STRETCH : count;
         memset(out + from, 0, (size_t)(end - from) * sizeof *out);
-        for (int term = 0; term < BULK_TERMS; term++) {
+        for (int term = 0; term < term_count; term++) {
             const double *values = terms[term];
             double share = factor[term];
             for (int64_t i = from; values && share != 0 && i < end; i++)
@@ -61,12 +61,13 @@ bool basis_condense(const Basis *basis, const double *factor, double *schur, dou
                     bool *definite, Error *err)
 {
     int64_t m = basis->interface_count, r = basis->interior_count;
+    int32_t terms = basis->responses.term_count;
     double *interior = NEW_ARRAY(double, r *r, err), *z = NEW_ARRAY(double, r *(m + 1), err);
     double *beside = NEW_ARRAY(double, m *r, err);
     if (!interior || !z || !beside) goto cleanup;
-    combine(basis->interior, factor, r * r, interior);
-    combine(basis->beside, factor, m * r, beside);
-    combine(basis->statics, factor, m * m, schur);
+    combine(basis->interior, terms, factor, r * r, interior);
+    combine(basis->beside, terms, factor, m * r, beside);
+    combine(basis->statics, terms, factor, m * m, schur);
     dense_transpose(dense_view(beside, m, r), z, r);
     memcpy(z + m * r, basis->load + m, (size_t)r * sizeof *z);
     if (!(*definite = dense_cholesky(interior, (int32_t)r))) goto cleanup;

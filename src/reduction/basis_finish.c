@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-// out [r * m] := W' of what of C or M lies beside the border's.
+// out [r * m] := W' of what of C, M or S_j lies beside the border's.
 static bool turn_beside(const Basis *basis, BulkTerm term, const double *w, double *out, Error *err)
 {
     int64_t m = basis->interface_count, r = basis->interior_count;
@@ -19,18 +19,31 @@ static bool turn_beside(const Basis *basis, BulkTerm term, const double *w, doub
     return true;
 }
 
-// C of all; what is beside the border's in `beside` [r * m], of the interior W'C W [r^2].
-static void put_together(const Basis *basis, const double *beside, const double *interior,
-                         double *out)
+// C or S_j of all; what is beside the border's in `beside` [r * m], of the interior W'C W [r^2].
+static void put_together(const Basis *basis, BulkTerm term, const double *beside,
+                         const double *interior, double *out)
 {
     int64_t m = basis->interface_count, r = basis->interior_count, all = m + r;
     for (int64_t j = 0; j < m; j++) {
-        memcpy(out + j * all, basis->statics[BULK_DAMPING] + j * m, (size_t)m * sizeof *out);
+        memcpy(out + j * all, basis->statics[term] + j * m, (size_t)m * sizeof *out);
         memcpy(out + j * all + m, beside + j * r, (size_t)r * sizeof *out);
     }
     for (int64_t j = 0; j < r; j++)
         memcpy(out + (m + j) * all + m, interior + j * r, (size_t)r * sizeof *out);
     dense_mirror(out, all);
+}
+
+// out [(m + r)^2]: C or S_j in the coordinates of the part. beside [r * m], half [r^2]: work.
+static bool finish_square(const Basis *basis, BulkTerm term, const double *w, double *beside,
+                          double *half, double *out, Error *err)
+{
+    int64_t r = basis->interior_count;
+    double *interior = basis->interior[term];
+    if (!out || !turn_beside(basis, term, w, beside, err)) return false;
+    dense_multiply(dense_view(interior, r, r), dense_view(w, r, r), 1, 0, half);
+    dense_multiply_transposed(dense_view(w, r, r), dense_view(half, r, r), 1, 0, interior);
+    put_together(basis, term, beside, interior, out);
+    return true;
 }
 
 // Psi, and Phi W.
@@ -56,9 +69,8 @@ cleanup:
 bool basis_finish(Basis *basis, bool modes, ReducedPart *part, Error *err)
 {
     int64_t m = basis->interface_count, r = basis->interior_count, all = m + r;
-    // In the place of M, of K (which is done with) and of C.
-    double *w = basis->interior[BULK_MASS], *half = basis->interior[BULK_STIFFNESS],
-           *damping = basis->interior[BULK_DAMPING];
+    // In the place of M and of K (which is done with).
+    double *w = basis->interior[BULK_MASS], *half = basis->interior[BULK_STIFFNESS];
     DenseView turn = dense_view(w, r, r);
     double *work = NEW_ARRAY(double, DENSE_EIGEN_WORK(r), err);
     double *beside = NEW_ARRAY(double, r *m, err);
@@ -80,10 +92,12 @@ bool basis_finish(Basis *basis, bool modes, ReducedPart *part, Error *err)
     memcpy(part->load, basis->load, (size_t)m * sizeof(double));
     dense_apply_transposed(turn, basis->load + m, 1, 0, part->load + m);
     TRY(turn_beside(basis, BULK_MASS, w, part->coupling, err));
-    TRY(turn_beside(basis, BULK_DAMPING, w, beside, err));
-    dense_multiply(dense_view(damping, r, r), turn, 1, 0, half);
-    dense_multiply_transposed(turn, dense_view(half, r, r), 1, 0, damping);
-    put_together(basis, beside, damping, part->damping);
+    TRY(finish_square(basis, BULK_DAMPING, w, beside, half, part->damping, err));
+    for (int32_t j = 0; BULK_SHAPE + j < basis->responses.term_count; j++) {
+        part->shape[j] = NEW_ARRAY(double, all *all, err);
+        part->shape_count = j + 1;
+        TRY(finish_square(basis, BULK_SHAPE + j, w, beside, half, part->shape[j], err));
+    }
     if (modes) TRY(write_modes(basis, w, part, err));
 cleanup:
     memory_free_all(work, beside);

@@ -19,12 +19,12 @@ enum { INVERSE_STEPS = 8 };   // to the smallest eigenvalue, within some per cen
 // The extension by the next block, as small matrices.
 typedef struct Extension {
     int64_t m, count, added;   // count: columns of Phi before
-    double *gram[BULK_TERMS];   // [(m + count + added) * added] X' (K, C, M) X_next
+    double *gram[BULK_TERMS_MAX];   // [(m + count + added) * added] X' (K, C, M, S_j) X_next
     double *statics;   // [m * added] rows of one of these
     double *parts;   // [m * added] X_b of the next
-    double *beside[BULK_TERMS];   // [m * added] Psi' (C, M) Y, Y the new columns of Phi
-    double *old[BULK_TERMS];   // [count * added] Phi' (K, C, M) Y
-    double *own[BULK_TERMS];   // [added^2] Y' (K, C, M) Y
+    double *beside[BULK_TERMS_MAX];   // [m * added] Psi' (C, M, S_j) Y, Y the new columns of Phi
+    double *old[BULK_TERMS_MAX];   // [count * added] Phi' (K, C, M, S_j) Y
+    double *own[BULK_TERMS_MAX];   // [added^2] Y' (K, C, M, S_j) Y
     double *load;   // [added] f'Y
     double *lower;   // [added^2] of the factor of K
     double *along;   // [count * added] L^-1 Phi'K Y
@@ -34,7 +34,7 @@ typedef struct Extension {
 void basis_destroy(Basis *basis)
 {
     responses_destroy(&basis->responses);
-    for (int term = 0; term < BULK_TERMS; term++) {
+    for (int term = 0; term < BULK_TERMS_MAX; term++) {
         memory_free_all(basis->statics[term], basis->beside[term], basis->interior[term]);
     }
     memory_free_all(basis->lower, basis->load, basis->parts);
@@ -45,7 +45,7 @@ bool basis_create(const BulkOperator *full, const BulkScales *scales, Basis *bas
 {
     int64_t m = full->interface_count;
     *basis = (Basis){.full_dofs = full->dof_count, .interface_count = full->interface_count};
-    for (int term = 0; term < BULK_TERMS; term++)
+    for (int term = 0; term < BULK_TERMS + full->bulk->spectrum.shape_count; term++)
         basis->statics[term] = NEW_ARRAY(double, m *m, err);
     basis->load = NEW_ARRAY(double, m, err);
     return error_is_clean(err) && responses_create(full, scales, &basis->responses, err);
@@ -53,7 +53,7 @@ bool basis_create(const BulkOperator *full, const BulkScales *scales, Basis *bas
 
 static void extension_destroy(Extension *x)
 {
-    for (int term = 0; term < BULK_TERMS; term++) {
+    for (int term = 0; term < BULK_TERMS_MAX; term++) {
         memory_free_all(x->gram[term], x->beside[term], x->old[term], x->own[term]);
     }
     double *const owned[] = {x->statics, x->parts, x->load, x->lower, x->along};
@@ -65,7 +65,7 @@ static bool extension_create(const Basis *basis, int64_t added, Extension *x, Er
 {
     int64_t m = basis->interface_count, count = basis->interior_count;
     *x = (Extension){.m = m, .count = count, .added = added};
-    for (int term = 0; term < BULK_TERMS; term++) {
+    for (int term = 0; term < basis->responses.term_count; term++) {
         x->gram[term] = NEW_ARRAY(double, (m + count + added) * added, err);
         if (term != BULK_STIFFNESS) x->beside[term] = NEW_ARRAY(double, m *added, err);
         x->old[term] = NEW_ARRAY(double, count *added, err);
@@ -93,7 +93,7 @@ static void take_out_statics(const Basis *basis, const ResponseBlock *next, Exte
     take_rows(dense_view(next->boundary, m + 1, added), 0, m, x->parts);
     DenseView parts = dense_view(x->parts, m, added), statics = dense_view(x->statics, m, added);
     DenseView before = dense_view(basis->parts, m, count);
-    for (int term = 0; term < BULK_TERMS; term++) {
+    for (int term = 0; term < basis->responses.term_count; term++) {
         DenseView known = dense_view(basis->statics[term], m, m);
         DenseView gram = dense_view(x->gram[term], m + count + added, added);
         take_rows(gram, m, count, x->old[term]);
@@ -265,7 +265,7 @@ static bool extend_lower(Basis *basis, const Extension *x, Error *err)
 static bool take_up(Basis *basis, const Extension *x, Error *err)
 {
     int64_t m = x->m, count = x->count, added = x->added;
-    for (int term = 0; term < BULK_TERMS; term++) {
+    for (int term = 0; term < basis->responses.term_count; term++) {
         if (!extend_square(&basis->interior[term], x, (BulkTerm)term, err)) return false;
         if (term != BULK_STIFFNESS &&
             !append(&basis->beside[term], m, count, x->beside[term], added, err))

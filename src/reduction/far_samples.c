@@ -83,10 +83,11 @@ static void list_points(Sampling *work, double element_inertia)
     ReductionErrors levels = {0};
     FarSamples *samples = work->samples;
     const FarFieldDef *def = work->def;
+    const Spectrum *spectrum = &work->mesh->bulk->spectrum;
     double viscosity[TRAINING_VISCOSITIES_MAX];
-    int32_t count = training_viscosities(&def->materials, &def->scales, viscosity);
-    training_points_list(&def->materials, &def->scales, samples->slowest, element_inertia, &levels,
-                         &training);
+    int32_t count = training_viscosities(&def->materials, &def->scales, spectrum, viscosity);
+    training_points_list(&def->materials, &def->scales, spectrum, samples->slowest, element_inertia,
+                         &levels, &training);
     double lowest = levels.inertia[0];
     double top = training.element_inertia * pow(FALLEN / samples->patches->distance, 2) /
                  sqrt(INERTIA_STEP);

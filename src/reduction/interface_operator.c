@@ -99,6 +99,13 @@ void bulk_operator_destroy(BulkOperator *system)
     *system = (BulkOperator){0};
 }
 
+const Spectrum *bulk_operator_spectrum(const BulkOperator *system)
+{
+    static const Spectrum none = {0};   // of a system without a bulk
+    if (system->bulk) return &system->bulk->spectrum;
+    return system->reduced ? &system->reduced->spectrum : &none;
+}
+
 // x, y: [dof_count], distinct.
 void bulk_operator_apply(const BulkOperator *system, BulkTerm term, const double *x, double *y)
 {
@@ -108,8 +115,11 @@ void bulk_operator_apply(const BulkOperator *system, BulkTerm term, const double
     } else if (term == BULK_MASS) {
         for (int32_t k = 0; k < system->dof_count; k++) y[k] = bulk->mass[k] * x[k];
     } else {
-        sparse_apply(&bulk->pattern, term == BULK_STIFFNESS ? bulk->stiffness : bulk->damping, x,
-                     y);
+        sparse_apply(&bulk->pattern,
+                     term == BULK_STIFFNESS ? bulk->stiffness
+                     : term == BULK_DAMPING ? bulk->damping
+                                            : bulk->shape[term - BULK_SHAPE],
+                     x, y);
     }
 }
 
@@ -141,15 +151,20 @@ double bulk_operator_error(const BulkOperator *system, OperatorTerms terms)
     return reduced_bulk_error(system->reduced, terms.mass * scales->mass / rest);
 }
 
-// A = m M + c C + k K; returns its largest diagonal entry on the interface.
+// A = m M + c C + k K with its branches; returns its largest diagonal entry on the interface.
 static double combine_sparse(BulkOperator *system, OperatorTerms terms)
 {
     const Bulk *bulk = system->bulk;
+    double weight[SPECTRUM_SHAPES_MAX];
     const SparsePattern *pattern = &bulk->pattern;
     double *values = system->values, largest = 0;
     int32_t entries = pattern->start[bulk->dof_count];
     for (int32_t k = 0; k < entries; k++)
         values[k] = terms.damping * bulk->damping[k] + terms.stiffness * bulk->stiffness[k];
+    spectrum_weights(&bulk->spectrum, terms.damping, terms.stiffness, weight);
+    for (int32_t j = 0; j < bulk->spectrum.shape_count; j++)
+        for (int32_t k = 0; weight[j] != 0 && k < entries; k++)
+            values[k] += weight[j] * bulk->shape[j][k];
     for (int32_t dof = 0; terms.mass != 0 && dof < bulk->dof_count; dof++)
         values[sparse_entry(pattern, dof, dof)] += terms.mass * bulk->mass[dof];
     for (int32_t j = 0; j < system->interface_count; j++) {
@@ -295,6 +310,7 @@ static void hash_part(Hash *hash, const ReducedPart *part)
     hash_numbers(hash, part->masses, all - m);
     hash_numbers(hash, part->damping, all * all);
     hash_numbers(hash, part->stiffness, m * m);
+    for (int32_t j = 0; j < part->shape_count; j++) hash_numbers(hash, part->shape[j], all * all);
 }
 
 // A reduced state is in coordinates of its basis: the same mesh reduced on another computer may
@@ -303,6 +319,7 @@ void bulk_operator_hash(const BulkOperator *system, Hash *hash)
 {
     const Bulk *bulk = system->bulk;
     const ReducedBulk *reduced = system->reduced;
+    spectrum_hash(bulk_operator_spectrum(system), hash);
     hash_bytes(hash, &system->dof_count, sizeof system->dof_count);
     hash_bytes(hash, system->interface_dofs,
                (size_t)system->interface_count * sizeof *system->interface_dofs);
@@ -311,6 +328,8 @@ void bulk_operator_hash(const BulkOperator *system, Hash *hash)
         hash_numbers(hash, bulk->mass, bulk->dof_count);
         hash_numbers(hash, bulk->stiffness, entries);
         hash_numbers(hash, bulk->damping, entries);
+        for (int32_t j = 0; j < bulk->spectrum.shape_count; j++)
+            hash_numbers(hash, bulk->shape[j], entries);
     } else {
         for (int p = 0; p < reduced->part_count; p++) hash_part(hash, &reduced->part[p]);
     }

@@ -4,7 +4,8 @@
 //
 //     M u'' + C u' + K u = f + G' r
 //
-// and asks for A = m M + c C + k K condensed on the interface, S v_b = g + r_b, and for v from v_b.
+// (with the forces of its materials' branches, fem/spectrum) and asks for A = m M + c C + k K, with
+// what branches add to it (reduction/operator_terms), condensed on the interface, S v_b = g + r_b, and for v from v_b.
 // There are two kinds. Full: the unknowns of the mesh, A factored by CHOLMOD with the interface
 // last. Reduced (reduction/reduction): the interface first, then a small interior basis, dense.
 #ifndef AMONTONS_REDUCTION_INTERFACE_OPERATOR_H
@@ -46,7 +47,10 @@ bool bulk_operator_reduce(const ReducedBulk *reduced, double length, double mass
                           BulkOperator *system, Error *err);
 void bulk_operator_destroy(BulkOperator *system);
 
-// y = K x, C x or M x; [dof_count]
+// Of the materials' branches.
+const Spectrum *bulk_operator_spectrum(const BulkOperator *system);
+
+// y = K x, C x, M x or S_j x; [dof_count]
 void bulk_operator_apply(const BulkOperator *system, BulkTerm term, const double *x, double *y);
 // The size of a displacement, length, or of a velocity: the largest component on the full mesh; on
 // a reduced one the largest on the border or, if larger, sqrt(2 elastic energy / E) of the

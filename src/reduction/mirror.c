@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// K, C and M are compared with their images entry by entry: so elements, materials and supports
+// K, C, M and the shape matrices are compared with their images entry by entry: so elements, materials and supports
 // need not be looked at.
 #include "reduction/mirror.h"
 
@@ -25,13 +25,14 @@ typedef struct Finder {
     int32_t *image[AXES_MAX];   // [axes][dof_count] mirror image of each unknown
     int32_t border_count, *border;   // the interface, then mirror images that are not on it
     int32_t *place;   // [dof_count] of each on that list, or NONE
-    double *root[2];   // [dof_count] of the diagonal of K and of C
+    double *root[2 + SPECTRUM_SHAPES_MAX];   // [dof_count] of the diagonal of K, C and each S_j
 } Finder;
 
 static void finder_destroy(Finder *find)
 {
     for (int32_t k = 0; k < AXES_MAX; k++) memory_free(find->image[k]);
-    memory_free_all(find->border, find->place, find->root[0], find->root[1]);
+    for (size_t k = 0; k < sizeof find->root / sizeof *find->root; k++) memory_free(find->root[k]);
+    memory_free_all(find->border, find->place);
 }
 
 void mirror_destroy(Mirror *mirror)
@@ -53,20 +54,26 @@ static double sign_of(const Finder *find, int32_t k, int32_t dof)
     return dof_axis(find->bulk->dim, dof) == find->axis[k] ? -1 : 1;
 }
 
-// The roots of the diagonal of K and of C.
+// K, C or S_j.
+static const double *values_of(const Bulk *bulk, int32_t which)
+{
+    return which == 0 ? bulk->stiffness : which == 1 ? bulk->damping : bulk->shape[which - 2];
+}
+
+// The roots of the diagonals.
 static bool find_roots(Finder *find, Error *err)
 {
     const Bulk *bulk = find->bulk;
-    const double *const values[] = {bulk->stiffness, bulk->damping};
-    for (int which = 0; which < 2; which++) {
+    for (int32_t which = 0; which < 2 + bulk->spectrum.shape_count; which++) {
+        const double *values = values_of(bulk, which);
         double *root = find->root[which] = NEW_ARRAY(double, bulk->dof_count, err);
         for (int32_t k = 0; root && k < bulk->dof_count; k++)
-            root[k] = sqrt(values[which][sparse_entry(&bulk->pattern, k, k)]);
+            root[k] = sqrt(values[sparse_entry(&bulk->pattern, k, k)]);
     }
     return error_is_clean(err);
 }
 
-// K, C and M are their own images across the last axis.
+// K, C, M and S_j are their own images across the last axis.
 static bool is_alike(const Finder *find)
 {
     int32_t last = find->axes - 1;
@@ -83,11 +90,11 @@ static bool is_alike(const Finder *find)
             while (at < end && pattern->index[at] != image[row]) at++;
             if (at == end) return false;
             double sign = sign_of(find, last, row) * sign_of(find, last, j);
-            double stiffness = fabs(bulk->stiffness[k] - sign * bulk->stiffness[at]);
-            double damping = fabs(bulk->damping[k] - sign * bulk->damping[at]);
-            if (!(stiffness <= ALIKE * find->root[0][row] * find->root[0][j] &&
-                  damping <= ALIKE * find->root[1][row] * find->root[1][j]))
-                return false;
+            for (int32_t which = 0; which < 2 + bulk->spectrum.shape_count; which++) {
+                const double *values = values_of(bulk, which), *root = find->root[which];
+                if (!(fabs(values[k] - sign * values[at]) <= ALIKE * root[row] * root[j]))
+                    return false;
+            }
         }
     }
     return true;

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Which of the bulk's matrices is meant, and A = m M + c C + k K. Used by
-// reduction/interface_operator and what is behind it.
+// Which of the bulk's matrices is meant, and A = m M + c C + k K, with what branches of the
+// materials add to it: sum_k k s tau_k/(1 + s tau_k) K_k at the rate s = c/k (fem/spectrum). Used
+// by reduction/interface_operator and what is behind it.
 #ifndef AMONTONS_REDUCTION_OPERATOR_TERMS_H
 #define AMONTONS_REDUCTION_OPERATOR_TERMS_H
 
-#include <stdbool.h>
+#include "fem/spectrum.h"
 
-typedef enum BulkTerm { BULK_STIFFNESS, BULK_DAMPING, BULK_MASS } BulkTerm;
-enum { BULK_TERMS = BULK_MASS + 1 };
+// BULK_SHAPE + j is the shape matrix S_j.
+typedef enum BulkTerm { BULK_STIFFNESS, BULK_DAMPING, BULK_MASS, BULK_SHAPE } BulkTerm;
+enum { BULK_TERMS = BULK_SHAPE, BULK_TERMS_MAX = BULK_SHAPE + SPECTRUM_SHAPES_MAX };
 
 typedef struct OperatorTerms {
     double mass, damping, stiffness;   // factors of M, C, K in A

@@ -11,8 +11,9 @@ void part_apply(const ReducedPart *part, BulkTerm term, const double *x, double 
     int32_t m = part->border_count, r = part->interior_count;
     DenseView border = {term == BULK_MASS ? part->mass : part->stiffness, m, m};
     DenseView coupling = {part->coupling, r, m};
-    if (term == BULK_DAMPING) {
-        dense_symmetric_apply(part->damping, part->count, x, y);
+    if (term == BULK_DAMPING || term >= BULK_SHAPE) {
+        dense_symmetric_apply(term == BULK_DAMPING ? part->damping : part->shape[term - BULK_SHAPE],
+                              part->count, x, y);
         return;
     }
     memset(y, 0, (size_t)m * sizeof *y);
@@ -34,24 +35,33 @@ static void combine_column(OperatorTerms terms, const double *mass, const double
 
 // The formulas at the head. The inverse itself, not a factor: a product with it is one pass over
 // memory for each of many right-hand sides, and A_qq is well conditioned (K_qq = 1).
-bool condensed_part_create(const ReducedPart *part, OperatorTerms terms, CondensedPart *condensed,
-                           double *schur, Error *err)
+bool condensed_part_create(const ReducedPart *part, OperatorTerms terms, const double *weight,
+                           CondensedPart *condensed, double *schur, Error *err)
 {
-    int64_t m = part->border_count, r = part->interior_count;
+    int64_t m = part->border_count, r = part->interior_count, size = (m + r) * (m + r);
+    const double *damping_values = part->damping;
     *condensed = (CondensedPart){0};
     double *coupling = NEW_ARRAY(double, r *m, err);
+    double *resisting = part->shape_count > 0 ? NEW_ARRAY(double, size, err) : NULL;
     condensed->inverse = NEW_ARRAY(double, r *r, err);
     condensed->map = NEW_ARRAY(double, r *m, err);
     condensed->half = NEW_ARRAY(double, r, err);
     if (!error_is_clean(err)) goto cleanup;
+    if (resisting) {   // c C + sum of the weighted shapes, in the place of C
+        for (int64_t k = 0; k < size; k++) resisting[k] = terms.damping * part->damping[k];
+        for (int32_t j = 0; j < part->shape_count; j++)
+            for (int64_t k = 0; k < size; k++) resisting[k] += weight[j] * part->shape[j][k];
+        terms.damping = 1;
+        damping_values = resisting;
+    }
     for (int64_t column = 0; column < r; column++) {
-        const double *inside = part->damping + (m + column) * part->count + m;
+        const double *inside = damping_values + (m + column) * part->count + m;
         combine_column(terms, NULL, inside, r, condensed->inverse + column * r);
         condensed->inverse[column * (r + 1)] += terms.mass * part->masses[column] + terms.stiffness;
     }
     for (int64_t column = 0; column < m; column++) {
         const double *stiffness = part->stiffness + column * m;
-        const double *damping = part->damping + column * part->count;
+        const double *damping = damping_values + column * part->count;
         combine_column(terms, part->coupling + column * r, damping + m, r, coupling + column * r);
         combine_column(terms, part->mass + column * m, damping, m, schur + column * m);
         for (int64_t row = 0; row < m; row++)
@@ -64,7 +74,7 @@ bool condensed_part_create(const ReducedPart *part, OperatorTerms terms, Condens
     dense_multiply(dense_view(condensed->inverse, r, r), couple, 1, 0, condensed->map);
     dense_multiply_transposed(couple, dense_view(condensed->map, r, m), -1, 1, schur);
 cleanup:
-    memory_free(coupling);
+    memory_free_all(coupling, resisting);
     return error_is_clean(err);
 }
 

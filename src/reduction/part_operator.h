@@ -12,7 +12,7 @@
 #include "reduction/operator_terms.h"
 #include "reduction/reduced_bulk.h"
 
-// y = K x, C x or M x, [count] each.
+// y = K x, C x, M x or S_j x, [count] each.
 void part_apply(const ReducedPart *part, BulkTerm term, const double *x, double *y);
 
 typedef struct CondensedPart {
@@ -21,9 +21,9 @@ typedef struct CondensedPart {
     double *half;   // [interior] A_qq^-1 rhs_q; owned
 } CondensedPart;
 
-// Fills schur [border^2].
-bool condensed_part_create(const ReducedPart *part, OperatorTerms terms, CondensedPart *condensed,
-                           double *schur, Error *err);
+// Fills schur [border^2]. weight: [shape_count] of the shape matrices in A.
+bool condensed_part_create(const ReducedPart *part, OperatorTerms terms, const double *weight,
+                           CondensedPart *condensed, double *schur, Error *err);
 void condensed_part_destroy(CondensedPart *condensed);
 void condensed_part_condense(const ReducedPart *part, const CondensedPart *condensed,
                              const double *rhs, double *g);

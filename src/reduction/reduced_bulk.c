@@ -25,6 +25,7 @@ void reduced_part_destroy(ReducedPart *part)
 {
     memory_free_all(part->stiffness, part->mass, part->coupling, part->masses, part->damping,
                     part->load, part->modes);
+    for (int32_t j = 0; j < part->shape_count; j++) memory_free(part->shape[j]);
     transform_destroy(&part->border);
     transform_destroy(&part->mesh);
     *part = (ReducedPart){0};
@@ -34,6 +35,7 @@ void reduced_bulk_destroy(ReducedBulk *reduced)
 {
     for (int p = 0; p < REDUCED_PARTS_MAX; p++) {
         ReducedPart *part = &reduced->part[p];
+        for (int32_t j = 0; reduced->storage && j < part->shape_count; j++) part->shape[j] = NULL;
         if (reduced->storage)
             part->stiffness = part->mass = part->coupling = part->masses = part->damping =
                 part->load = NULL;

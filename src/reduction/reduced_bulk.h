@@ -11,12 +11,14 @@
 // it. A state is x = [ u_b; u_R; q_0; q_1 ], z_p = T_p' [u_b; u_R]: all T_p side by side turn the
 // border, so that forces are split and joined as motions are.
 //
-// All matrices are normalised: K/E, C/eta, M/(rho L^2) with lengths over L; so one serves every
+// All matrices are normalised: K/E, C/eta, M/(rho L^2) with lengths over L, as those of the shapes of
+// materials' branches are (fem/spectrum); so one serves every
 // size and stiffness of a shape. Built by reduction/reduction and reduction/symmetry_reduction,
 // stored by model/basis_cache, used through reduction/interface_operator.
 #ifndef AMONTONS_REDUCTION_REDUCED_BULK_H
 #define AMONTONS_REDUCTION_REDUCED_BULK_H
 
+#include "fem/spectrum.h"
 #include "reduction/transform.h"
 
 // Factors from the normalised matrices to those of a scene.
@@ -49,6 +51,8 @@ typedef struct ReducedPart {
     double *coupling;   // [r * m] M_qb; K has none
     double *masses;   // [r] D; of K 1 each
     double *damping;   // [count^2] C, both triangles
+    int32_t shape_count;
+    double *shape[SPECTRUM_SHAPES_MAX];   // [shape_count][count^2] S_j likewise
     double *load;   // [count] of the unit load
     double *modes;   // [full_dofs * count] u = modes [z; q]; NULL: not at hand
     ReductionErrors errors;
@@ -73,6 +77,8 @@ typedef struct ReducedBulk {
     // on; all interior stays at 0; owned; NULL: none are asked for
     double *storage;   // the array that loads and the parts' matrices lie in (a file's); NULL: none
     BulkScales scales;
+    Spectrum spectrum;   // of the materials' branches, times in the scene's unit; share * S_j of a
+        // part is a stiffness of the scene
 } ReducedBulk;
 
 // Rigid motions of a block: unit translations along each axis, then unit rotations about the

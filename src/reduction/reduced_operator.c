@@ -56,19 +56,21 @@ cleanup:
     return NULL;
 }
 
-// Normalised matrices times their scale.
+// Normalised matrices times their scale; that of shapes is in the spectrum's shares.
 void reduced_operator_apply(const ReducedOperator *system, BulkTerm term, const double *x,
                             double *y)
 {
     const ReducedBulk *reduced = system->reduced;
     const double scale[] = {[BULK_STIFFNESS] = reduced->scales.stiffness,
                             [BULK_DAMPING] = reduced->scales.damping,
-                            [BULK_MASS] = reduced->scales.mass};
+                            [BULK_MASS] = reduced->scales.mass,
+                            [BULK_SHAPE] = 1};
+    const double by = scale[term < BULK_SHAPE ? term : BULK_SHAPE];
     reduced_bulk_split(reduced, x, system->local);
     for (int p = 0; p < reduced->part_count; p++)
         part_apply(&reduced->part[p], term, system->local[p], system->image[p]);
     reduced_bulk_join(reduced, (const double *const *)system->image, y);
-    for (int32_t k = 0; k < reduced->count; k++) y[k] *= scale[term];
+    for (int32_t k = 0; k < reduced->count; k++) y[k] *= by;
 }
 
 void condensed_bulk_destroy(CondensedBulk *condensed)
@@ -107,16 +109,19 @@ CondensedBulk *condensed_bulk_create(const ReducedOperator *system, OperatorTerm
 {
     const ReducedBulk *reduced = system->reduced;
     int64_t m = reduced->interface_count, size = m + reduced->mirrored;
+    double weight[SPECTRUM_SHAPES_MAX];
     CondensedBulk *condensed = NEW_ARRAY(CondensedBulk, 1, err);
     double *border = NEW_ARRAY(double, size *size, err), *part = NEW_ARRAY(double, size *size, err);
     if (!error_is_clean(err)) goto cleanup;
     condensed->system = system;
     condensed->pushed = NEW_ARRAY(double, size, err);
+    spectrum_weights(&reduced->spectrum, terms.damping, terms.stiffness, weight);
     terms.stiffness *= reduced->scales.stiffness;
     terms.damping *= reduced->scales.damping;
     terms.mass *= reduced->scales.mass;
     for (int p = 0; p < reduced->part_count; p++) {
-        TRY(condensed_part_create(&reduced->part[p], terms, &condensed->part[p], part, err));
+        TRY(condensed_part_create(&reduced->part[p], terms, weight, &condensed->part[p], part,
+                                  err));
         transform_add_square(&reduced->part[p].border, part, border);
     }
     TRY(condense_mirrored(border, (int32_t)m, reduced->mirrored, &condensed->mirrored, schur, err));

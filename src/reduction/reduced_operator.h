@@ -13,7 +13,7 @@ typedef struct ReducedOperator ReducedOperator;
 ReducedOperator *reduced_operator_create(const ReducedBulk *reduced, Error *err);
 void reduced_operator_destroy(ReducedOperator *system);   // NULL is fine
 
-// y = K x, C x or M x, [count] each, distinct.
+// y = K x, C x, M x or S_j x, [count] each, distinct.
 void reduced_operator_apply(const ReducedOperator *system, BulkTerm term, const double *x,
                             double *y);
 

@@ -131,9 +131,8 @@ static void take_load(const Builder *work, const FactoredPoint *full, double all
 
 static bool condense_basis(Builder *work, ParameterPoint point, bool *definite, Error *err)
 {
-    const double factor[] = {[BULK_STIFFNESS] = 1 - point.viscosity,
-                             [BULK_DAMPING] = point.viscosity,
-                             [BULK_MASS] = point.inertia};
+    double factor[BULK_TERMS_MAX];
+    parameter_factors(point, &work->def->scales, &work->full->bulk->spectrum, factor);
     return basis_condense(&work->basis, factor, work->excess, &work->load_energy, definite, err);
 }
 
@@ -175,7 +174,8 @@ cleanup:
 
 static void list_training_points(Builder *work, double slowest)
 {
-    training_points_list(&work->def->materials, &work->def->scales, slowest,
+    training_points_list(&work->def->materials, &work->def->scales,
+                         &work->full->bulk->spectrum, slowest,
                          inertia_element(work->full->bulk, &work->def->scales,
                                          work->full->interface_dofs, work->full->interface_count),
                          &work->part->errors, &work->training);

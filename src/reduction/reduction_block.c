@@ -36,6 +36,7 @@ static Materials normalise(const Materials *given)
     made.mean.young = made.mean.density = 1;
     made.mean.eta1 = share;
     made.mean.eta2 = 1 - share;
+    made.mean.branch_count = 0;
     made.list[0] = made.mean;
     for (int32_t k = 0; made.count > 1 && k < made.count; k++) {
         const Material *from = &given->list[k];
@@ -45,6 +46,19 @@ static Materials normalise(const Materials *given)
                                   .eta1 = keep_bits(from->eta1 / eta),
                                   .eta2 = keep_bits(from->eta2 / eta),
                                   .plane_strain = from->plane_strain};
+    }
+    return made;
+}
+
+// Shares over E, times over (eta1 + eta2)/E.
+static Spectrum normalise_spectrum(const Spectrum *given, const Material *mean)
+{
+    Spectrum made =
+        spectrum_scaled(given, 1 / mean->young, mean->young / (mean->eta1 + mean->eta2));
+    for (int32_t k = 0; k < made.count; k++) {
+        made.time[k] = keep_bits(made.time[k]);
+        for (int32_t j = 0; j < made.shape_count; j++)
+            made.share[k][j] = keep_bits(made.share[k][j]);
     }
     return made;
 }
@@ -75,6 +89,7 @@ bool reduction_block_create(const Mesh *mesh, const Bulk *bulk, const Materials 
                                &block->image[axis], err))
             return false;
     if (!bulk_create(mesh, &block->bulk, err)) return false;
+    block->bulk.spectrum = normalise_spectrum(&bulk->spectrum, &materials->mean);
     for (int32_t dof = 0; dof < bulk->dof_count; dof++) {
         block->bulk.held[dof] = bulk->held[dof];
         block->bulk.load[dof] = load_size > 0 ? put_on_grid(bulk->load[dof] / load_size) : 0;
@@ -117,6 +132,7 @@ void reduction_block_hash(const ReductionBlock *block, const Mesh *mesh, const i
     const Bulk *bulk = &block->bulk;
     size_t unknowns = (size_t)bulk->dof_count, elements = (size_t)mesh->element_count;
     hash_materials(&block->materials, mesh, hash);
+    spectrum_hash(&bulk->spectrum, hash);
     hash_bytes(hash, block->position, unknowns * sizeof *block->position);
     hash_bytes(hash, mesh->kind, elements);
     hash_bytes(hash, mesh->first_node, (elements + 1) * sizeof *mesh->first_node);

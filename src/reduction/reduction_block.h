@@ -15,11 +15,11 @@ typedef struct ReductionBlock {
     int32_t
         *image[DIM_MAX - 1];   // [nodes] at the mirror image of each across that axis; NULL: some
     // have none; owned
-    Materials materials;   // normalised: means of 1
+    Materials materials;   // normalised: means of 1; their branches are in the bulk's spectrum
     Bulk bulk;   // M / (rho L^2), C / (eta1 + eta2), K / E, f / load_size; owned
 } ReductionBlock;
 
-// bulk: of `mesh`; its load and held unknowns are taken over. load_size: its largest nodal load.
+// bulk: of `mesh`; its load, held unknowns and spectrum are taken over. load_size: its largest nodal load.
 bool reduction_block_create(const Mesh *mesh, const Bulk *bulk, const Materials *materials,
                             double load_size, ReductionBlock *block, Error *err);
 // M, C and K of it. mesh: the same.

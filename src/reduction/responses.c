@@ -19,7 +19,11 @@
 // equations are as good as independent.
 static const double FAR = 4;
 
-enum { ALL_PRODUCTS = (1 << BULK_TERMS) - 1 };
+// All products with a new block, as bits of their terms.
+static unsigned all_products(const Responses *responses)
+{
+    return (1u << responses->term_count) - 1;
+}
 
 static void block_destroy(ResponseBlock *block)
 {
@@ -40,7 +44,11 @@ bool responses_create(const BulkOperator *full, const BulkScales *scales, Respon
                       Error *err)
 {
     const Bulk *bulk = full->bulk;
-    *responses = (Responses){.full = full, .scales = *scales, .shelf_count = 2, .shelf_of = {0, 1}};
+    *responses = (Responses){.full = full,
+                             .scales = *scales,
+                             .term_count = BULK_TERMS + bulk->spectrum.shape_count,
+                             .shelf_count = 2,
+                             .shelf_of = {0, 1}};
     responses->unit_load = NEW_ARRAY(double, bulk->dof_count, err);
     for (int32_t k = 0; k < parallel_workers(); k++)
         responses->room[k].image =
@@ -117,16 +125,20 @@ void responses_drop(Responses *responses)
     block_destroy(&responses->blocks[responses->block_count]);
 }
 
-// y = K x / E, C x / eta or M x / (rho L^2) on the full mesh, of several columns.
+// y = K x / E, C x / eta, M x / (rho L^2) or S_j x on the full mesh, of several columns.
 static void apply(const Responses *responses, BulkTerm term, DenseView x, double *y)
 {
     const Bulk *bulk = responses->full->bulk;
     double scale = term == BULK_STIFFNESS ? responses->scales.stiffness
                    : term == BULK_DAMPING ? responses->scales.damping
-                                          : responses->scales.mass;
+                   : term == BULK_MASS    ? responses->scales.mass
+                                          : 1;
     int64_t count = (int64_t)x.rows * x.columns;
     if (term != BULK_MASS)
-        sparse_apply_many(&bulk->pattern, term == BULK_DAMPING ? bulk->damping : bulk->stiffness,
+        sparse_apply_many(&bulk->pattern,
+                          term == BULK_DAMPING     ? bulk->damping
+                          : term == BULK_STIFFNESS ? bulk->stiffness
+                                                   : bulk->shape[term - BULK_SHAPE],
                           x.values, x.columns, y);
     for (int64_t k = 0; term == BULK_MASS && k < count; k++)
         y[k] = bulk->mass[k % x.rows] * x.values[k];
@@ -136,19 +148,20 @@ static void apply(const Responses *responses, BulkTerm term, DenseView x, double
 // The products by the mesh that two points need, as bits of their terms. M costs next to nothing
 // and is enough where viscosities differ: what is lost then goes with the root of the quotient of
 // inertias. Where only inertia differs it gives M, the point with less of it that of K and C which
-// weighs more there, and the lighter one is multiplied.
+// weighs more there, and the lighter one is multiplied. Shape matrices always multiply.
 static unsigned needed_products(const Responses *responses, const ResponseBlock *one,
                                 const ResponseBlock *other)
 {
     ParameterPoint old = one->point, new = other->point;
     bool ascends = old.inertia < new.inertia;
     ParameterPoint low = ascends ? old : new, high = ascends ? new : old;
-    unsigned mass = 1u << BULK_MASS;
+    unsigned mass = 1u << BULK_MASS, all = all_products(responses), shapes = all >> BULK_SHAPE
+                                                                                    << BULK_SHAPE;
     unsigned light = 1u << (low.viscosity < 0.5 ? BULK_DAMPING : BULK_STIFFNESS);
-    if (one->formed || other->formed) return ALL_PRODUCTS;
-    if (fabs(low.viscosity - high.viscosity) * FAR >= 1) return mass;
+    if (one->formed || other->formed) return all;
+    if (fabs(low.viscosity - high.viscosity) * FAR >= 1) return shapes | mass;
     bool apart = high.inertia > fmax(FAR * low.inertia, responses->inertia_least);
-    return apart ? light : mass | light;
+    return shapes | (apart ? light : mass | light);
 }
 
 // The product that each piece of the next block's columns goes through.
@@ -223,7 +236,7 @@ static void multiply_piece(void *context, int32_t piece, int32_t worker)
     unsigned needed = 0;
     for (int32_t k = 0; k <= responses->block_count; k++)
         needed |= needed_products(responses, &responses->blocks[k], next);
-    for (int term = 0; term < BULK_TERMS; term++) {
+    for (int term = 0; term < responses->term_count; term++) {
         if (!(needed & 1u << term)) continue;
         apply(responses, (BulkTerm)term, dense_view(next->field + from * dofs, dofs, columns),
               room->image);
@@ -232,41 +245,43 @@ static void multiply_piece(void *context, int32_t piece, int32_t worker)
     }
 }
 
-// Solves the equations at the head for the products that are not `known`; a, b: those at the older
-// and at the new point.
-static void complete_pair(ParameterPoint old, ParameterPoint new, unsigned known, double a,
-                          double b, double *const g[BULK_TERMS])
+// Solves the equations at the head for the products that are not `known`, in g at `at`; p, q: the
+// factors of all terms at the older and at the new point; a, b: the right sides there.
+static void complete_pair(int32_t terms, const double *p, const double *q, unsigned known, double a,
+                          double b, double *const *g, int64_t at)
 {
-    const double p[BULK_TERMS] = {1 - old.viscosity, old.viscosity, old.inertia};
-    const double q[BULK_TERMS] = {1 - new.viscosity, new.viscosity, new.inertia};
-    int unknown[BULK_TERMS], count = 0;
-    for (int term = 0; term < BULK_TERMS; term++) {
+    int unknown[2] = {0}, count = 0;
+    for (int term = 0; term < terms; term++) {
         if (known & 1u << term) {
-            a -= p[term] * *g[term];
-            b -= q[term] * *g[term];
+            a -= p[term] * g[term][at];
+            b -= q[term] * g[term][at];
         } else {
             unknown[count++] = term;
         }
     }
     int y = unknown[0], z = unknown[count - 1];
     if (count == 1) {
-        *g[y] = p[y] > q[y] ? a / p[y] : b / q[y];
+        g[y][at] = p[y] > q[y] ? a / p[y] : b / q[y];
         return;
     }
     double determinant = p[y] * q[z] - p[z] * q[y];
-    *g[y] = (q[z] * a - p[z] * b) / determinant;
-    *g[z] = (p[y] * b - q[y] * a) / determinant;
+    g[y][at] = (q[z] * a - p[z] * b) / determinant;
+    g[z][at] = (p[y] * b - q[y] * a) / determinant;
 }
 
 // The products of a block with the next one that the mesh was not asked for. a, b: [its count *
 // added] work.
 static void complete_block(const Responses *responses, const ResponseBlock *block, double *a,
-                           double *b, double *const gram[BULK_TERMS])
+                           double *b, double *const *gram)
 {
+    double p[BULK_TERMS_MAX], q[BULK_TERMS_MAX];
     const ResponseBlock *next = &responses->blocks[responses->block_count];
     int64_t m = responses->full->interface_count, rows = responses->count + next->count;
     unsigned known = needed_products(responses, block, next);
-    if (known == ALL_PRODUCTS) return;
+    const Spectrum *spectrum = &responses->full->bulk->spectrum;
+    if (known == all_products(responses)) return;
+    parameter_factors(block->point, &responses->scales, spectrum, p);
+    parameter_factors(next->point, &responses->scales, spectrum, q);
     dense_multiply_transposed(dense_view(block->reaction, m + 1, block->count),
                               dense_view(next->boundary, m + 1, next->count), 1, 0, a);
     dense_multiply_transposed(dense_view(block->boundary, m + 1, block->count),
@@ -274,8 +289,7 @@ static void complete_block(const Responses *responses, const ResponseBlock *bloc
     for (int64_t j = 0; j < next->count; j++) {
         for (int64_t i = block == next ? j : 0; i < block->count; i++) {
             int64_t at = j * rows + block->first + i, own = j * block->count + i;
-            double *const g[BULK_TERMS] = {gram[0] + at, gram[1] + at, gram[2] + at};
-            complete_pair(block->point, next->point, known, a[own], b[own], g);
+            complete_pair(responses->term_count, p, q, known, a[own], b[own], gram, at);
         }
     }
 }
@@ -289,7 +303,7 @@ static void mirror_own(const Responses *responses, double *gram)
             gram[j * rows + next->first + i] = gram[i * rows + next->first + j];
 }
 
-bool responses_multiply(Responses *responses, double *const gram[BULK_TERMS], Error *err)
+bool responses_multiply(Responses *responses, double *const *gram, Error *err)
 {
     const ResponseBlock *next = &responses->blocks[responses->block_count];
     int64_t dofs = responses->full->dof_count, m = responses->full->interface_count;
@@ -308,7 +322,7 @@ bool responses_multiply(Responses *responses, double *const gram[BULK_TERMS], Er
     parallel_for(by_mesh.pieces, multiply_piece, &by_mesh);
     for (int32_t k = 0; k <= responses->block_count; k++)
         complete_block(responses, &responses->blocks[k], a, b, gram);
-    for (int term = 0; term < BULK_TERMS; term++) mirror_own(responses, gram[term]);
+    for (int term = 0; term < responses->term_count; term++) mirror_own(responses, gram[term]);
 cleanup:
     for (int32_t k = 0; k < PARALLEL_WORKERS_MAX; k++) {
         memory_free(responses->room[k].product);

@@ -40,6 +40,7 @@ typedef struct ResponseRoom {
 typedef struct Responses {
     const BulkOperator *full;   // of the mesh; not owned
     BulkScales scales;
+    int32_t term_count;   // K, C, M and the shape matrices
     double *unit_load;   // [dofs] f; owned
     double inertia_least;   // at which the energy of motion counts; set before the third block
     ResponseRoom room[PARALLEL_WORKERS_MAX];
@@ -65,8 +66,9 @@ void responses_replace(Responses *responses, int64_t columns, const double *fiel
 void responses_keep(Responses *responses);
 void responses_drop(Responses *responses);   // if it was not kept
 
-// gram [BULK_TERMS][all * added]: X' (K, C, M) X_next, X all columns with those of the next block.
-bool responses_multiply(Responses *responses, double *const gram[BULK_TERMS], Error *err);
+// gram [term_count][all * added]: X' (K, C, M, S_j) X_next, X all columns with those of the next
+// block.
+bool responses_multiply(Responses *responses, double *const *gram, Error *err);
 
 // y [dofs * columns] += X c, of the columns that are kept, 0 on the interface to the last bit; c
 // [count * columns].

@@ -69,7 +69,8 @@ bool symmetry_reduction_build(const Bulk *bulk, const int32_t *interface_dofs, i
                              .area = bulk->area,
                              .interface_count = m,
                              .part_count = 1,
-                             .scales = def->scales};
+                             .scales = def->scales,
+                             .spectrum = bulk->spectrum};
     if (def->node_image) TRY(mirror_find(bulk, def->node_image, interface_dofs, m, &mirror, err));
     if (mirror.part_count > 0) {
         reduced->part_count = mirror.part_count;

@@ -52,6 +52,93 @@ static void list_levels(double slowest, double element_inertia, ReductionErrors 
     errors->count = 2 * steps + 2;
 }
 
+// With branches a viscosity v stands for the rate v/(1 - v) at which they are asked, and moduli
+// change along the way in turns. What counts is by how much their quotients do, summed up: the
+// length of a path, in logarithms, on which points stand at equal distances. (Where quotients do
+// not turn back it is the same as without branches.)
+enum { PATH_STEPS = 2000 };
+static const double PATH_BEYOND = 1e5;   // times the fastest rate of the materials, either way
+
+typedef struct ViscosityPath {
+    int32_t steps;
+    double at[2 * TRAINING_VISCOSITIES_MAX - 1];   // [2 * steps + 1] ends of steps, and half way
+    double stiffest;   // largest modulus on the path over its elastic value
+} ViscosityPath;
+
+// The logarithms of the two moduli of each material at A of viscosity v over their elastic values;
+// returns their number.
+static int32_t list_moduli(const Materials *materials, const BulkScales *scales,
+                           const Spectrum *spectrum, double v, double *logarithm)
+{
+    int32_t count = 0;
+    OperatorTerms terms = {.damping = v / scales->damping, .stiffness = (1 - v) / scales->stiffness};
+    double weight[SPECTRUM_SHAPES_MAX];
+    spectrum_weights(spectrum, terms.damping, terms.stiffness, weight);
+    for (int32_t k = 0; k < materials->count; k++) {
+        if (!materials_use(materials, k)) continue;
+        Moduli elastic = material_elastic(&materials->list[k]),
+               viscous = material_viscous(&materials->list[k]);
+        Moduli sum = {terms.stiffness * elastic.deviator + terms.damping * viscous.deviator,
+                      terms.stiffness * elastic.trace + terms.damping * viscous.trace};
+        for (int32_t j = 0; j < spectrum->shape_count; j++) {
+            if (spectrum->shape[j].region != k) continue;
+            sum.deviator += weight[j] * spectrum->shape[j].moduli.deviator;
+            sum.trace += weight[j] * spectrum->shape[j].moduli.trace;
+        }
+        double unit = scales->stiffness;
+        logarithm[count++] = log(unit * moduli_shear(sum) / moduli_shear(elastic));
+        logarithm[count++] = log(unit * (moduli_axial(sum) + sum.trace) /
+                                 (moduli_axial(elastic) + elastic.trace));
+    }
+    return count;
+}
+
+// The viscosity of step k of PATH_STEPS, by equal factors of the rate between its ends.
+static double path_viscosity(int32_t k, double slowest, double fastest)
+{
+    if (k == 0 || k == PATH_STEPS) return k > 0;
+    double rate = slowest * pow(fastest / slowest, (k - 1.0) / (PATH_STEPS - 2));
+    return rate / (1 + rate);
+}
+
+static void find_path(const Materials *materials, const BulkScales *scales,
+                      const Spectrum *spectrum, ViscosityPath *path)
+{
+    ViscousTimes range = materials_viscous_range(materials);
+    double unit = scales->damping / scales->stiffness, length[PATH_STEPS + 1] = {0};
+    double slowest = unit / fmax(range.volume, range.shear), fastest = slowest;
+    double now[2 * MATERIALS_MAX], before[2 * MATERIALS_MAX];
+    slowest = fmin(slowest, unit / fmin(range.volume, range.shear));
+    fastest = fmax(fastest, unit / fmin(range.volume, range.shear));
+    for (int32_t k = 0; k < spectrum->count; k++) {
+        slowest = fmin(slowest, unit / spectrum->time[k]);
+        fastest = fmax(fastest, unit / spectrum->time[k]);
+    }
+    slowest /= PATH_BEYOND;
+    fastest *= PATH_BEYOND;
+    *path = (ViscosityPath){.stiffest = 1};
+    for (int32_t k = 0; k <= PATH_STEPS; k++) {
+        double low = INFINITY, high = -INFINITY;
+        int32_t count = list_moduli(materials, scales, spectrum,
+                                    path_viscosity(k, slowest, fastest), now);
+        for (int32_t i = 0; i < count; i++) {
+            double change = k > 0 ? now[i] - before[i] : 0;
+            low = fmin(low, change);
+            high = fmax(high, change);
+            path->stiffest = fmax(path->stiffest, exp(now[i]));
+            before[i] = now[i];
+        }
+        length[k] = (k > 0 ? length[k - 1] : 0) + high - low;
+    }
+    double parts = ceil(length[PATH_STEPS] / log(VISCOSITY_RATIO) - 1e-6);
+    path->steps = (int32_t)fmin(fmax(parts, 1), TRAINING_VISCOSITIES_MAX - 1);
+    for (int32_t i = 0, k = 0; i <= 2 * path->steps; i++) {
+        double wanted = length[PATH_STEPS] * i / (2.0 * path->steps);
+        while (k < PATH_STEPS && length[k] < wanted) k++;
+        path->at[i] = i == 2 * path->steps ? 1 : path_viscosity(k, slowest, fastest);
+    }
+}
+
 // The viscosity at which the quotient named at VISCOSITY_RATIO has gone the `part` of its way from
 // K to C: (1 - v + v volume) = quotient (1 - v + v shear).
 static double viscosity_at(double part, double volume, double shear)
@@ -77,15 +164,29 @@ static int32_t viscosity_steps(double volume, double shear)
     return (int32_t)fmin(fmax(parts, 1), TRAINING_VISCOSITIES_MAX - 1);
 }
 
-int32_t training_viscosities(const Materials *materials, const BulkScales *scales,
-                             double *viscosity)
+static void list_path(const Materials *materials, const BulkScales *scales,
+                      const Spectrum *spectrum, ViscosityPath *path)
 {
     double volume = 0, shear = 0;
+    if (spectrum->count > 0) {
+        find_path(materials, scales, spectrum, path);
+        return;
+    }
     normalised_times(materials, scales, &volume, &shear);
-    int32_t steps = viscosity_steps(volume, shear);
-    for (int32_t k = 0; k <= steps; k++)
-        viscosity[k] = viscosity_at((double)k / steps, volume, shear);
-    return steps + 1;
+    *path = (ViscosityPath){.steps = viscosity_steps(volume, shear), .stiffest = 1};
+    for (int32_t k = 0; k <= path->steps; k++)
+        path->at[2 * k] = viscosity_at((double)k / path->steps, volume, shear);
+    for (int32_t k = 0; k < path->steps; k++)
+        path->at[2 * k + 1] = viscosity_at((k + 0.5) / path->steps, volume, shear);
+}
+
+int32_t training_viscosities(const Materials *materials, const BulkScales *scales,
+                             const Spectrum *spectrum, double *viscosity)
+{
+    ViscosityPath path;
+    list_path(materials, scales, spectrum, &path);
+    for (int32_t k = 0; k <= path.steps; k++) viscosity[k] = path.at[2 * k];
+    return path.steps + 1;
 }
 
 double parameter_error_allowed(const TrainingPoints *training, ParameterPoint point,
@@ -102,6 +203,16 @@ OperatorTerms parameter_terms(ParameterPoint point, const BulkScales *scales)
                            .stiffness = (1 - point.viscosity) / scales->stiffness};
 }
 
+void parameter_factors(ParameterPoint point, const BulkScales *scales, const Spectrum *spectrum,
+                       double *factor)
+{
+    OperatorTerms terms = parameter_terms(point, scales);
+    factor[BULK_STIFFNESS] = 1 - point.viscosity;
+    factor[BULK_DAMPING] = point.viscosity;
+    factor[BULK_MASS] = point.inertia;
+    spectrum_weights(spectrum, terms.damping, terms.stiffness, factor + BULK_SHAPE);
+}
+
 static void add(TrainingPoints *training, const ReductionErrors *errors, double viscosity,
                 int32_t level)
 {
@@ -110,22 +221,23 @@ static void add(TrainingPoints *training, const ReductionErrors *errors, double 
 }
 
 // Every other level first: at those between them less is missing.
-void training_points_list(const Materials *materials, const BulkScales *scales, double slowest,
-                          double element_inertia, ReductionErrors *errors, TrainingPoints *training)
+void training_points_list(const Materials *materials, const BulkScales *scales,
+                          const Spectrum *spectrum, double slowest, double element_inertia,
+                          ReductionErrors *errors, TrainingPoints *training)
 {
-    double volume = 0, shear = 0;
-    normalised_times(materials, scales, &volume, &shear);
-    int32_t steps = viscosity_steps(volume, shear);
+    ViscosityPath path;
+    list_path(materials, scales, spectrum, &path);
+    element_inertia *= path.stiffest;
     if (materials->count > 1)
         widen(materials, scales->stiffness / scales->damping, &slowest, &element_inertia);
     list_levels(slowest, element_inertia, errors);
     *training = (TrainingPoints){.element_inertia = element_inertia};
     for (int32_t pass = 0; pass < 2; pass++) {
         for (int32_t level = pass; level < errors->count - 1; level += 2)
-            for (int32_t k = 0; k <= steps; k++)
-                add(training, errors, viscosity_at((double)k / steps, volume, shear), level);
-        for (int32_t k = 0; pass == 0 && k < steps; k++)
-            add(training, errors, viscosity_at((k + 0.5) / steps, volume, shear), 0);
+            for (int32_t k = 0; k <= path.steps; k++)
+                add(training, errors, path.at[2 * k], level);
+        for (int32_t k = 0; pass == 0 && k < path.steps; k++)
+            add(training, errors, path.at[2 * k + 1], 0);
     }
 }
 

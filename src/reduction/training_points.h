@@ -30,19 +30,24 @@ typedef struct TrainingPoints {
 } TrainingPoints;
 
 // slowest: the inertia at which the slowest mode of the interior is in balance; element_inertia:
-// the largest K/M of one unknown. Fills the levels of `errors`, too.
-void training_points_list(const Materials *materials, const BulkScales *scales, double slowest,
-                          double element_inertia, ReductionErrors *errors,
-                          TrainingPoints *training);
+// the largest K/M of one unknown. spectrum: of the materials' branches, in the units of `scales`.
+// Fills the levels of `errors`, too.
+void training_points_list(const Materials *materials, const BulkScales *scales,
+                          const Spectrum *spectrum, double slowest, double element_inertia,
+                          ReductionErrors *errors, TrainingPoints *training);
 
 // Finds the ends and steps in viscosity: viscosity [TRAINING_VISCOSITIES_MAX] ascending; returns
 // their number.
 int32_t training_viscosities(const Materials *materials, const BulkScales *scales,
-                             double *viscosity);
+                             const Spectrum *spectrum, double *viscosity);
 
 // The relative error of S that is allowed at a point; at a tolerance of 0 that of rounding.
 double parameter_error_allowed(const TrainingPoints *training, ParameterPoint point,
                                double tolerance);
+
+// The factors of K, C, M (normalised) and the shape matrices at a point, by BulkTerm.
+void parameter_factors(ParameterPoint point, const BulkScales *scales, const Spectrum *spectrum,
+                       double *factor);
 
 // The point as factors of the scene's own M, C and K.
 OperatorTerms parameter_terms(ParameterPoint point, const BulkScales *scales);

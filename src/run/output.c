@@ -156,6 +156,7 @@ static bool open_fields(Simulation *simulation, Error *err)
                        &simulation->model.interface, &simulation->fields, err))
         return false;
     simulation->fields.files.materials = simulation->model.materials.list;
+    simulation->fields.files.spectrum = &simulation->model.bulk.spectrum;
     simulation->fields.friction = &simulation->model.friction;
     simulation->fields.events = &simulation->events;
     return true;

@@ -33,7 +33,7 @@ bool start_prepare_steps(Simulation *simulation, Error *err)
                        .crossing = model_crossing(model),
                        .tolerance = TOLERANCES[scene->time.accuracy]};
     StepControlDef def = step_rule(scene, &sizes);
-    def.relax_step = model->scales.time;
+    def.relax_step = model_settling_time(model);
     def.slip_per_mu = model_slip_per_mu(model);
     simulation->t_end = step_rule_end(scene);
     bool held = scene->start.rod == START_ROD_HELD;
@@ -103,7 +103,7 @@ bool start_relax(Simulation *simulation, Error *err)
     const FrictionLaw *law = model->friction.whole.law;
     double started = clock_seconds();
     RelaxationDef def = {.speed_max = scene->start.tolerance * model->scales.slip_velocity,
-                         .duration_max = scene->start.duration_max * model->scales.time,
+                         .duration_max = scene->start.duration_max * model_settling_time(model),
                          .may_go_on = may_go_on,
                          .self = simulation};
     if (scene->start.friction == START_FRICTION_OFF)

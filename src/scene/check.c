@@ -82,6 +82,7 @@ static bool is_needed(const SceneKey *key, const Scene *scene)
                     key->offset == offsetof(Scene, own_friction.mu);
     if (of_table && *scene->own_friction.file) return false;
     if (word && !key->standard) return friction_use(&scene->friction, word) == FRICTION_MUST;
+    if (strcmp(key->name, "material.young") == 0 && scene->material.young_short > 0) return false;
     if (strcmp(key->name, "rod.velocity") == 0)
         return scene->rod.kind != ROD_NONE && !is_static(scene);
     if (strcmp(key->name, "load.pressure") == 0) return !(scene->load.force > 0);
@@ -146,6 +147,37 @@ static bool check_friction(const Check *check)
     return true;
 }
 
+static const char *const TWO_MODULI =
+    "the long-time modulus (young) and the short-time one (young_short) are both given; one "
+    "follows from the other and relaxation";
+
+// Branches know bulk moduli in space, which nu = 1/2 has none of. They may not resist more than all
+// of the material does at once.
+static bool check_relaxation(const Check *check, const SceneMaterial *region, const char *key)
+{
+    const Scene *scene = check->scene;
+    const SceneRelaxation *relaxation = scene_material_relaxation(scene, region);
+    const char *name = region ? region->group : "", *dot = region ? "." : "";
+    double poisson = region ? scene_material_number(scene, region, MATERIAL_POISSON)
+                            : scene->material.poisson;
+    double young = region ? scene_material_number(scene, region, MATERIAL_YOUNG_SHORT)
+                          : scene->material.young_short;
+    double shear = young / (2 * (1 + poisson)), bulk = young / (3 * (1 - 2 * poisson));
+    if (relaxation->count > 0 && !(poisson < 0.5))
+        return blame(check, key, "%s%srelaxation: poisson is %g; branches need less than 0.5", name,
+                     dot, poisson);
+    if (!scene_material_is_short(scene, region)) return true;
+    for (int32_t k = 0; k < relaxation->count; k++) {
+        shear -= relaxation->branch[k].shear;
+        bulk -= relaxation->branch[k].bulk;
+    }
+    if (shear > 0 && bulk > 0) return true;
+    return blame(check, key,
+                 "%s%syoung_short: %g leaves a %s modulus of %g after all branches have relaxed; it "
+                 "must be above 0",
+                 name, dot, young, shear > 0 ? "bulk" : "shear", shear > 0 ? bulk : shear);
+}
+
 // The number is that of the region, or else that of `material`.
 static bool check_materials(const Check *check)
 {
@@ -156,8 +188,15 @@ static bool check_materials(const Check *check)
         if (scene->material.plane == PLANE_STRAIN && poisson >= 0.5)
             return blame(check, "materials", "%s.poisson: %g; plane strain needs less than 0.5",
                          region->group, poisson);
+        if (region->given[MATERIAL_YOUNG] && region->given[MATERIAL_YOUNG_SHORT])
+            return blame(check, "materials", "%s: %s", region->group, TWO_MODULI);
+        if (!check_relaxation(check, region, "materials")) return false;
     }
-    return true;
+    if (is_given(check, "material.young") && scene->material.young_short > 0)
+        return blame(check, "material.young_short", "%s", TWO_MODULI);
+    return check_relaxation(check, NULL,
+                            scene->material.young_short > 0 ? "material.young_short"
+                                                            : "material.relaxation");
 }
 
 // Something must press the block down, hold it, or send it down: else there is no contact to look
@@ -354,6 +393,10 @@ const char *amontons_scene_warning(const Scene *scene)
     for (int32_t i = 0; i < scene->materials.count; i++)
         if (scene_material_number(scene, &scene->materials.region[i], MATERIAL_ETA1) > 0)
             return NULL;
+    if (scene->material.relaxation.count > 0)
+        return "material.eta1 is 0, and branches of `relaxation` are elastic at once: with friction "
+               "that weakens, the shortest wave that the mesh can hold grows fastest, so the answer "
+               "has no limit as the mesh gets finer (an ill-posed problem); give eta1 beside them";
     return "material.eta1 is 0: with friction that weakens, the shortest wave that the mesh can "
            "hold grows fastest, so the answer has no limit as the mesh gets finer (an ill-posed "
            "problem)";

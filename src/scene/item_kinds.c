@@ -68,7 +68,8 @@ const SceneItems scene_state_items = {
 static const ScenePart MATERIAL[] = {
     NUMBER("young", MATERIAL_YOUNG),     NUMBER("poisson", MATERIAL_POISSON),
     NUMBER("density", MATERIAL_DENSITY), NUMBER("eta1", MATERIAL_ETA1),
-    NUMBER("eta2", MATERIAL_ETA2),       {0}};
+    NUMBER("eta2", MATERIAL_ETA2),       NUMBER("young_short", MATERIAL_YOUNG_SHORT),
+    GIVEN(SceneMaterial, "relaxation", relaxation, has_relaxation), {0}};
 const SceneItems scene_material_items = {
     ITEMS(group, materials.count, materials.region),
     .named = true,

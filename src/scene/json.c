@@ -58,6 +58,7 @@ void scene_write_value(const SceneKey *key, const Scene *scene, JsonWriter *json
     const SceneNumbers *numbers = field;
     const SceneNames *names = field;
     char number[60];
+    const SceneRelaxation *relaxation = field;
     switch (key->type) {
     case KEY_NUMBER:
         if (key->whole && *(const bool *)((const char *)scene + key->is_whole)) {
@@ -94,6 +95,14 @@ void scene_write_value(const SceneKey *key, const Scene *scene, JsonWriter *json
     case KEY_ITEMS:
         write_items(key->items, scene, json, name);
         return;
+    case KEY_BRANCHES:
+        json_begin_list(json, name);
+        for (int32_t i = 0; i < relaxation->count; i++)
+            json_object_of(json, NULL, {"time", relaxation->branch[i].time},
+                           {"shear", relaxation->branch[i].shear},
+                           {"bulk", relaxation->branch[i].bulk});
+        json_end(json);
+        return;
     case KEY_FIELDS:
         json_text(json, name, scene->output.fields ? "as below" : "none");
         return;
@@ -112,6 +121,8 @@ void scene_write_json(const Scene *scene, JsonWriter *json, const char *name, co
         // A key that may be left out and was has no value to show.
         bool part_of_fields = strncmp(keys[k].name, "output.fields.", 14) == 0;
         bool left_out = !keys[k].standard && !scene->given[k];
+        left_out = left_out || (scene->material.young_short > 0 &&
+                                strcmp(keys[k].name, "material.young") == 0);
         if (keys[k].type == KEY_FIELDS ? scene->output.fields
                                        : (part_of_fields && !scene->output.fields) || left_out)
             continue;

@@ -50,6 +50,7 @@ void scene_key_allowed(const SceneKey *key, char *words, int32_t size)
         [KEY_NUMBERS] = "a list of at most 64 numbers, each ",
         [KEY_NAMES] = "a name or a list of at most 32 names",
         [KEY_PARAMETERS] = "a map of at most 32 parameters, each a number or a word",
+        [KEY_BRANCHES] = "a list of at most 20 maps {time: TIME, shear: STRESS, bulk: STRESS}",
         [KEY_FIELDS] = "none, film, or a map of every_U, every_t, every_step, at_events, film",
     };
     const char *text = key->type == KEY_NUMBER  ? ranges[key->range].words

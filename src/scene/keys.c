@@ -74,8 +74,12 @@ static const SceneKey keys[] = {
     WORDS(KEY_NAMES, groups.contact, "[]",
           "The physical groups that lie on the substrate; none named: every one called `contact` "
           "or `contact_...`."),
-    NUMBER(material.young, "stress", RANGE_POSITIVE, "1", "Young's modulus E.",
+    NUMBER(material.young, "stress", RANGE_POSITIVE, "1",
+           "Young's modulus E; with `relaxation` that of the long-time response.",
            .given_in_si = true),
+    NUMBER(material.young_short, "stress", RANGE_POSITIVE, NULL,
+           "In the place of `young`: E (and with it `poisson`) of the short-time response, before "
+           "any branch of `relaxation` has relaxed."),
     NUMBER(material.poisson, "1", RANGE_POISSON, NULL,
            "Poisson's ratio; below 0.5 in plane strain.", .must_be_given = true),
     NUMBER(material.density, "density", RANGE_POSITIVE, "1", "Mass density rho.",
@@ -84,12 +88,15 @@ static const SceneKey keys[] = {
            "Viscosity of the strain rate: stress eta1 eps'.", .given_in_si = true),
     NUMBER(material.eta2, "viscosity", RANGE_NOT_NEGATIVE, "1",
            "Viscosity of the volume rate: stress eta2 tr(eps') I.", .given_in_si = true),
+    KEY("material.relaxation", KEY_BRANCHES, material.relaxation, "1", RANGE_ANY, NULL,
+        "Branches of a generalised Maxwell solid (a Prony series) beside all else, each a spring "
+        "of shear modulus `shear` and bulk modulus `bulk` (0 if not given) that relaxes in `time`."),
     CHOICE(material.plane, "stress",
            "Plane stress (a thin plate) or plane strain (a wide block); in space neither.",
            "stress", "strain"),
     KEY("materials", KEY_ITEMS, materials.count, "1", RANGE_ANY, NULL,
         "Materials of regions, by the names of physical surfaces (volumes): those of young, "
-        "poisson, density, eta1, eta2 that differ there from `material`.",
+        "young_short, poisson, density, eta1, eta2, relaxation that differ there from `material`.",
         .items = &scene_material_items),
     KEY("friction.law", KEY_CHOICE, friction.kind, "1", RANGE_ANY, "linear-weakening",
         "How the local coefficient changes with slip rate; `table`, `formula` and `plugin` are "

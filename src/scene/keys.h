@@ -22,6 +22,7 @@ typedef enum SceneKeyType {
     KEY_NAMES,   // SceneNames: one name or a list of them; of `choices` where there are any
     KEY_PARAMETERS,   // mesh.set: keys of any name, each a number or a word
     KEY_ITEMS,   // a list or map of maps, as its `items` say (scene/item_kinds)
+    KEY_BRANCHES,   // SceneRelaxation: a list of maps
     KEY_FIELDS,   // output.fields: none, or a map of the keys below it
 } SceneKeyType;
 

@@ -64,7 +64,8 @@ typedef struct Scene {
         SceneNames body;   // regions that are the block; none: all
     } groups;
     struct {
-        double young, poisson, density, eta1, eta2;
+        double young, poisson, density, eta1, eta2, young_short;
+        SceneRelaxation relaxation;
         ScenePlane plane;
     } material;
     SceneMaterials materials;   // of single regions

@@ -11,7 +11,8 @@ enum {
     SCENE_LIST_MAX = 32,
     SCENE_NUMBERS_MAX = 64,
     SCENE_CONTACT_LAWS_MAX = 16,
-    SCENE_MATERIALS_MAX = 16
+    SCENE_MATERIALS_MAX = 16,
+    SCENE_BRANCHES_MAX = 20
 };
 
 typedef enum SceneAnswer { ANSWER_OF_M, ANSWER_OF_HOLD } SceneAnswer;
@@ -59,14 +60,28 @@ enum {
     MATERIAL_DENSITY,
     MATERIAL_ETA1,
     MATERIAL_ETA2,
+    MATERIAL_YOUNG_SHORT,
     SCENE_MATERIAL_NUMBERS
 };
+
+// A branch of a generalised Maxwell solid: relaxation time, shear and bulk modulus of its spring.
+typedef struct SceneBranch {
+    double time, shear, bulk;
+} SceneBranch;
+
+// material.relaxation: [{time, shear, bulk}].
+typedef struct SceneRelaxation {
+    int32_t count;
+    SceneBranch branch[SCENE_BRANCHES_MAX];
+} SceneRelaxation;
 
 // Numbers of a region that differ from `material`: an entry of `materials` (scene/materials).
 typedef struct SceneMaterial {
     char group[GROUP_NAME_SIZE];   // a physical surface
     bool given[SCENE_MATERIAL_NUMBERS];
     double number[SCENE_MATERIAL_NUMBERS];   // where given
+    bool has_relaxation;
+    SceneRelaxation relaxation;   // where given
 } SceneMaterial;
 
 typedef struct SceneMaterials {

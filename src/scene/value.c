@@ -35,11 +35,13 @@ static bool expect_scalar(const SceneKey *key, const SceneValue *value, Error *e
 typedef bool (*ValueSetter)(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err);
 
 // Hands each item of a list or map (`kind`), at most SCENE_LIST_MAX of them (of numbers
-// SCENE_NUMBERS_MAX), to `set`.
+// SCENE_NUMBERS_MAX, of branches SCENE_BRANCHES_MAX), to `set`.
 static bool set_items(const SceneKey *key, const SceneValue *value, YamlKind kind, ValueSetter set,
                       Scene *scene, Error *err)
 {
-    int32_t most = key->type == KEY_NUMBERS ? (int32_t)SCENE_NUMBERS_MAX : (int32_t)SCENE_LIST_MAX;
+    int32_t most = key->type == KEY_NUMBERS    ? (int32_t)SCENE_NUMBERS_MAX
+                   : key->type == KEY_BRANCHES ? (int32_t)SCENE_BRANCHES_MAX
+                                               : (int32_t)SCENE_LIST_MAX;
     if (yaml_kind(value->document, value->node) != kind ||
         yaml_count(value->document, value->node) > most)
         return report_wrong(key, value, err);
@@ -175,6 +177,62 @@ static bool set_numbers(const SceneKey *key, const SceneValue *value, Scene *sce
 {
     scene_value_clear(key, scene);
     return set_items(key, value, YAML_LIST, add_number, scene, err);
+}
+
+// --- branches -----------------------------------------------------------------------------------
+
+// One map {time, shear, bulk}, each word with a key of its own that points at its place.
+static bool add_branch(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
+{
+    static const SceneKey words[] = {
+        {.name = "time", .type = KEY_NUMBER, .unit = "time", .range = RANGE_POSITIVE},
+        {.name = "shear", .type = KEY_NUMBER, .unit = "stress", .range = RANGE_NOT_NEGATIVE},
+        {.name = "bulk", .type = KEY_NUMBER, .unit = "stress", .range = RANGE_NOT_NEGATIVE}};
+    enum { TIME, SHEAR, BULK, WORDS };
+    static const char allowed[] = "a map {time: TIME, shear: STRESS, bulk: STRESS}";
+    const YamlDocument *document = value->document;
+    SceneRelaxation *relaxation = field_of(key, scene);
+    double number[WORDS] = {0};
+    bool given[WORDS] = {0};
+    if (yaml_kind(document, value->node) != YAML_MAP)
+        return yaml_refuse(document, value->node, key->name, allowed, err);
+    YAML_EACH (node, document, value->node) {
+        SceneValue one = {.document = document, .node = node};
+        const char *word = yaml_key(document, node);
+        char path[100];
+        int32_t k = 0;
+        while (k < WORDS && strcmp(words[k].name, word) != 0) k++;
+        if (k == WORDS)
+            return yaml_key_error(document, node, err,
+                                  "%s: unknown key `%.60s`; allowed: time, shear, bulk", key->name,
+                                  word);
+        SceneKey own = words[k];
+        snprintf(path, sizeof path, "%s.%s", key->name, word);
+        own.name = path;
+        if (!read_in_range(&own, &one, scene->units, &number[k], &(bool){false}, err)) return false;
+        given[k] = true;
+    }
+    if (!given[TIME])
+        return yaml_error(document, value->node, err, "%s: a branch needs its `time`; allowed: %s",
+                          key->name, allowed);
+    if (!(number[SHEAR] + number[BULK] > 0))
+        return yaml_error(document, value->node, err,
+                          "%s: a branch needs `shear` or `bulk` above 0", key->name);
+    for (int32_t i = 0; i < relaxation->count; i++)
+        if (relaxation->branch[i].time == number[TIME])
+            return yaml_error(document, value->node, err,
+                              "%s: the time %g stands twice; add up the moduli", key->name,
+                              number[TIME]);
+    relaxation->branch[relaxation->count++] =
+        (SceneBranch){number[TIME], number[SHEAR], number[BULK]};
+    return true;
+}
+
+static bool set_branches(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
+{
+    scene_value_clear(key, scene);
+    if (yaml_kind(value->document, value->node) == YAML_NOTHING) return true;
+    return set_items(key, value, YAML_LIST, add_branch, scene, err);
 }
 
 // --- words --------------------------------------------------------------------------------------
@@ -344,12 +402,13 @@ static bool set_fields(const SceneKey *key, const SceneValue *value, Scene *scen
 
 void scene_value_clear(const SceneKey *key, Scene *scene)
 {
-    size_t size = key->type == KEY_NUMBER    ? sizeof(double)
-                  : key->type == KEY_NUMBERS ? sizeof(SceneNumbers)
-                  : key->type == KEY_CHOICE  ? sizeof(int32_t)
-                  : key->type == KEY_FLAG    ? sizeof(bool)
-                  : key->type == KEY_ITEMS   ? sizeof(int32_t)   // how many there are
-                                             : SCENE_TEXT_SIZE;
+    size_t size = key->type == KEY_NUMBER     ? sizeof(double)
+                  : key->type == KEY_NUMBERS  ? sizeof(SceneNumbers)
+                  : key->type == KEY_CHOICE   ? sizeof(int32_t)
+                  : key->type == KEY_FLAG     ? sizeof(bool)
+                  : key->type == KEY_BRANCHES ? sizeof(SceneRelaxation)
+                  : key->type == KEY_ITEMS    ? sizeof(int32_t)   // how many there are
+                                              : SCENE_TEXT_SIZE;
     memset(field_of(key, scene), 0, size);
     if (key->whole) *(bool *)((char *)scene + key->is_whole) = false;
 }
@@ -375,6 +434,8 @@ bool scene_value_set(const SceneKey *key, const SceneValue *value, Scene *scene,
         return set_parameters(key, value, scene, err);
     case KEY_ITEMS:   // scene/items
         return true;
+    case KEY_BRANCHES:
+        return set_branches(key, value, scene, err);
     case KEY_FIELDS:
         return set_fields(key, value, scene, err);
     }

@@ -6,11 +6,11 @@
 
 #include <math.h>
 
-// v'M v/2 and u'K u/2 from the products that a state keeps.
+// From the products that a state keeps.
 void energy_store(const State *state, EnergyLedger *ledger)
 {
     ledger->kinetic = 0.5 * dense_dot(state->velocity, state->momentum, state->dof_count);
-    ledger->elastic = 0.5 * dense_dot(state->displacement, state->elastic_force, state->dof_count);
+    ledger->elastic = state_elastic_energy(state);
 }
 
 // Opens a ledger: the energy stored now counts as given; works begin at 0.

@@ -12,9 +12,9 @@
 typedef struct EnergyLedger {
     double rod_work;   // by the rod on the block
     double load_work;   // by pressure and tractions
-    double viscous;   // dissipated in the bulk, >= 0
+    double viscous;   // dissipated in the bulk, by C and by branches, >= 0
     double frictional;   // dissipated on the interface, >= 0
-    double elastic;   // stored now
+    double elastic;   // stored now, in branches, too
     double kinetic;   // now
     double stored_at_start;   // elastic + kinetic when the ledger was opened
 } EnergyLedger;

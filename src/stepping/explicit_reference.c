@@ -9,19 +9,69 @@
 #include "contact/slip.h"
 
 #include <math.h>
+#include <string.h>
 
 bool explicit_reference_create(const ExplicitDef *def, ExplicitReference *scheme, Error *err)
 {
     *scheme = (ExplicitReference){.def = *def};
     scheme->bound = NEW_ARRAY(double, def->interface->count, err);
+    int64_t dofs = def->bulk->spectrum.count > 0 ? def->bulk->dof_count : 0;
+    scheme->branch_work = NEW_ARRAY(double, 2 * dofs, err);
+    scheme->branch_image = NEW_ARRAY(double, def->bulk->spectrum.count *dofs, err);
     return error_is_clean(err) && explicit_sweep_create(def->bulk, def->step, &scheme->mesh, err);
 }
 
 void explicit_reference_destroy(ExplicitReference *scheme)
 {
     explicit_sweep_destroy(&scheme->mesh);
-    memory_free(scheme->bound);
+    memory_free_all(scheme->bound, scheme->branch_work, scheme->branch_image);
     *scheme = (ExplicitReference){0};
+}
+
+// The forces of all branches at t_n.
+static void add_up_pulls(ExplicitReference *scheme, const State *state)
+{
+    double *sum = scheme->mesh.pull;
+    if (!sum) return;
+    memset(sum, 0, (size_t)state->dof_count * sizeof *sum);
+    for (int32_t k = 0; k < state->branch_count; k++)
+        for (int32_t d = 0; d < state->dof_count; d++)
+            sum[d] += state->pull[(int64_t)k * state->dof_count + d];
+}
+
+// Branches at t_n+1 by the velocities v' of the step; returns the power that they dissipate.
+static double advance_branches(ExplicitReference *scheme, State *state)
+{
+    const Bulk *bulk = scheme->def.bulk;
+    const Spectrum *spectrum = &bulk->spectrum;
+    int32_t dofs = bulk->dof_count, dim = bulk->dim;
+    double step = scheme->def.step, power = 0;
+    double *velocity = scheme->branch_work, *image = velocity + dofs, *moved = scheme->branch_image;
+    if (spectrum->count == 0) return 0;
+    for (int32_t i = 0; i < scheme->mesh.node_count; i++)
+        for (int32_t d = 0; d < dim; d++)
+            velocity[node_dof(dim, i, d)] =
+                scheme->mesh.next[explicit_velocity(&scheme->mesh, i) + d];
+    memset(moved, 0, (size_t)spectrum->count * (size_t)dofs * sizeof *moved);
+    for (int32_t j = 0; j < spectrum->shape_count; j++) {
+        sparse_apply(&bulk->pattern, bulk->shape[j], velocity, image);
+        for (int32_t k = 0; k < spectrum->count; k++)
+            for (int32_t d = 0; spectrum->share[k][j] != 0 && d < dofs; d++)
+                moved[(int64_t)k * dofs + d] += spectrum->share[k][j] * image[d];
+    }
+    for (int32_t k = 0; k < spectrum->count; k++) {
+        double half = 0.5 * step / spectrum->time[k], sum = 0;
+        double *stretch = state->stretch + (int64_t)k * dofs,
+               *pull = state->pull + (int64_t)k * dofs;
+        for (int32_t d = 0; d < dofs; d++) {
+            double before = stretch[d], pulled = pull[d];
+            stretch[d] = ((1 - half) * before + step * velocity[d]) / (1 + half);
+            pull[d] = ((1 - half) * pulled + step * moved[(int64_t)k * dofs + d]) / (1 + half);
+            sum += 0.25 * (before + stretch[d]) * (pulled + pull[d]);
+        }
+        power += sum / spectrum->time[k];
+    }
+    return power;
 }
 
 // v half a step before the start, v_0 - (dt/2) a_0, with M a_0 = f + r - K u - C v from the
@@ -35,6 +85,9 @@ void explicit_reference_start(ExplicitReference *scheme, const State *state)
     scheme->steps = 0;
     sparse_apply(&bulk->pattern, bulk->stiffness, state->displacement, elastic);
     sparse_apply(&bulk->pattern, bulk->damping, state->velocity, viscous);
+    add_up_pulls(scheme, state);
+    for (int32_t k = 0; scheme->mesh.pull && k < bulk->dof_count; k++)
+        elastic[k] += scheme->mesh.pull[k];
     for (int32_t k = 0; k < state->interface_count; k++)
         elastic[scheme->def.interface->dofs[k]] -= state->reaction[k];
     for (int32_t i = 0; i < scheme->mesh.node_count; i++) {
@@ -266,6 +319,7 @@ static void advance_once(ExplicitReference *scheme, State *state, EnergyLedger *
     const Interface *interface = scheme->def.interface;
     double step = scheme->def.step, frictional = 0, pushed = 0;
     scheme->factor = load_factor(scheme->def.course, scheme->time + step * (double)scheme->steps);
+    add_up_pulls(scheme, state);
     double viscous = explicit_sweep_free(&scheme->mesh, scheme->factor);
     for (int32_t i = 0; i < interface->contact_count; i++)
         frictional += resolve_contact(scheme, i, state);
@@ -273,6 +327,7 @@ static void advance_once(ExplicitReference *scheme, State *state, EnergyLedger *
     lead_rod(scheme, end);
     for (int32_t j = 0; j < interface->rod_count; j++)
         pushed += resolve_rod(scheme, j, state, &frictional);
+    viscous += advance_branches(scheme, state);
     ledger->viscous += step * viscous;
     ledger->frictional += step * frictional;
     ledger->rod_work += step * pushed;
@@ -280,7 +335,7 @@ static void advance_once(ExplicitReference *scheme, State *state, EnergyLedger *
     scheme->steps++;
 }
 
-// The largest |M a + C (v + v')/2 + K u_n - f - r_n|.
+// The largest |M a + C (v + v')/2 + K u_n + sum_k K_k e_k,n - f - r_n|.
 static double centred_residual(ExplicitReference *scheme, const State *state)
 {
     const Bulk *bulk = scheme->def.bulk;
@@ -297,6 +352,7 @@ static double centred_residual(ExplicitReference *scheme, const State *state)
     sparse_apply(&bulk->pattern, bulk->stiffness, field, sum);
     for (int32_t k = 0; k < dofs; k++)
         sum[k] += state->inertia[k] + viscous[k] - scheme->factor * bulk->load[k];
+    for (int32_t k = 0; scheme->mesh.pull && k < dofs; k++) sum[k] += scheme->mesh.pull[k];
     for (int32_t k = 0; k < state->interface_count; k++)
         sum[scheme->def.interface->dofs[k]] -= state->reaction[k];
     return dense_max_abs(sum, dofs);

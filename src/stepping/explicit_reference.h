@@ -5,6 +5,9 @@
 //
 //     M (v' - v)/dt = f - K u_n - C v + r_n,   u_n+1 = u_n + dt v',   v, v' at t_n -+ dt/2
 //
+// The materials' branches are stepped by the midpoint rule, e' - e = dt (v' - (e + e')/(2 tau)), and
+// pull with what they are at t_n (fem/spectrum), of order 2.
+//
 // Viscous forces lag half a step: of order 1 in dt C, with twice the stable step that an
 // extrapolation of order 2 would have (stepping/stable_step gives it). Without viscosity and
 // friction the scheme is of order 2. r_n and v' satisfy contact, friction and rod together; M is
@@ -45,6 +48,8 @@ typedef struct ExplicitDef {
 typedef struct ExplicitReference {
     ExplicitDef def;   // its parts are not owned
     ExplicitSweep mesh;   // owned, like the next
+    double *branch_work;   // [2 dof_count] v' and S_j v'; owned
+    double *branch_image;   // [count][dof_count] K_k v' of each branch; owned
     double *bound;   // [interface->count] of the last step, as in contact/contact_problem
     double rod_way;   // R at t_n, of a rod on a spring, length
     double time;   // t_n at the start

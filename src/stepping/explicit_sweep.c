@@ -68,6 +68,7 @@ bool explicit_sweep_create(const Bulk *bulk, double step, ExplicitSweep *sweep, 
     sweep->now = NEW_ARRAY(double, size, err);
     sweep->next = NEW_ARRAY(double, size, err);
     sweep->force = NEW_ARRAY(double, size, err);
+    if (bulk->spectrum.count > 0) sweep->pull = NEW_ARRAY(double, bulk->dof_count, err);
     if (error_is_clean(err)) fill_blocks(sweep);
     return error_is_clean(err);
 }
@@ -75,8 +76,18 @@ bool explicit_sweep_create(const Bulk *bulk, double step, ExplicitSweep *sweep, 
 void explicit_sweep_destroy(ExplicitSweep *sweep)
 {
     memory_free_all(sweep->start, sweep->column, sweep->blocks, sweep->kick, sweep->now,
-                    sweep->next, sweep->force);
+                    sweep->next, sweep->force, sweep->pull);
     *sweep = (ExplicitSweep){0};
+}
+
+// What acts on a node beside K and C, in the place of K u.
+static void begin_forces(ExplicitSweep *sweep)
+{
+    int32_t dim = sweep->bulk->dim;
+    memset(sweep->force, 0, (size_t)explicit_field_size(sweep) * sizeof(double));
+    for (int32_t i = 0; sweep->pull && i < sweep->node_count; i++)
+        for (int32_t d = 0; d < dim; d++)
+            sweep->force[explicit_place(sweep, i) + d] = sweep->pull[node_dof(dim, i, d)];
 }
 
 // In the plane.
@@ -90,7 +101,7 @@ static double sweep_plane(ExplicitSweep *sweep, double factor)
     const int32_t *restrict start = sweep->start, *restrict column = sweep->column;
     double step = sweep->step;
     Pair power = {0, 0};
-    memset(force, 0, (size_t)explicit_field_size(sweep) * sizeof(double));
+    begin_forces(sweep);
     for (int32_t i = 0; i < sweep->node_count; i++) {
         Pair u = now[2 * i], v = now[2 * i + 1];
         const Pair *diagonal = blocks + 4 * (int64_t)start[i];
@@ -138,7 +149,7 @@ FOR_EACH_PROCESSOR static double sweep_space(ExplicitSweep *sweep, double factor
     const int32_t *restrict start = sweep->start, *restrict column = sweep->column;
     double step = sweep->step;
     Lane power = {0};
-    memset(force, 0, (size_t)explicit_field_size(sweep) * sizeof(double));
+    begin_forces(sweep);
     for (int32_t i = 0; i < sweep->node_count; i++) {
         Lane u = now[2 * i], v = now[2 * i + 1];
         const Lane *own = blocks + 6 * (int64_t)start[i];

@@ -19,6 +19,7 @@ typedef struct ExplicitSweep {
     double *now;   // [field_size] u of a node at t_n, then its v at t_n - dt/2
     double *next;   // [field_size] the same a step later
     double *force;   // [field_size] work: K u, C v
+    double *pull;   // [dof_count] forces of the materials' branches at t_n; NULL: there are none
 } ExplicitSweep;
 
 // Numbers that u or v of a node, or a column of a block, take up.

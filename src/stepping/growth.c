@@ -12,9 +12,10 @@
 // tangent: what friction remembers of its slip, a way that fades, dz/dt = v - fading z, so that
 // friction falls by memory z. Its part c of x comes back as (s y - c)/(s + fading), and to the
 // right side is added -memory c/(s (s + fading)); W is W(s). Of several states each has its z, its
-// theta' over a scale of its own; (s - g_theta)^-1 stands for 1/(s + fading). Of each shift's space
-// only pairs whose residual is below RESIDUAL_LIMIT are believed; neighbouring shifts see some of
-// them twice, and keep_rate drops the second.
+// theta' over a scale of its own; (s - g_theta)^-1 stands for 1/(s + fading). The stretches of the
+// materials' branches are the last, e = (s y - c)/(s + 1/tau), and add K_k c/(s (s + 1/tau_k)). Of
+// each shift's space only pairs whose residual is below RESIDUAL_LIMIT are believed; neighbouring
+// shifts see some of them twice, and keep_rate drops the second.
 #include "stepping/growth.h"
 
 #include "algebra/dense.h"
@@ -39,6 +40,7 @@ struct Growth {
     const Interface *interface;
     bool on_spring;   // the rod has a way of its own
     int32_t states;   // of a node, at most
+    const Spectrum *spectrum;   // of the materials' branches; not owned
     int32_t shift_count;
     double shift[GROWTH_SHIFTS_MAX];   // s, 1/time
     double near;   // the one whose space is searched
@@ -48,7 +50,7 @@ struct Growth {
     int32_t *pivots;   // [interface_count]
     double *step;   // [interface_count]
     double *g, *border;   // [interface_count]
-    double *rhs, *image;   // [dof_count]
+    double *rhs, *image, *sum;   // [dof_count]
     double *basis;   // [state_size * (VECTORS_LIMIT + 1)] orthonormal
     double *eigen_work;   // [DENSE_EIGEN_WORK(VECTORS_LIMIT)]
     double *mode_re, *mode_im, *real_mode;   // [interface_count]
@@ -60,7 +62,8 @@ struct Growth {
 static int64_t state_size(const Growth *growth)
 {
     return 2 * (int64_t)growth->system->dof_count + growth->on_spring +
-           (int64_t)growth->states * growth->interface->count;
+           (int64_t)growth->states * growth->interface->count +
+           (int64_t)growth->spectrum->count * growth->system->dof_count;
 }
 
 // From the slowest oscillation of the block, a quarter wave over its length, to about c over the
@@ -82,6 +85,7 @@ static bool allocate(Growth *growth, Error *err)
     growth->border = NEW_ARRAY(double, m, err);
     growth->rhs = NEW_ARRAY(double, n, err);
     growth->image = NEW_ARRAY(double, n, err);
+    growth->sum = NEW_ARRAY(double, n, err);
     growth->basis = NEW_ARRAY(double, state_size(growth) * (VECTORS_LIMIT + 1), err);
     growth->eigen_work = NEW_ARRAY(double, DENSE_EIGEN_WORK(VECTORS_LIMIT), err);
     growth->mode_re = NEW_ARRAY(double, m, err);
@@ -98,6 +102,7 @@ Growth *growth_create(const Block *block, const GrowthDef *def, Error *err)
     if (!growth) goto cleanup;
     growth->system = block->system;
     growth->interface = block->interface;
+    growth->spectrum = bulk_operator_spectrum(block->system);
     growth->on_spring = block->system->machine.stiffness > 0;
     growth->states = friction_states(block->friction, block->interface->contact_count);
     TRY(moving_set_create(block, &growth->moving, err));
@@ -121,7 +126,7 @@ void growth_destroy(Growth *growth)
     for (int32_t k = 0; k < GROWTH_SHIFTS_MAX; k++) interface_operator_destroy(growth->at[k]);
     double *arrays[] = {growth->matrix,  growth->step,    growth->g,        growth->border,
                         growth->rhs,     growth->image,   growth->basis,    growth->eigen_work,
-                        growth->mode_re, growth->mode_im, growth->real_mode};
+                        growth->mode_re, growth->mode_im, growth->real_mode, growth->sum};
     for (size_t k = 0; k < sizeof arrays / sizeof arrays[0]; k++) memory_free(arrays[k]);
     moving_set_destroy(&growth->moving);
     memory_free_all(growth->pivots, growth);
@@ -230,6 +235,42 @@ static void put_memories(const Growth *growth, double s, const double *from, dou
     }
 }
 
+// The stretches of branch k in x: [dof_count], behind all else.
+static double *stretch_of(const Growth *growth, const double *x, int32_t k)
+{
+    return memories_of(growth, x) + (int64_t)growth->states * growth->interface->count +
+           (int64_t)k * growth->system->dof_count;
+}
+
+// Adds to growth->rhs what is stretched in `from`, sum_k K_k c_k/(s (s + 1/tau_k)).
+static void pull_branches(Growth *growth, double s, const double *from)
+{
+    const Spectrum *spectrum = growth->spectrum;
+    int32_t n = growth->system->dof_count;
+    for (int32_t j = 0; j < spectrum->shape_count; j++) {
+        memset(growth->sum, 0, (size_t)n * sizeof *growth->sum);
+        for (int32_t k = 0; k < spectrum->count; k++) {
+            const double *c = stretch_of(growth, from, k);
+            double factor = spectrum->share[k][j] / (s * (s + 1 / spectrum->time[k]));
+            for (int32_t i = 0; i < n; i++) growth->sum[i] += factor * c[i];
+        }
+        bulk_operator_apply(growth->system, BULK_SHAPE + j, growth->sum, growth->image);
+        for (int32_t i = 0; i < n; i++) growth->rhs[i] += growth->image[i];
+    }
+}
+
+// Stretches of `to`, whose velocities stand in it already.
+static void put_branches(const Growth *growth, double s, const double *from, double *to)
+{
+    int32_t n = growth->system->dof_count;
+    for (int32_t k = 0; k < growth->spectrum->count; k++) {
+        const double *c = stretch_of(growth, from, k), *y = to + n;
+        double *e = stretch_of(growth, to, k);
+        for (int32_t i = 0; i < n; i++)
+            e[i] = (s * y[i] - c[i]) / (s + 1 / growth->spectrum->time[k]);
+    }
+}
+
 // to = shifted inverse of from; both [state_size].
 // to and from must be distinct. Held unknowns come out as 0, as they come in: the border is set so.
 static bool apply_inverse(Growth *growth, int32_t k, const double *from, double *to, Error *err)
@@ -242,6 +283,7 @@ static bool apply_inverse(Growth *growth, int32_t k, const double *from, double 
     bulk_operator_apply(system, BULK_MASS, b, growth->rhs);
     bulk_operator_apply(system, BULK_STIFFNESS, a, growth->image);
     for (int32_t j = 0; j < n; j++) growth->rhs[j] = growth->image[j] / square - growth->rhs[j];
+    pull_branches(growth, s, from);
     interface_operator_pull(growth->at[k], system->machine.stiffness * rod / square);
     TRY(interface_operator_condense(growth->at[k], growth->rhs, growth->g, err));
     for (int32_t r = 0; r < growth->moving.count; r++) {
@@ -264,6 +306,7 @@ static bool apply_inverse(Growth *growth, int32_t k, const double *from, double 
         to[n + system->interface_dofs[j]] = growth->border[j];
     for (int32_t j = 0; j < n; j++) to[j] = to[n + j] - a[j] / s;
     if (growth->on_spring) put_rod(growth, own - rod / s, to);
+    put_branches(growth, s, from, to);
 cleanup:
     return error_is_clean(err);
 }

@@ -6,6 +6,7 @@
 //     P(lambda) u = 0,   P = lambda^2 M + lambda (C - W) + K,   row of a slipping tangent:
 //                        P_t + s mu(v) P_n                      (s: direction of slip)
 //
+// and with branches of the materials P has lambda tau_k/(1 + lambda tau_k) K_k more (fem/spectrum).
 // W = diag(-mu'(|v_i|) r_n,i) is the weakening; P_n u is the change of the pressing force at a
 // held normal, so mu P_n couples pressure to slip and makes P unsymmetric. Where friction remembers
 // W depends on lambda: W + memory/(lambda + fading) (stepping/moving_set). Two questions to it:

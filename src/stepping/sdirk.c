@@ -31,6 +31,7 @@ bool sdirk_create(const Block *block, TableauKind kind, DtLevels *dt_levels, Sdi
     scheme->g = NEW_ARRAY(double, interface->count, err);
     scheme->bound = NEW_ARRAY(double, interface->count, err);
     if (!error_is_clean(err) || !friction_states_create(block, &scheme->memory, err)) return false;
+    if (!branches_create(system, scheme->tableau.stages, &scheme->branches, err)) return false;
     return contact_solver_create(interface, &scheme->solver, err);
 }
 
@@ -38,6 +39,7 @@ void sdirk_destroy(Sdirk *scheme)
 {
     contact_solver_destroy(&scheme->solver);
     friction_states_destroy(&scheme->memory);
+    branches_destroy(&scheme->branches);
     memory_free_all(scheme->rhs, scheme->force, scheme->viscous, scheme->predictor, scheme->g,
                     scheme->bound, scheme->stage_velocity, scheme->stage_impulse,
                     scheme->stage_elastic, scheme->stage_reaction);
@@ -85,9 +87,9 @@ static double estimate_error(Sdirk *scheme, const State *from, const State *to, 
     return bulk_operator_size(scheme->system, error);
 }
 
-// Largest |M a + C v + K u - f - r|, C v and K u computed for it. K u stays: what the steps add up
-// of it must not drift.
-static double end_residual(const Sdirk *scheme, State *to)
+// Largest |M a + C v + K u + sum_k K_k e_k - f - r|, but for M a all computed for it. K u stays: what
+// the steps add up of it must not drift.
+static double end_residual(Sdirk *scheme, State *to)
 {
     const BulkOperator *system = scheme->system;
     double *viscous = scheme->viscous, factor = load_factor(scheme->course, to->time);
@@ -95,6 +97,7 @@ static double end_residual(const Sdirk *scheme, State *to)
     bulk_operator_apply(system, BULK_STIFFNESS, to->displacement, to->elastic_force);
     for (int32_t k = 0; k < to->dof_count; k++)
         viscous[k] += to->inertia[k] + to->elastic_force[k] - factor * system->load[k];
+    branches_add_force(&scheme->branches, to, viscous);
     for (int32_t k = 0; k < to->interface_count; k++)
         viscous[system->interface_dofs[k]] -= to->reaction[k];
     return dense_max_abs(viscous, to->dof_count);
@@ -142,6 +145,8 @@ static bool solve_stage(Sdirk *scheme, int32_t k, int32_t i, const State *from, 
     for (int32_t d = 0; d < dofs; d++)
         scheme->rhs[d] = rate * to->inertia[d] + system->load[d] - scheme->force[d];
     if (scheme->course) add_scaled(factor - 1, system->load, dofs, scheme->rhs);
+
+    branches_start_stage(&scheme->branches, tableau, step, i, from, to, scheme->rhs);
 
     // bound = (position to reach - u*)/(gamma dt): the plane for normals, the rod for rod nodes.
     // Those of a rod on a spring are for velocities against it, until they are released below.
@@ -203,11 +208,15 @@ static bool solve_stage(Sdirk *scheme, int32_t k, int32_t i, const State *from, 
         scheme->viscous[d] = scheme->rhs[d] - rate * momentum[d] - scaled * elastic[d];
     for (int32_t c = 0; c < count; c++) scheme->viscous[interface_dofs[c]] += contact.reaction[c];
 
+    double relaxed = branches_end_stage(&scheme->branches, tableau, step, i, velocity, to,
+                                        scheme->viscous);
+
     // Powers. The load's work beyond that of the load as it was goes by stages.
     if (scheme->course)
         outcome->load_work += step * tableau->a[tableau->stages - 1][i] * (factor - 1) *
                               dense_dot(system->load, velocity, dofs);
     outcome->power[i] = energy_stage(interface, velocity, scheme->viscous, dofs, &contact);
+    outcome->power[i].viscous += relaxed;
 
     if (!last) {   // dt M a_i and r_i, for later stages
         for (int32_t d = 0; d < dofs; d++)

@@ -6,6 +6,7 @@
 //                u_i* = u_n + dt sum_j<i a_ij v_j
 //                w_i  = v_n + dt sum_j<i a_ij a_j,              a_j = (v_j - w_j)/(gamma dt)
 //
+// Branches of the materials are eliminated (stepping/branches): A has a part of them, too.
 // Contact, friction and rod hold at each stage, hence at the end of the step, which is the last
 // stage. A rod on a spring has no mass: its way R follows as u does, R' = v_R (reduction/machine).
 // Called by stepping/step_control.
@@ -13,6 +14,7 @@
 #define AMONTONS_STEPPING_SDIRK_H
 
 #include "contact/contact_solver.h"
+#include "stepping/branches.h"
 #include "stepping/energy.h"
 #include "stepping/friction_states.h"
 #include "stepping/half_step.h"
@@ -33,6 +35,7 @@ typedef struct Sdirk {
     bool antisymmetric_acts;   // beside the symmetric part this one is stepped along ...
     ContactMatrix *antisymmetric;   // ... with this matrix; NULL: it is not; not owned
     ContactSolver solver;   // of the whole; its counters are of all; owned, like all that follows
+    Branches branches;   // of the materials; nothing where none has any
     FrictionStates memory;   // of friction; nothing where none remembers
     double *rhs, *force, *viscous;   // [dof_count] work
     double *predictor;   // [dof_count] work: u_i*

@@ -2,6 +2,7 @@
 // A state keeps its products with M and K (momentum, elastic force) beside u and v.
 #include "stepping/state.h"
 
+#include "algebra/dense.h"
 #include "base/memory.h"
 #include "contact/slip.h"
 
@@ -15,7 +16,11 @@ bool state_create(const BulkOperator *system, const Interface *interface, State 
     *state = (State){.dof_count = system->dof_count,
                      .interface_count = interface->count,
                      .contact_count = interface->contact_count,
-                     .rod_count = interface->rod_count};
+                     .rod_count = interface->rod_count,
+                     .branch_count = bulk_operator_spectrum(system)->count};
+    int64_t stretches = (int64_t)state->branch_count * state->dof_count;
+    state->stretch = NEW_ARRAY(double, stretches, err);
+    state->pull = NEW_ARRAY(double, stretches, err);
     state->displacement = NEW_ARRAY(double, state->dof_count, err);
     state->velocity = NEW_ARRAY(double, state->dof_count, err);
     state->elastic_force = NEW_ARRAY(double, state->dof_count, err);
@@ -35,7 +40,7 @@ void state_destroy(State *state)
 {
     memory_free_all(state->displacement, state->velocity, state->elastic_force, state->momentum,
                     state->inertia, state->slip_rate, state->reaction, state->theta, state->status,
-                    state->rod_touches);
+                    state->rod_touches, state->stretch, state->pull);
     *state = (State){0};
 }
 
@@ -43,6 +48,7 @@ void state_destroy(State *state)
 void state_copy(const State *from, State *to)
 {
     size_t bulk_bytes = (size_t)from->dof_count * sizeof(double);
+    size_t branch_bytes = bulk_bytes * (size_t)from->branch_count;
     size_t interface_bytes = (size_t)from->interface_count * sizeof(double);
     to->time = from->time;
     to->rod_way = from->rod_way;
@@ -54,8 +60,20 @@ void state_copy(const State *from, State *to)
     memcpy(to->slip_rate, from->slip_rate, interface_bytes);
     memcpy(to->reaction, from->reaction, interface_bytes);
     memcpy(to->theta, from->theta, (size_t)from->contact_count * STATES_MAX * sizeof(double));
+    memcpy(to->stretch, from->stretch, branch_bytes);
+    memcpy(to->pull, from->pull, branch_bytes);
     memcpy(to->status, from->status, (size_t)from->contact_count);
     memcpy(to->rod_touches, from->rod_touches, (size_t)from->rod_count);
+}
+
+double state_elastic_energy(const State *state)
+{
+    double energy = 0.5 * dense_dot(state->displacement, state->elastic_force, state->dof_count);
+    for (int32_t k = 0; k < state->branch_count; k++) {
+        int64_t at = (int64_t)k * state->dof_count;
+        energy += 0.5 * dense_dot(state->stretch + at, state->pull + at, state->dof_count);
+    }
+    return energy;
 }
 
 void state_friction(const State *state, const Interface *interface, const FrictionNode *node,
@@ -83,6 +101,9 @@ void state_archive(State *state, Archive *archive)
     archive_numbers(archive, state->slip_rate, state->interface_count);
     archive_numbers(archive, state->reaction, state->interface_count);
     archive_numbers(archive, state->theta, (int64_t)state->contact_count * STATES_MAX);
+    int64_t stretches = (int64_t)state->branch_count * state->dof_count;
+    archive_numbers(archive, state->stretch, stretches);
+    archive_numbers(archive, state->pull, stretches);
     archive_octets(archive, state->status, state->contact_count);
     archive_octets(archive, state->rod_touches, state->rod_count);
 }

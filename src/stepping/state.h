@@ -29,6 +29,8 @@ typedef struct State {
     double *velocity;   // v [dof_count]
     double *elastic_force;   // K u [dof_count]
     double *momentum;   // [dof_count] M v
+    int32_t branch_count;   // relaxation times of the materials' branches (fem/spectrum)
+    double *stretch, *pull;   // [branch_count][dof_count] e_k and K_k e_k (stepping/branches)
     double *inertia;   // [dof_count] M a of the last stage
     double *slip_rate;   // [interface_count] v on the interface, exact where it is held
     double *reaction;   // [interface_count] on the block, force/width
@@ -40,6 +42,8 @@ typedef struct State {
 // At rest and undeformed: u = v = 0, every contact node sticking, every rod node apart.
 bool state_create(const BulkOperator *system, const Interface *interface, State *state, Error *err);
 void state_destroy(State *state);
+// The energy of all springs: u'K u/2, and e_k'K_k e_k/2 of each branch.
+double state_elastic_energy(const State *state);
 void state_copy(const State *from, State *to);   // of the same sizes
 
 // mu, g and their derivatives at contact node i, at its pressure.

@@ -125,6 +125,7 @@ bool static_report_write(const char *folder, const Model *model, StaticSolution 
     for (int32_t k = 0; k < model->bulk.dof_count; k++) solution->work[k] = 0;
     TRY(field_files_create(&model->mesh, &model->interface, &files, err));
     files.materials = model->materials.list;
+    files.spectrum = &model->bulk.spectrum;
     TRY(field_files_write_bulk(&files, &state, path, err));
     TRY(write_arrays(folder, model, solution, &files.stress, err));
     TRY(write_json(folder, model, solution, summary, err));

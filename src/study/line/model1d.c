@@ -67,6 +67,11 @@ static bool check_scene(const Scene *scene, Error *err)
         return REFUSE(
             err, "%s: contact.radius, gap, profile: the 1D model's line lies on a flat substrate",
             path);
+    if (scene->material.relaxation.count > 0)
+        return REFUSE(err,
+                      "%s: material.relaxation: the 1D model's line has no branches (`amontons "
+                      "stability` takes them)",
+                      scene->path);
     if (scene->materials.count > 0)
         return REFUSE(err,
                       "%s: materials: the 1D model's line is of one material (`amontons stability` "

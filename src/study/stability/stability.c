@@ -118,7 +118,7 @@ static bool open_path(StabilityPath *path, Error *err)
     const Simulation *before = path->simulation;
     double elements = interface_nodes_along(interface);
     double slip = model_friction_slip(model) * fmin(PATH_SLIP, PATH_ELEMENTS / elements);
-    double step = PATH_STEP_LIMIT * model->scales.time, velocity = slip / step;
+    double step = PATH_STEP_LIMIT * model_settling_time(model), velocity = slip / step;
     StepControlDef def = {.tolerance = INFINITY,
                           .step_max = step,
                           .step_min = 1e-12 * step,

@@ -195,7 +195,7 @@ TEST(test_stress)
             u[2 * i] = at.u[0];
             u[2 * i + 1] = at.u[1];
         }
-        nodal_stress_recover(&material, u, rest, &stress);
+        nodal_stress_recover(&material, u, rest, NULL, NULL, &stress);
         for (int32_t i = 0; i < mesh.node_count; i++) {
             double z = mesh.position[2 * i + 1];
             double exact = -2 * largest * (z - 0.5);

@@ -50,7 +50,7 @@ static double largest_error(const BlockDef *def, const Material *material, bool 
         }
     }
     for (int32_t round = 0; round < 2; round++)   // a second call starts from nothing
-        nodal_stress_recover(material, u, v, &stress);
+        nodal_stress_recover(material, u, v, NULL, NULL, &stress);
     double elastic[STRAINS_MAX][STRAINS_MAX], viscous[STRAINS_MAX][STRAINS_MAX],
         worst = 0, nu = material->poisson;
     moduli_matrix(material_elastic(material), 2, elastic);
@@ -171,7 +171,7 @@ TEST(test_two_materials)
         Field at = linear_field(mesh.position[2 * k], mesh.position[2 * k + 1]);
         memcpy(u + 2 * k, at.u, sizeof at.u);
     }
-    nodal_stress_recover(material, u, u, &stress);
+    nodal_stress_recover(material, u, u, NULL, NULL, &stress);
     for (int32_t e = 0; e < mesh.element_count; e++)
         for (int32_t a = 0; a < 4; a++) {
             int32_t point = nodal_stress_points(&stress, &mesh, e)[a];

@@ -48,6 +48,7 @@ static void start(FieldsDef def)
     Error err = {0};
     assert_true(fields_create(&def, place, &rig.mesh, &rig.interface, &fields, &err));
     fields.files.materials = &material;
+    fields.files.spectrum = &rig.bulk.spectrum;
     fields.friction = &rig.friction;
     fields.events = &events;
 }

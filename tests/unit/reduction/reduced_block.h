@@ -42,6 +42,7 @@ static inline void reduced_block_build_of(const BlockDef *shape, Materials mater
     block_build(shape, &block->mesh);
     mark_layer(&block->mesh, layer, &materials);
     assert_true(bulk_create(&block->mesh, &block->bulk, &err) &&
+                spectrum_find(&materials, 2, &block->bulk.spectrum, &err) &&
                 bulk_assemble(&block->mesh, materials.list, &block->bulk, &err));
     assert_true(mesh_boundary(&block->mesh, "contact", &contact, &err));
     assert_true(mesh_boundary(&block->mesh, "rod", &rod, &err));
@@ -103,7 +104,7 @@ static inline void recover_state(const ReducedBulk *reduced, const double *state
     assert_true(reduced_bulk_recover(reduced, 1, &state, &full, &err));
 }
 
-// S of A = mass M + damping C + stiffness K: on the full mesh, or on a reduced bulk.
+// S of A = mass M + damping C + stiffness K and its branches: on the full mesh, or on a reduced bulk.
 static inline double *full_schur(ReducedBlock *block, OperatorTerms terms)
 {
     Error err = {0};

@@ -100,6 +100,25 @@ TEST(test_error_is_known)
         for (int32_t t = 0; t < 3; t++) check_error(&shapes[s], &MATERIAL, tolerances[t], &random);
 }
 
+// The same with branches: in plane strain shear alone relaxes, by little and by far; in plane stress
+// the plate's areal modulus has times of its own; and a volume that relaxes after shear has.
+TEST(test_error_of_branches)
+{
+    const BlockDef shape = {.kind = ELEMENT_Q4, .nx = 16, .nz = 8, .length = 1, .height = 0.5};
+    Material materials[] = {
+        {.young = 2, .poisson = 0.3, .density = 1, .eta1 = 0.3, .eta2 = 0.3, .plane_strain = true},
+        {.young = 2, .poisson = 0.45, .density = 1, .eta1 = 0.1, .eta2 = 0.2, .plane_strain = true},
+        {.young = 2, .poisson = 0.34, .density = 1, .eta1 = 0.3, .eta2 = 0.3}};
+    Random random = {.state = 31};
+    for (int32_t k = 0; k < 3; k++) {
+        materials[k].branch_count = 3;
+        materials[k].branch[0] = (Branch){.time = 0.02, .shear = k == 1 ? 20 : 1};
+        materials[k].branch[1] = (Branch){.time = 2, .shear = 0.5};
+        materials[k].branch[2] = (Branch){.time = 200, .shear = k, .bulk = k};
+        check_error(&shape, &materials[k], 2e-2, &random);
+    }
+}
+
 // The same where C is nothing like K: almost all in the change of volume, or in shear alone.
 TEST(test_error_of_unlike_damping)
 {

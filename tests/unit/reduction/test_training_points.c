@@ -18,7 +18,8 @@ static TrainingPoints list(const Material *material, double slowest, double elem
                          .mass = 1,
                          .load = 1};
     TrainingPoints training;
-    training_points_list(&materials, &scales, slowest, element, errors, &training);
+    Spectrum none = {0};
+    training_points_list(&materials, &scales, &none, slowest, element, errors, &training);
     return training;
 }
 

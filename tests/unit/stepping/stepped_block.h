@@ -21,6 +21,8 @@ typedef struct SteppedDef {
     FrictionLaw law;
     RodKind rod_kind;
     double rod_velocity;
+    int32_t branch_count;
+    Branch branch[2];   // [branch_count] of the material
 } SteppedDef;
 
 typedef struct SteppedBlock {
@@ -74,7 +76,12 @@ static inline void stepped_block_build(const SteppedDef *def, SteppedBlock *bloc
                              .rod_width = 0.1 * STEPPED_HEIGHT};
     Bulk *bulk = &block->bulk;
     Interface *interface = &block->interface;
+    for (; block->material.branch_count < def->branch_count; block->material.branch_count++)
+        block->material.branch[block->material.branch_count] =
+            def->branch[block->material.branch_count];
+    Materials materials = materials_of(&block->material);
     bool built = bulk_create(&block->mesh, bulk, &err) &&
+                 spectrum_find(&materials, 2, &bulk->spectrum, &err) &&
                  bulk_assemble(&block->mesh, &block->material, bulk, &err) &&
                  mesh_boundary(&block->mesh, "top", &top, &err);
     if (built) bulk_add_traction(&block->mesh, &top, traction, bulk);

@@ -113,9 +113,8 @@ static double smooth_error(SteppedBlock *block, int64_t steps, const double *wan
 }
 
 // From rest, and from the implicit scheme's state on the way.
-static void check_order(double eta, int64_t steps, double order, double error_wanted)
+static void check_order_of(SteppedDef def, int64_t steps, double order, double error_wanted)
 {
-    SteppedDef def = smooth_block(eta);
     SteppedBlock half;
     double wanted[2 * 25], unbalanced[3], errors[3];
     implicit_smooth(&def, &half, wanted);
@@ -136,9 +135,25 @@ static void check_order(double eta, int64_t steps, double order, double error_wa
     stepped_block_destroy(&half);
 }
 
+static void check_order(double eta, int64_t steps, double order, double error_wanted)
+{
+    check_order_of(smooth_block(eta), steps, order, error_wanted);
+}
+
 TEST(test_order_elastic)
 {
     check_order(0, 64, 2, 1e-2);
+}
+
+// Branches of times within, and far longer than, what is run: the scheme keeps its order, and the
+// implicit one, which eliminates them, has the same motion.
+TEST(test_order_of_branches)
+{
+    SteppedDef def = smooth_block(0);
+    def.branch_count = 2;
+    def.branch[0] = (Branch){.time = 0.2, .shear = 0.4, .bulk = 0.3};
+    def.branch[1] = (Branch){.time = 30, .shear = 0.2};
+    check_order_of(def, 96, 2, 1e-2);
 }
 
 // Viscous forces lag: order 1, but with steps this short as good.

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "fem/spectrum.h"
+
+#include <math.h>
+#include <string.h>
+
+// A branch of the block's plane or space: a relaxation time, and the moduli of its spring against
+// shear and against a strain of all axes alike.
+typedef struct PlaneBranch {
+    double time, shear, bulk;
+} PlaneBranch;
+
+// G, or K, of a Prony series as a function of s, s < 0 but none of -1/tau.
+static double relaxed_modulus(const Material *material, double shear, double bulk, double s)
+{
+    double sum = shear * material_shear(material) + bulk * material_bulk(material);
+    for (int32_t k = 0; k < material->branch_count; k++) {
+        const Branch *branch = &material->branch[k];
+        double rate = s * branch->time;
+        sum += (shear * branch->shear + bulk * branch->bulk) * rate / (1 + rate);
+    }
+    return sum;
+}
+
+// In plane stress the plate's thickness follows both moduli: by the correspondence principle the
+// areal modulus is
+//
+//     k(s) = 9 K G/H,   H = 3 K + 4 G,
+//
+// with s for the rate: again a Prony series, with poles at times of branches that resist shear and
+// volume and at the roots of H, of which one lies between any two poles of H and one beyond the
+// last. (1/k is 1/(3 G) + 4/(9 K), and the series of springs and Maxwell solids is one.)
+static int32_t plane_stress_branches(const Material *material, PlaneBranch *made)
+{
+    int32_t count = 0, n = material->branch_count;
+    for (int32_t k = 0; k < n; k++) {
+        const Branch *branch = &material->branch[k];
+        double shear = branch->shear, bulk = branch->bulk;
+        made[count++] = (PlaneBranch){.time = branch->time,
+                                      .shear = shear,
+                                      .bulk = 9 * bulk * shear / (3 * bulk + 4 * shear)};
+    }
+    for (int32_t k = 0; k < n; k++) {   // the root between -1/tau_k and the next pole, or 0
+        double low = -1 / material->branch[k].time, high = 0, slope = 0;
+        for (int32_t j = 0; j < n; j++) {
+            double pole = -1 / material->branch[j].time;
+            if (pole > low) high = fmin(high, pole);
+        }
+        for (;;) {   // H rises from -infinity to infinity, or to its value at 0
+            double middle = 0.5 * (low + high);
+            if (!(low < middle && middle < high)) break;
+            *(relaxed_modulus(material, 4, 3, middle) > 0 ? &high : &low) = middle;
+        }
+        for (int32_t j = 0; j < n; j++) {
+            const Branch *branch = &material->branch[j];
+            double rate = 1 + low * branch->time;
+            slope += (3 * branch->bulk + 4 * branch->shear) * branch->time / (rate * rate);
+        }
+        double residue = 9 * relaxed_modulus(material, 1, 0, low) *
+                         relaxed_modulus(material, 0, 1, low) / (low * slope);
+        made[count++] = (PlaneBranch){.time = -1 / low, .bulk = fmax(residue, 0)};
+    }
+    return count;
+}
+
+// made [2 * BRANCHES_MAX]; returns their number.
+static int32_t plane_branches(const Material *material, int32_t dim, PlaneBranch *made)
+{
+    if (!material->plane_strain) return plane_stress_branches(material, made);
+    for (int32_t k = 0; k < material->branch_count; k++) {
+        const Branch *branch = &material->branch[k];
+        double lambda = branch->bulk - 2 * branch->shear / 3;
+        made[k] = (PlaneBranch){branch->time, branch->shear, lambda + 2 * branch->shear / dim};
+    }
+    return material->branch_count;
+}
+
+// The number of the time in the spectrum, a new one where it is not there; -1: no room.
+static int32_t take_time(double time, Spectrum *spectrum)
+{
+    int32_t k = 0;
+    while (k < spectrum->count && spectrum->time[k] != time) k++;
+    if (k == SPECTRUM_TIMES_MAX) return -1;
+    if (k == spectrum->count) spectrum->time[spectrum->count++] = time;
+    return k;
+}
+
+// One shape where the bulk modulus of each branch is the same part of its shear modulus, else one
+// for shear and one for a strain of all axes alike.
+static bool take_material(const Material *material, int32_t region, int32_t dim, Spectrum *spectrum)
+{
+    static const double ALIKE = 1e-12, NOTHING = 1e-14;   // parts of the sum of all
+    PlaneBranch branch[2 * BRANCHES_MAX];
+    int32_t count = plane_branches(material, dim, branch), first = spectrum->shape_count;
+    double shear = 0, bulk = 0;
+    bool alike = true;
+    for (int32_t k = 0; k < count; k++) shear += branch[k].shear, bulk += branch[k].bulk;
+    for (int32_t k = 0; k < count; k++)
+        alike = alike && fabs(branch[k].bulk * shear - branch[k].shear * bulk) <=
+                             ALIKE * shear * (shear + bulk);
+    alike = alike && shear > 0;
+    double part = alike ? bulk / shear : 0;   // of the first shape's bulk modulus in its shear
+    int32_t shapes = alike || !(bulk > 0) || !(shear > 0) ? 1 : 2;
+    if (shear + bulk == 0) return true;
+    if (first + shapes > SPECTRUM_SHAPES_MAX) return false;
+    spectrum->shape_count += shapes;
+    if (shear > 0) spectrum->shape[first] = (SpectrumShape){region, {2, part - 2.0 / dim}};
+    if (!alike) spectrum->shape[first + shapes - 1] = (SpectrumShape){region, {0, 1}};
+    for (int32_t k = 0; k < count; k++) {
+        if (!(branch[k].shear + branch[k].bulk > NOTHING * (shear + bulk))) continue;
+        int32_t time = take_time(branch[k].time, spectrum);
+        if (time < 0) return false;
+        if (shear > 0) spectrum->share[time][first] += branch[k].shear;
+        if (!alike) spectrum->share[time][first + shapes - 1] += branch[k].bulk;
+    }
+    return true;
+}
+
+bool spectrum_find(const Materials *materials, int32_t dim, Spectrum *spectrum, Error *err)
+{
+    *spectrum = (Spectrum){0};
+    for (int32_t k = 0; k < materials->count; k++) {
+        if (materials->list[k].branch_count == 0 || !materials_use(materials, k)) continue;
+        if (!take_material(&materials->list[k], k, dim, spectrum))
+            return REFUSE(err,
+                          "the branches of all regions together have more than %d different times, "
+                          "or more than %d regions have some; fewer branches or the same times",
+                          SPECTRUM_TIMES_MAX, SPECTRUM_SHAPES_MAX / 2);
+    }
+    return true;
+}
+
+void spectrum_weights(const Spectrum *spectrum, double damping, double stiffness, double *weight)
+{
+    memset(weight, 0, (size_t)spectrum->shape_count * sizeof *weight);
+    for (int32_t k = 0; k < spectrum->count; k++) {
+        double factor = spectrum_factor(spectrum->time[k], damping, stiffness);
+        for (int32_t j = 0; j < spectrum->shape_count; j++)
+            weight[j] += factor * spectrum->share[k][j];
+    }
+}
+
+Spectrum spectrum_scaled(const Spectrum *spectrum, double share, double time)
+{
+    Spectrum made = *spectrum;
+    for (int32_t k = 0; k < made.count; k++) {
+        made.time[k] *= time;
+        for (int32_t j = 0; j < made.shape_count; j++) made.share[k][j] *= share;
+    }
+    return made;
+}
+
+void spectrum_hash(const Spectrum *spectrum, Hash *hash)
+{
+    for (int32_t j = 0; j < spectrum->shape_count; j++) {
+        hash_number(hash, spectrum->shape[j].region);
+        hash_number(hash, spectrum->shape[j].moduli.deviator);
+        hash_number(hash, spectrum->shape[j].moduli.trace);
+    }
+    for (int32_t k = 0; k < spectrum->count; k++) {
+        hash_number(hash, spectrum->time[k]);
+        for (int32_t j = 0; j < spectrum->shape_count; j++)
+            hash_number(hash, spectrum->share[k][j]);
+    }
+}

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "stepping/branches.h"
+
+#include "algebra/dense.h"
+#include "base/memory.h"
+
+#include <string.h>
+
+bool branches_create(const BulkOperator *system, int32_t stages, Branches *branches, Error *err)
+{
+    const Spectrum *spectrum = bulk_operator_spectrum(system);
+    int64_t size = (int64_t)spectrum->count * system->dof_count;
+    *branches = (Branches){.system = system, .spectrum = spectrum};
+    branches->stretch_rate = NEW_ARRAY(double, (stages - 1) * size, err);
+    branches->pull_rate = NEW_ARRAY(double, (stages - 1) * size, err);
+    branches->image = NEW_ARRAY(double, (int64_t)spectrum->shape_count *system->dof_count, err);
+    branches->work = NEW_ARRAY(double, spectrum->count > 0 ? system->dof_count : 0, err);
+    return error_is_clean(err);
+}
+
+void branches_destroy(Branches *branches)
+{
+    memory_free_all(branches->stretch_rate, branches->pull_rate, branches->image, branches->work);
+    *branches = (Branches){0};
+}
+
+// Of branch k in stage i.
+static int64_t rate_at(const Branches *branches, int32_t i, int32_t k)
+{
+    return ((int64_t)i * branches->spectrum->count + k) * branches->system->dof_count;
+}
+
+void branches_start_stage(const Branches *branches, const Tableau *tableau, double step, int32_t i,
+                          const State *from, State *to, double *rhs)
+{
+    int32_t dofs = branches->system->dof_count;
+    for (int32_t k = 0; k < branches->spectrum->count; k++) {
+        int64_t at = (int64_t)k * dofs;
+        double *stretch = to->stretch + at, *pull = to->pull + at;
+        double left = 1 / (1 + tableau->gamma * step / branches->spectrum->time[k]);
+        memcpy(stretch, from->stretch + at, (size_t)dofs * sizeof *stretch);
+        memcpy(pull, from->pull + at, (size_t)dofs * sizeof *pull);
+        for (int32_t j = 0; j < i; j++) {
+            double weight = step * tableau->a[i][j];
+            const double *stretch_rate = branches->stretch_rate + rate_at(branches, j, k);
+            const double *pull_rate = branches->pull_rate + rate_at(branches, j, k);
+            for (int32_t d = 0; d < dofs; d++) stretch[d] += weight * stretch_rate[d];
+            for (int32_t d = 0; d < dofs; d++) pull[d] += weight * pull_rate[d];
+        }
+        for (int32_t d = 0; d < dofs; d++) rhs[d] -= left * pull[d];
+    }
+}
+
+// out := K_k v of the images S_j v.
+static void add_up_images(const Branches *branches, int32_t k, double *out)
+{
+    int32_t dofs = branches->system->dof_count;
+    memset(out, 0, (size_t)dofs * sizeof *out);
+    for (int32_t j = 0; j < branches->spectrum->shape_count; j++) {
+        double share = branches->spectrum->share[k][j];
+        const double *image = branches->image + (int64_t)j * dofs;
+        for (int32_t d = 0; share != 0 && d < dofs; d++) out[d] += share * image[d];
+    }
+}
+
+double branches_end_stage(Branches *branches, const Tableau *tableau, double step, int32_t i,
+                          const double *velocity, State *to, double *force)
+{
+    const BulkOperator *system = branches->system;
+    const Spectrum *spectrum = branches->spectrum;
+    int32_t dofs = system->dof_count;
+    double scaled = tableau->gamma * step, power = 0;
+    bool last = i + 1 == tableau->stages;
+    for (int32_t j = 0; j < spectrum->shape_count; j++)
+        bulk_operator_apply(system, BULK_SHAPE + j, velocity, branches->image + (int64_t)j * dofs);
+    for (int32_t k = 0; k < spectrum->count; k++) {
+        double time = spectrum->time[k], left = 1 / (1 + scaled / time);
+        double *stretch = to->stretch + (int64_t)k * dofs, *pull = to->pull + (int64_t)k * dofs;
+        double *moved = branches->work;
+        add_up_images(branches, k, moved);
+        for (int32_t d = 0; d < dofs; d++) {
+            force[d] -= scaled * left * moved[d];
+            stretch[d] = left * (stretch[d] + scaled * velocity[d]);
+            pull[d] = left * (pull[d] + scaled * moved[d]);
+        }
+        power += dense_dot(stretch, pull, dofs) / time;
+        if (last) continue;
+        double *stretch_rate = branches->stretch_rate + rate_at(branches, i, k);
+        double *pull_rate = branches->pull_rate + rate_at(branches, i, k);
+        for (int32_t d = 0; d < dofs; d++) {
+            stretch_rate[d] = velocity[d] - stretch[d] / time;
+            pull_rate[d] = moved[d] - pull[d] / time;
+        }
+    }
+    return power;
+}
+
+void branches_add_force(Branches *branches, const State *state, double *force)
+{
+    const Spectrum *spectrum = branches->spectrum;
+    int32_t dofs = branches->system->dof_count;
+    for (int32_t j = 0; j < spectrum->shape_count; j++) {
+        double *sum = branches->work;
+        memset(sum, 0, (size_t)dofs * sizeof *sum);
+        for (int32_t k = 0; k < spectrum->count; k++)
+            for (int32_t d = 0; d < dofs; d++)
+                sum[d] += spectrum->share[k][j] * state->stretch[(int64_t)k * dofs + d];
+        bulk_operator_apply(branches->system, BULK_SHAPE + j, sum, branches->image);
+        for (int32_t d = 0; d < dofs; d++) force[d] += branches->image[d];
+    }
+}

@@ -1,0 +1,247 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Branches of a generalised Maxwell solid: creep and a driven block in closed form, in plane stress and plane strain and
+in space; the reduced block steps as the full one, also of two regions, and its basis serves other loads; explicit steps
+have the same history; stresses in fields balance the load; a run that was cut off goes on to the same bits; what is wrong
+is told with its place."""
+import json
+import os
+import re
+import subprocess
+import unittest
+from pathlib import Path
+
+import h5py
+import numpy
+
+from cache_fixture import OwnCache
+from vtkmodules.util.numpy_support import vtk_to_numpy              # noqa: E402
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader        # noqa: E402
+
+SOURCE = Path(os.environ["AMONTONS_SOURCE"])
+PROGRAM = Path(os.environ["AMONTONS_BIN"], "amontons")
+YOUNG, POISSON, ETA, PRESSURE = 1.0, 0.34, 0.2, 0.003
+BRANCHES = [(0.5, 0.4, 0.3), (3.0, 0.3, 0.0)]   # time, G, K
+LIST = "[" + ", ".join(f"{{time: {t}, shear: {g}, bulk: {k}}}" for t, g, k in BRANCHES) + "]"
+FREE = f"""units: normalised
+mesh: {{file: {SOURCE}/meshes/block.geo, set: {{length: 1, height: 0.5, nx: 3, nz: 2}}}}
+material: {{young: {YOUNG}, poisson: {POISSON}, density: 1e-9, eta1: {ETA}, eta2: {ETA}, relaxation: {LIST}}}
+friction: {{law: coulomb, mu_static: 0}}
+load: {{pressure: {PRESSURE}, supports: [{{group: rod, direction: x}}]}}
+rod: {{kind: none}}
+time: {{until: {{t: 4}}, step_max: 0.01, step_min: 0.01, tolerance: 1, energy_tolerance: 1}}
+"""
+BLOCK = f"""units: normalised
+mesh: {{file: {SOURCE}/meshes/block.geo, set: {{length: 1, height: 0.5, nx: 20, nz: 10}}}}
+material: {{poisson: 0.34, relaxation: [{{time: 0.5, shear: 0.2, bulk: 0.1}}, {{time: 40, shear: 0.15}}]}}
+friction: {{mu_static: 0.38, mu_kinetic: 0.1, critical_velocity: 3.4e-4}}
+load: {{pressure: 0.003}}
+rod: {{velocity: 1e-5}}
+time: {{until: {{U: 0.003}}}}
+"""
+PADS = f"""units: normalised
+mesh: {{file: {SOURCE}/meshes/layers.geo, set: {{nx: 12, nz: 4, nz_layer: 3}}}}
+material: {{poisson: 0.34}}
+materials:
+  layer: {{young_short: 0.4, poisson: 0.42, eta1: 0.1, eta2: 0.3, relaxation: [{{time: 2, shear: 0.05}}, {{time: 60, shear: 0.05}}]}}
+friction: {{mu_static: 0.38, mu_kinetic: 0.1, critical_velocity: 3.4e-4}}
+load: {{pressure: 0.003}}
+rod: {{velocity: 2e-5}}
+time: {{until: {{U: 0.004}}}}
+"""
+
+
+def moduli(s, plane):
+    """Stress over strain at the rate s, of zz - xx and of zz + xx: 2 G and 2 k."""
+    shear, bulk = YOUNG / (2 * (1 + POISSON)), YOUNG / (3 * (1 - 2 * POISSON))
+    for time, g, k in BRANCHES:
+        shear, bulk = shear + g * s * time / (1 + s * time), bulk + k * s * time / (1 + s * time)
+    areal = 9 * bulk * shear / (3 * bulk + 4 * shear) if plane == "stress" else bulk + shear / 3
+    return 2 * shear + s * ETA, 2 * areal + s * (ETA + 2 * ETA)
+
+
+def step_response(t, modulus):
+    """Of 1/s over the modulus, by Talbot's contour (Abate and Valko 2004)."""
+    count = 40
+    angle = (numpy.arange(1, count) * numpy.pi / count)[:, None]
+    cot = numpy.cos(angle) / numpy.sin(angle)
+    s = 2 * count / (5 * t) * angle * (cot + 1j)
+    weight = 1 + 1j * (angle + (angle * cot - 1) * cot)
+    first = numpy.exp(2 * count / 5) / 2 / (2 * count / (5 * t)) / modulus(2 * count / (5 * t) + 0j)
+    rest = numpy.exp(s * t) * weight / s / modulus(s)
+    return (2 / (5 * t) * (first + rest.sum(axis=0))).real
+
+
+def read_vtu(path):
+    reader = vtkXMLUnstructuredGridReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    grid, data = reader.GetOutput(), reader.GetOutput().GetPointData()
+    return (vtk_to_numpy(grid.GetPoints().GetData()).astype(float),
+            {data.GetArrayName(k): vtk_to_numpy(data.GetArray(k)).astype(float)
+             for k in range(data.GetNumberOfArrays())})
+
+
+class Relaxation(OwnCache):
+    def call(self, scene, command, *settings, status=0, flags=()):
+        path = self.folder / "scene.yaml"
+        path.write_text(scene)
+        words = [word for setting in settings for word in ("--set", setting)]
+        done = subprocess.run([PROGRAM, command, path, *words, *flags], capture_output=True, text=True, cwd=self.folder,
+                              env=self.environment)
+        self.assertEqual(done.returncode, status, done.stderr)
+        return done.stdout + done.stderr
+
+    def run_scene(self, scene, name, *settings, flags=()):
+        """(run.json, arrays of the history)"""
+        folder, arrays = self.folder / name, {}
+        self.call(scene, "run", *settings, flags=("-q", "-o", folder, *flags))
+        if (folder / "history.h5").exists():
+            with h5py.File(folder / "history.h5") as file:
+                file.visititems(lambda key, item: arrays.update({key: item[()]}) if hasattr(item, "shape") else None)
+        return json.loads((folder / "run.json").read_text()), arrays
+
+    def frames(self, name, first=0):
+        """Times, eps_zz and eps_xx of a block that is strained evenly, and stresses, from frame `first` on."""
+        listed = re.findall(r'timestep="([^"]+)".*?file="(fields/bulk[^"]+)"', (self.folder / name / "fields.pvd").read_text())
+        made = []
+        for t, file in listed[first:]:
+            points, arrays = read_vtu(self.folder / name / file)
+            u, (x, z, _) = arrays["displacement"], points.argmax(axis=0)
+            made.append((float(t), u[z, 1] / points[z, 1], u[x, 0] / points[x, 0], arrays["stress"]))
+        return made
+
+    def test_creep(self):
+        """A pressure put on at once: strains of the whole block, and stresses that balance it at every time."""
+        for plane in ("stress", "strain"):
+            self.run_scene(FREE, plane, f"material.plane={plane}", "start.state=undeformed",
+                           "output.fields={every_t: 0.5}")
+            seen = self.frames(plane, 1)
+            self.assertGreater(len(seen), 6)
+            for t, zz, xx, stress in seen:
+                shear, areal = (step_response(t, lambda s, k=k: moduli(s, plane)[k])[0] for k in (0, 1))
+                exact = -PRESSURE * numpy.array([areal + shear, areal - shear]) / 2
+                numpy.testing.assert_allclose([zz, xx], exact, atol=1e-4 * PRESSURE)
+                numpy.testing.assert_allclose(stress, numpy.tile([0, -PRESSURE, 0], (len(stress), 1)), atol=1e-5 * PRESSURE)
+
+    def test_driven(self):
+        """Storage and loss modulus of shear and area read back from a load that swings, far from its start."""
+        period, swing, points = 6.0, 0.4, 63
+        at = numpy.arange(points + 1)
+        t = ", ".join(f"{x:.12g}" for x in at * period / points)
+        factor = ", ".join(f"{x:.12g}" for x in 1 + swing * numpy.sin(2 * numpy.pi * at / points))
+        folder = "driven"
+        self.run_scene(FREE, folder, f"load.program={{t: [{t}], factor: [{factor}], repeat: true}}",
+                       f"time.until.t={14 * period}", f"time.step_max={period / 1000}", f"time.step_min={period / 1000}",
+                       f"output.fields={{every_t: {period / 20}}}")
+        seen = numpy.array([frame[:3] for frame in self.frames(folder, 12 * 20)])
+        swings = numpy.exp(2j * numpy.pi * seen[:, 0] / period)
+        basis = numpy.column_stack([numpy.ones(len(seen)), swings.real, swings.imag])
+        fitted = numpy.linalg.lstsq(basis, seen[:, 1:], rcond=None)[0]
+        zz, xx = fitted[1] - 1j * fitted[2]
+        load = -PRESSURE * swing * -1j * numpy.sinc(1 / points)**2   # of the polygon that the program is
+        shear, areal = load / (zz - xx), load / (zz + xx)
+        for measured, exact in zip((shear, areal), moduli(2j * numpy.pi / period, "stress")):
+            self.assertLess(abs(measured.real / exact.real - 1), 1e-4)
+            self.assertLess(abs(measured.imag / exact.imag - 1), 1e-4)
+
+    def test_reduced(self):
+        """Both ways of stepping, of one material and of two, before slip has taken branches of its own."""
+        for name, scene in (("block", BLOCK), ("pads", PADS)):
+            full, whole = self.run_scene(scene, name + "-full", "reduction.use=never")
+            made, small = self.run_scene(scene, name + "-made", "reduction.use=always")
+            self.assertLess(made["model"]["reduced_dofs"], full["model"]["full_dofs"])
+            self.assertLess(max(made["errors"]["energy"], full["errors"]["energy"]), 1e-3)
+            at = numpy.linspace(0, 0.3, 50) * whole["series/rod_displacement"][-1]
+            left, right = (numpy.interp(at, x["series/rod_displacement"], x["series/mu"]) for x in (whole, small))
+            self.assertLess(numpy.abs(left - right).max(), 2e-3)
+            self.assertLess(abs(made["results"]["mu_max"] / full["results"]["mu_max"] - 1), 2e-2)
+
+    def test_cached(self):
+        """The basis serves other loads and velocities, and not another branch."""
+        first, _ = self.run_scene(BLOCK, "first", "time.until.U=1e-4")
+        other, _ = self.run_scene(BLOCK, "other", "time.until.U=1e-4", "load.pressure=0.004", "rod.velocity=2e-5")
+        again, _ = self.run_scene(BLOCK, "again", "time.until.U=1e-4", "material.relaxation=[{time: 1, shear: 0.2}]")
+        self.assertTrue(other["model"]["from_cache"])
+        self.assertFalse(again["model"]["from_cache"])
+
+    def test_explicit(self):
+        """Explicit steps of the same branches on the same mesh."""
+        here = ["reduction.use=never", "mesh.set.nx=8", "mesh.set.nz=4", "time.until.U=8e-4", "rod.velocity=1e-4",
+                "friction.critical_velocity=3e-3", "time.accuracy=fine"]
+        _, implicit = self.run_scene(BLOCK, "implicit", *here)
+        made, explicit = self.run_scene(BLOCK, "explicit", *here, "time.scheme=explicit")
+        at = numpy.linspace(0, 8e-4, 40)
+        left, right = (numpy.interp(at, x["series/rod_displacement"], x["series/mu"]) for x in (implicit, explicit))
+        self.assertGreater(left.max(), 0.05)
+        self.assertLess(numpy.abs(left - right).max(), 2e-3 * left.max())
+
+    def test_space(self):
+        """In space the same block, held across, is the one in plane strain."""
+        scene = BLOCK.replace("block.geo, set: {length: 1, height: 0.5, nx: 20, nz: 10}",
+                              "block3d.geo, set: {length: 1, height: 0.5, breadth: 0.1, nx: 8, ny: 1, nz: 4}")
+        plane = BLOCK.replace("nx: 20, nz: 10", "nx: 8, nz: 4")
+        here = ["time.until.U=5e-4"]
+        _, wide = self.run_scene(plane, "plane", *here, "material.plane=strain")
+        _, space = self.run_scene(scene, "space", *here, "load.supports=[{group: left, direction: y}, "
+                                                         "{group: right, direction: y}]")
+        at = numpy.linspace(0, 5e-4, 40)
+        left, right = (numpy.interp(at, x["series/rod_displacement"], x["series/mu"]) for x in (wide, space))
+        self.assertLess(numpy.abs(left - right).max(), 2e-3 * left.max())
+
+    def test_stability(self):
+        """Branches that are so fast that they are viscosity move l_c as that viscosity does."""
+        fast = "material.relaxation=[{time: 0.01, shear: 25, bulk: 66.6666666667}]"
+        like = ["material.relaxation=[]", "material.eta1=1.5", "material.eta2=1.5"]
+        made = []
+        for settings in ([fast], like):
+            self.call(BLOCK, "stability", *settings, "material.plane=strain",
+                      flags=("-q", "--from", "start", "--overwrite", "-o", self.folder / "stability"))
+            made.append(json.loads((self.folder / "stability" / "stability.json").read_text()))
+            (self.folder / "stability" / "stability.json").unlink()
+        for key in ("l_sc_over_L", "l_c_over_L"):
+            self.assertLess(abs(made[0]["results"][key] - made[1]["results"][key]), 1e-2)
+
+    def test_resume(self):
+        """A run that is extended goes on with the stretches of its branches."""
+        _, once = self.run_scene(BLOCK, "once", "time.until.U=6e-4")
+        self.run_scene(BLOCK, "twice", "time.until.U=3e-4")
+        made, twice = self.run_scene(BLOCK, "twice", "time.until.U=3e-4", flags=("--extend", "U=6e-4"))
+        self.assertLess(made["errors"]["energy"], 1e-3)
+        at = numpy.linspace(3e-4, 6e-4, 30)
+        left, right = (numpy.interp(at, x["series/rod_displacement"], x["series/mu"]) for x in (once, twice))
+        self.assertLess(numpy.abs(left - right).max(), 2e-3 * left.max())
+
+    def test_refused(self):
+        for setting, words in (
+                ("material.relaxation=[{shear: 1}]", "a branch needs its `time`"),
+                ("material.relaxation=[{time: 1}]", "needs `shear` or `bulk` above 0"),
+                ("material.relaxation=[{time: 1, shear: 1}, {time: 1, bulk: 1}]", "stands twice"),
+                ("material.relaxation=[{time: 1, prony: 1}]", "unknown key `prony`; allowed: time, shear, bulk"),
+                ("material.relaxation=[{time: -1, shear: 1}]", "a number > 0"),
+                ("material.relaxation=3", "a list of at most 20 maps"),
+                ("material.poisson=0.5", "branches need less than 0.5"),
+                ("material.young_short=0.5", "leaves a shear modulus")):
+            said = self.call(BLOCK, "run", setting, status=2, flags=("--dry-run",))
+            self.assertIn(words, said)
+        said = self.call(BLOCK, "run", "material.young=1", "material.young_short=3", status=2, flags=("--dry-run",))
+        self.assertIn("are both given", said)
+        said = self.call(PADS, "run", "materials.layer.young=3", status=2, flags=("--dry-run",))
+        self.assertIn("are both given", said)
+
+    def test_said(self):
+        """The short-time modulus says the same as the long-time one that follows; no viscosity is warned of."""
+        shear, bulk = 1 / 2.68 + 0.35, 1 / 0.96 + 0.1
+        young, poisson = 9 * bulk * shear / (3 * bulk + shear), (3 * bulk - 2 * shear) / (6 * bulk + 2 * shear)
+        _, left = self.run_scene(BLOCK, "long", "time.until.U=1e-4")
+        made, right = self.run_scene(BLOCK, "short", "time.until.U=1e-4", f"material.young_short={young:.17g}",
+                                     f"material.poisson={poisson:.17g}")
+        self.assertNotIn("young", made["scene"]["material"])
+        numpy.testing.assert_allclose(left["series/mu"][-1], right["series/mu"][-1], rtol=1e-9)
+        self.call(json.dumps(made["scene"]), "run", flags=("--dry-run",))
+        said = self.call(BLOCK, "run", "material.eta1=0", "material.eta2=0", "time.until.U=1e-6",
+                         flags=("-o", self.folder / "elastic"))
+        self.assertIn("give eta1 beside them", said)
+
+
+if __name__ == "__main__":
+    unittest.main()
