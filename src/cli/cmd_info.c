@@ -22,7 +22,7 @@ int command_info(const Command *command, int argc, char **argv)
          .words = &settings},
         {"picture", 0, "FILE.png",
          "Draw the mesh, and for a scene where the rod is; friction.png: mu of the scene over slip "
-         "rate, with its data. Also .pdf, .svg",
+         "rate, material.png: its moduli over frequency, with their data. Also .pdf, .svg",
          .word = &picture},
         option_overwrite(&overwrite),
         option_trust(&trust),

@@ -12,25 +12,6 @@ static const char *const SPEEDS[] = {"v", "V", "velocity", "speed", "slip_rate",
 static const char *const COEFFICIENTS[] = {"mu",       "\xCE\xBC", "\xC2\xB5", "cof", "COF",
                                            "friction", "F_T/F_N",  "F_t/F_n",  NULL};
 
-// The one column of these names; -1: there is none.
-static bool find_column(const CsvTable *csv, const char *const *names, int32_t *column,
-                        CsvUnit *unit, Error *err)
-{
-    *column = -1;
-    for (; *names; names++) {
-        CsvUnit found;
-        int32_t k = -1;
-        if (!csv_find(csv, *names, &k, &found, err)) return false;
-        if (k < 0) continue;
-        if (*column >= 0)
-            return csv_refuse(csv, -1, k, err, "is the same as column %d, %.40s", *column + 1,
-                              csv_name(csv, *column));
-        *column = k;
-        *unit = found;
-    }
-    return true;
-}
-
 // Columns of v, mu and its error, and what a 1 in each stands for in the scene's units.
 static bool find_columns(const CsvTable *csv, SceneUnits units, int32_t column[3], double factor[3],
                          Error *err)
@@ -43,8 +24,8 @@ static bool find_columns(const CsvTable *csv, SceneUnits units, int32_t column[3
         return REFUSE(err, "%s:%d: %d columns without names; %s", csv->path, csv->line[1],
                       csv->columns, WANTED);
     if (!csv->named) return true;
-    if (!find_column(csv, SPEEDS, &column[0], &unit[0], err) ||
-        !find_column(csv, COEFFICIENTS, &column[1], &unit[1], err))
+    if (!csv_find_any(csv, SPEEDS, &column[0], &unit[0], err) ||
+        !csv_find_any(csv, COEFFICIENTS, &column[1], &unit[1], err))
         return false;
     if (column[0] < 0 || column[1] < 0)
         return REFUSE(err, "%s:%d: there is no column of the %s; %s", csv->path, csv->line[0],

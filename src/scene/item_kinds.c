@@ -65,11 +65,15 @@ const SceneItems scene_state_items = {
     .parts = STATE};
 
 #define NUMBER(word, k) GIVEN(SceneMaterial, word, number[k], given[k])
-static const ScenePart MATERIAL[] = {
-    NUMBER("young", MATERIAL_YOUNG),     NUMBER("poisson", MATERIAL_POISSON),
-    NUMBER("density", MATERIAL_DENSITY), NUMBER("eta1", MATERIAL_ETA1),
-    NUMBER("eta2", MATERIAL_ETA2),       NUMBER("young_short", MATERIAL_YOUNG_SHORT),
-    GIVEN(SceneMaterial, "relaxation", relaxation, has_relaxation), {0}};
+static const ScenePart MATERIAL[] = {NUMBER("young", MATERIAL_YOUNG),
+                                     NUMBER("poisson", MATERIAL_POISSON),
+                                     NUMBER("density", MATERIAL_DENSITY),
+                                     NUMBER("eta1", MATERIAL_ETA1),
+                                     NUMBER("eta2", MATERIAL_ETA2),
+                                     NUMBER("young_short", MATERIAL_YOUNG_SHORT),
+                                     GIVEN(SceneMaterial, "relaxation", relaxation, has_relaxation),
+                                     GIVEN(SceneMaterial, "from", from, has_from),
+                                     {0}};
 const SceneItems scene_material_items = {
     ITEMS(group, materials.count, materials.region),
     .named = true,

@@ -90,13 +90,31 @@ static const SceneKey keys[] = {
            "Viscosity of the volume rate: stress eta2 tr(eps') I.", .given_in_si = true),
     KEY("material.relaxation", KEY_BRANCHES, material.relaxation, "1", RANGE_ANY, NULL,
         "Branches of a generalised Maxwell solid (a Prony series) beside all else, each a spring "
-        "of shear modulus `shear` and bulk modulus `bulk` (0 if not given) that relaxes in `time`."),
+        "of shear modulus `shear` and bulk modulus `bulk` (0 if not given) that relaxes in "
+        "`time`."),
+    WORDS(KEY_TEXT, material.from, NULL,
+          "In the place of young, eta1, eta2 and relaxation: a table of storage and loss modulus "
+          "over "
+          "frequency (f, E', E''), or of a relaxation curve (t, E), to which they are fitted; "
+          "relative to the scene's folder. eta1 and eta2 may be given beside it."),
+    KEY("material.wlf", KEY_NUMBERS, material.wlf, "1", RANGE_ANY, NULL,
+        "Shifts such tables: [c1, c2, T_ref, T] of Williams, Landel and Ferry, T that of the "
+        "block, "
+        "in degrees Celsius; data are at T_ref, or at that of their column T."),
+    NUMBER(material.shift, "1", RANGE_POSITIVE, "1",
+           "Relaxation in the block takes so many times as long as in such tables."),
+    CHOICE(
+        material.bulk, "elastic",
+        "What such tables mean for volume: it is `elastic` and shape alone relaxes (rubber), or it "
+        "`relaxes` alike.",
+        "elastic", "relaxes"),
     CHOICE(material.plane, "stress",
            "Plane stress (a thin plate) or plane strain (a wide block); in space neither.",
            "stress", "strain"),
     KEY("materials", KEY_ITEMS, materials.count, "1", RANGE_ANY, NULL,
         "Materials of regions, by the names of physical surfaces (volumes): those of young, "
-        "young_short, poisson, density, eta1, eta2, relaxation that differ there from `material`.",
+        "young_short, poisson, density, eta1, eta2, relaxation, from that differ there from "
+        "`material`.",
         .items = &scene_material_items),
     KEY("friction.law", KEY_CHOICE, friction.kind, "1", RANGE_ANY, "linear-weakening",
         "How the local coefficient changes with slip rate; `table`, `formula` and `plugin` are "

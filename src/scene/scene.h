@@ -15,6 +15,7 @@ enum { SCENE_KEYS_MAX = 144 };   // of scene/keys
 
 typedef enum SceneUnits { UNITS_NORMALISED, UNITS_SI } SceneUnits;
 typedef enum ScenePlane { PLANE_STRESS, PLANE_STRAIN } ScenePlane;
+typedef enum SceneBulk { BULK_ELASTIC, BULK_RELAXES } SceneBulk;
 typedef enum SceneRodEnds { ROD_ENDS_EXACT, ROD_ENDS_NODES } SceneRodEnds;
 typedef enum SceneRodKind { ROD_PUSH, ROD_BONDED, ROD_NONE } SceneRodKind;
 typedef enum SceneStartFriction { START_FRICTION_OFF, START_FRICTION_ON } SceneStartFriction;
@@ -66,6 +67,10 @@ typedef struct Scene {
     struct {
         double young, poisson, density, eta1, eta2, young_short;
         SceneRelaxation relaxation;
+        char from[SCENE_TEXT_SIZE];   // measured moduli, as in SceneMaterial
+        SceneNumbers wlf;   // c1, c2, T_ref, T: of all files
+        double shift;   // of their times, 1
+        SceneBulk bulk;   // whether it relaxes in what files give
         ScenePlane plane;
     } material;
     SceneMaterials materials;   // of single regions

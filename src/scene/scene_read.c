@@ -17,6 +17,7 @@
 #include "scene/friction_law.h"
 #include "scene/items.h"
 #include "scene/keys.h"
+#include "scene/material_file.h"
 #include "scene/profile.h"
 #include "scene/value.h"
 
@@ -305,6 +306,7 @@ static bool find_number(const void *context, const char *name, double *value)
     for (int32_t k = 0; k < numbers->reader->formula_count; k++)
         if (numbers->waiting[k] && strcmp(numbers->reader->formulas[k].name, name) == 0)
             return false;
+    if (*numbers->scene->material.from && strcmp(name, "material.young") == 0) return false;
     return scene_number(numbers->scene, name, value);
 }
 
@@ -447,6 +449,12 @@ static bool finish_reading(Reader *reader, const char *path, Scene *scene, Error
     const char *word;
     SceneProfile profile;   // read again when the contact is known
     bool done;
+    if (!resolve_file(path, "material.from", scene->material.from, err)) return false;
+    for (int32_t k = 0; k < scene->materials.count; k++)
+        if (scene->materials.region[k].has_from &&
+            !resolve_file(path, "materials", scene->materials.region[k].from, err))
+            return false;
+    if (!scene_material_files(scene, err)) return false;
     if (!scene_check(scene, reader->sources, reader->file, err)) return false;
     if (!friction_has_drop(&scene->friction))
         scene->friction.mu_kinetic = scene->friction.mu_static;

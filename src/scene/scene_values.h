@@ -80,8 +80,10 @@ typedef struct SceneMaterial {
     char group[GROUP_NAME_SIZE];   // a physical surface
     bool given[SCENE_MATERIAL_NUMBERS];
     double number[SCENE_MATERIAL_NUMBERS];   // where given
-    bool has_relaxation;
+    bool has_relaxation, has_from;
     SceneRelaxation relaxation;   // where given
+    char from[SCENE_TEXT_SIZE];   // measured moduli, resolved like mesh.file; has_from: given, and
+        // not yet made into numbers (scene/material_file)
 } SceneMaterial;
 
 typedef struct SceneMaterials {

@@ -41,9 +41,9 @@ static bool ends_line(char c)
 // Where the cell that begins at `at` ends. Blanks before a bracket separate nothing: x [mm].
 static const char *cell_end(const char *at, char separator)
 {
-    bool quoted = false;
+    bool quoted = false, has_quotes = at[strspn(at, BLANKS)] == '"';   // else E" is a name
     for (; *at && (quoted || !ends_line(*at)); at++) {
-        if (*at == '"') quoted = !quoted;
+        if (*at == '"' && has_quotes) quoted = !quoted;
         if (quoted || (separator == ' ' ? !strchr(BLANKS, *at) : *at != separator)) continue;
         if (separator != ' ') break;
         const char *next = at + strspn(at, BLANKS);
@@ -544,6 +544,25 @@ bool csv_find(const CsvTable *table, const char *name, int32_t *column, CsvUnit 
                               name, *column + 1, csv_name(table, *column));
         *column = k;
         *unit = behind;
+    }
+    return true;
+}
+
+bool csv_find_any(const CsvTable *table, const char *const *names, int32_t *column, CsvUnit *unit,
+                  Error *err)
+{
+    *column = -1;
+    *unit = (CsvUnit){"", 0};
+    for (; *names; names++) {
+        CsvUnit found;
+        int32_t k = -1;
+        if (!csv_find(table, *names, &k, &found, err)) return false;
+        if (k < 0) continue;
+        if (*column >= 0)
+            return csv_refuse(table, -1, k, err, "is the same as column %d, %.40s", *column + 1,
+                              csv_name(table, *column));
+        *column = k;
+        *unit = found;
     }
     return true;
 }

@@ -60,6 +60,9 @@ enum { CSV_UNIT_SIZE = 40 };
 
 // *column: the one called `name`, alone or with a unit behind it; -1: none. ERROR_INPUT: two are.
 bool csv_find(const CsvTable *table, const char *name, int32_t *column, CsvUnit *unit, Error *err);
+// The same of a quantity that people call by one of these names, of which the last is NULL.
+bool csv_find_any(const CsvTable *table, const char *const *names, int32_t *column, CsvUnit *unit,
+                  Error *err);
 CsvUnit csv_unit_of_row(const CsvTable *table, int32_t column);   // length 0: there is none
 // Whether what stands behind a name, `rest`, is a unit, and which.
 bool csv_take_unit(const char *rest, CsvUnit *unit);

@@ -64,9 +64,12 @@ static bool info_scene(const char *path, const InfoOptions *options, FILE *out, 
                 scene->friction.mu_static, scene->friction.mu_kinetic,
                 scene->friction.critical_velocity);
     if (scene->friction.kind == FRICTION_TABLE) write_rest(scene, out);
+    TRY(info_write_material(scene, out, err));
     fprintf(out, "\nThe mesh file is %s\n", scene->mesh.file);
     if (options->picture && info_picture_is_of(options->picture, "friction"))
         TRY(info_draw_friction(scene, options, err));
+    else if (options->picture && info_picture_is_of(options->picture, "material"))
+        TRY(info_draw_material(scene, options, err));
     else if (options->picture)
         TRY(info_scene_mesh(scene, options, out, err));
 cleanup:
