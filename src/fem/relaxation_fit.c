@@ -9,6 +9,7 @@
 static const double ROUNDING = 1e-12;   // of a gradient, over the largest that there was
 static const double DEPENDENT = 1e-10;   // of a column, what others leave of it
 enum { TIMES_MAX = 100 };
+static const double BEYOND = 3;   // times beyond those of the data, which still shape their ends
 static const double MISFIT_ALLOWED = 0.005;   // above the least: less than what such data know
 
 // --- least squares that are not negative ---------------------------------------------------------
@@ -224,8 +225,8 @@ bool relaxation_fit(const RelaxationData *data, bool has_viscosity, RelaxationFi
     TRY(A = NEW_ARRAY(double, 2 * (int64_t)data->count * COLUMNS_MAX, err));
     TRY(b = NEW_ARRAY(double, 2 * (int64_t)data->count, err));
     for (int32_t n = 0; n < TRIALS; n++) {
-        TRY(fit_terms(data, has_viscosity && !data->over_time, offered[n], least, most, A, b,
-                      &tried[n], err));
+        TRY(fit_terms(data, has_viscosity && !data->over_time, offered[n], least / BEYOND,
+                      most * BEYOND, A, b, &tried[n], err));
         if (tried[n].count <= RELAXATION_TERMS_MAX) misfit = fmin(misfit, tried[n].misfit);
     }
     *fit = (RelaxationFit){.count = RELAXATION_TERMS_MAX + 1};

@@ -195,9 +195,31 @@ void material_fit_at(const MaterialFit *fit, const MaterialData *data, double at
     value[1] = cimag(modulus);
 }
 
-bool material_fit(const MaterialData *data, double poisson, bool bulk_relaxes, bool has_viscosity,
+double material_fit_viscosity(const MaterialFit *fit, const MaterialData *data)
+{
+    double fastest = 0, storage, loss;
+    if (data->data.over_time) return 0;
+    for (int32_t i = 0; i < data->data.count; i++) fastest = fmax(fastest, data->data.at[i]);
+    relaxation_moduli(&fit->shear, fastest, &storage, &loss);
+    return 2 * 0.1 * loss / fastest;
+}
+
+// Takes the part of a viscosity off the losses in shear.
+static bool take_viscosity(const RelaxationData *data, double viscosity, double *loss, Error *err)
+{
+    for (int32_t i = 0; i < data->count; i++) {
+        loss[i] -= data->at[i] * viscosity;
+        if (!(loss[i] > 0))
+            return REFUSE(err, "eta1 alone, %g, damps more than was measured at %g Hz",
+                          2 * viscosity, data->at[i] / TWO_PI);
+    }
+    return true;
+}
+
+bool material_fit(const MaterialData *data, double poisson, bool bulk_relaxes, double eta1,
                   MaterialFit *fit, Error *err)
 {
+    bool has_viscosity = isnan(eta1);
     RelaxationData own = data->data;
     double *moduli = NULL;
     *fit = (MaterialFit){.bulk_relaxes = bulk_relaxes};
@@ -206,14 +228,19 @@ bool material_fit(const MaterialData *data, double poisson, bool bulk_relaxes, b
         FAIL(err, ERROR_INPUT,
              "the fit leaves no long-time modulus, as of a liquid: data at lower frequencies or "
              "longer times are needed");
-    if (!data->shear) {
-        TRY(moduli = NEW_ARRAY(double, 2 * (int64_t)own.count, err));
-        TRY(to_shear(data, poisson, bulk_relaxes, fit->shear.rest, moduli, moduli + own.count,
-                     err));
-        own.storage = moduli;
-        own.loss = own.loss ? moduli + own.count : NULL;
-        TRY(relaxation_fit(&own, has_viscosity, &fit->shear, err));
+    TRY(moduli = NEW_ARRAY(double, 2 * (int64_t)own.count, err));
+    double *loss = moduli + own.count;
+    for (int32_t i = 0; i < own.count; i++) {
+        moduli[i] = own.storage[i];
+        loss[i] = own.loss ? own.loss[i] : 0;
     }
+    if (!data->shear)
+        TRY(to_shear(data, poisson, bulk_relaxes, fit->shear.rest, moduli, loss, err));
+    if (own.loss && !has_viscosity) TRY(take_viscosity(&own, eta1 / 2, loss, err));
+    own.storage = moduli;
+    own.loss = own.loss ? loss : NULL;
+    TRY(relaxation_fit(&own, has_viscosity, &fit->shear, err));
+    if (!has_viscosity) fit->shear.viscosity = eta1 / 2;
     double K_over_G = 2 * (1 + poisson) / (3 * (1 - 2 * poisson));
     fit->bulk = K_over_G * fit->shear.rest;
     fit->young = 2 * (1 + poisson) * fit->shear.rest;
@@ -245,7 +272,9 @@ bool scene_material_file(const Scene *scene, const SceneMaterial *region, Materi
     const SceneNumbers *wlf = &scene->material.wlf;
     const char *path = region ? region->from : scene->material.from;
     int32_t eta1 = scene_key_index("material.eta1");
-    bool has_eta = region ? region->given[MATERIAL_ETA1] : scene->given[eta1];
+    bool found = region ? region->eta_from_file : scene->material.eta_from_file;
+    bool has_eta = !found && (region ? region->given[MATERIAL_ETA1] : scene->given[eta1]);
+    double own_eta = region ? region->number[MATERIAL_ETA1] : scene->material.eta1;
     double poisson = region ? scene_material_number(scene, region, MATERIAL_POISSON)
                             : scene->material.poisson;
     *data = (MaterialData){0};
@@ -254,10 +283,10 @@ bool scene_material_file(const Scene *scene, const SceneMaterial *region, Materi
                   wlf->count);
         return scene_blame(scene, "material.wlf", false, err);
     }
-    bool done =
-        material_data_read(path, scene->units, wlf->count > 0 ? wlf->value : NULL,
-                           scene->material.shift, data, err) &&
-        material_fit(data, poisson, scene->material.bulk == BULK_RELAXES, !has_eta, fit, err);
+    bool done = material_data_read(path, scene->units, wlf->count > 0 ? wlf->value : NULL,
+                                   scene->material.shift, data, err) &&
+                material_fit(data, poisson, scene->material.bulk == BULK_RELAXES,
+                             has_eta ? own_eta : (double)NAN, fit, err);
     return scene_blame(scene, region ? "materials" : "material.from", done, err);
 }
 
@@ -277,6 +306,7 @@ static bool complete_region(const Scene *scene, SceneMaterial *region, Error *er
 {
     MaterialData data;
     MaterialFit fit;
+    bool has_eta = region->given[MATERIAL_ETA1];
     if (region->given[MATERIAL_YOUNG] || region->given[MATERIAL_YOUNG_SHORT] ||
         region->has_relaxation)
         return refuse_beside(scene, "materials", err);
@@ -291,6 +321,7 @@ static bool complete_region(const Scene *scene, SceneMaterial *region, Error *er
         if (!region->given[k]) region->number[k] = number[k];
         region->given[k] = true;
     }
+    region->eta_from_file = !has_eta;
     region->relaxation = fit.relaxation;
     region->has_relaxation = true;
     region->has_from = false;
@@ -315,7 +346,8 @@ bool scene_material_files(Scene *scene, Error *err)
     material_data_destroy(&data);
     if (!done) return false;
     scene->material.young = fit.young;
-    if (!is_given(scene, "material.eta1")) scene->material.eta1 = fit.eta1;
+    scene->material.eta_from_file = !is_given(scene, "material.eta1");
+    if (scene->material.eta_from_file) scene->material.eta1 = fit.eta1;
     if (!is_given(scene, "material.eta2")) scene->material.eta2 = 0;
     scene->material.relaxation = fit.relaxation;
     static const char *const keys[] = {"material.young", "material.eta1", "material.eta2",

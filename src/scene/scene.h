@@ -68,6 +68,7 @@ typedef struct Scene {
         double young, poisson, density, eta1, eta2, young_short;
         SceneRelaxation relaxation;
         char from[SCENE_TEXT_SIZE];   // measured moduli, as in SceneMaterial
+        bool eta_from_file;   // eta1 was found with the branches
         SceneNumbers wlf;   // c1, c2, T_ref, T: of all files
         double shift;   // of their times, 1
         SceneBulk bulk;   // whether it relaxes in what files give

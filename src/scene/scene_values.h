@@ -80,7 +80,7 @@ typedef struct SceneMaterial {
     char group[GROUP_NAME_SIZE];   // a physical surface
     bool given[SCENE_MATERIAL_NUMBERS];
     double number[SCENE_MATERIAL_NUMBERS];   // where given
-    bool has_relaxation, has_from;
+    bool has_relaxation, has_from, eta_from_file;   // eta_from_file: found with the branches
     SceneRelaxation relaxation;   // where given
     char from[SCENE_TEXT_SIZE];   // measured moduli, resolved like mesh.file; has_from: given, and
         // not yet made into numbers (scene/material_file)

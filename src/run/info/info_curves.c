@@ -225,6 +225,12 @@ static void write_fit(const char *path, const MaterialData *data, const Material
             "as its branches do\n",
             path, fit->relaxation.count, fit->young, fit->eta1, 100 * fit->misfit, 100 * fit->worst,
             ends[0] / per, ends[1] / per, unit);
+    if (!(fit->eta1 > 0) && !data->data.over_time)
+        fprintf(
+            out,
+            "  nothing damps what is faster; eta1 = %.3g beside the file is a tenth of the loss at "
+            "the highest frequency\n",
+            material_fit_viscosity(fit, data));
     for (int32_t k = 0; k < fit->relaxation.count; k++)
         fprintf(out, "  time %-10.4g shear %-10.4g bulk %.4g\n", fit->relaxation.branch[k].time,
                 fit->relaxation.branch[k].shear, fit->relaxation.branch[k].bulk);
@@ -250,7 +256,8 @@ bool info_draw_material(const Scene *scene, const InfoOptions *options, Error *e
     const SceneMaterial *regions[FILES_MAX];
     MaterialData data = {0};
     MaterialFit fit;
-    double x[MODULUS_POINTS], y[2][MODULUS_POINTS], ends[2], band[2] = {0, 0}, least = INFINITY, most = 0;
+    double x[MODULUS_POINTS], y[2][MODULUS_POINTS], ends[2], band[2] = {0, 0}, least = INFINITY,
+                                                             most = 0;
     double *at = NULL;
     bool si = scene->units == UNITS_SI, known = false;
     if (find_files(scene, regions) == 0)
