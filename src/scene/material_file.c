@@ -267,7 +267,7 @@ cleanup:
 }
 
 bool scene_material_file(const Scene *scene, const SceneMaterial *region, MaterialData *data,
-                         MaterialFit *fit, Error *err)
+                         MaterialFit *fit, const char **key, Error *err)
 {
     const SceneNumbers *wlf = &scene->material.wlf;
     const char *path = region ? region->from : scene->material.from;
@@ -278,39 +278,28 @@ bool scene_material_file(const Scene *scene, const SceneMaterial *region, Materi
     double poisson = region ? scene_material_number(scene, region, MATERIAL_POISSON)
                             : scene->material.poisson;
     *data = (MaterialData){0};
-    if (wlf->count != 0 && wlf->count != 4) {
-        error_set(err, ERROR_INPUT, __FILE__, __LINE__, "%d numbers; wanted: [c1, c2, T_ref, T]",
-                  wlf->count);
-        return scene_blame(scene, "material.wlf", false, err);
-    }
-    bool done = material_data_read(path, scene->units, wlf->count > 0 ? wlf->value : NULL,
-                                   scene->material.shift, data, err) &&
-                material_fit(data, poisson, scene->material.bulk == BULK_RELAXES,
-                             has_eta ? own_eta : (double)NAN, fit, err);
-    return scene_blame(scene, region ? "materials" : "material.from", done, err);
+    *key = "material.wlf";
+    if (wlf->count != 0 && wlf->count != 4)
+        return REFUSE(err, "%d numbers; wanted: [c1, c2, T_ref, T]", wlf->count);
+    *key = region ? "materials" : "material.from";
+    return material_data_read(path, scene->units, wlf->count > 0 ? wlf->value : NULL,
+                              scene->material.shift, data, err) &&
+           material_fit(data, poisson, scene->material.bulk == BULK_RELAXES,
+                        has_eta ? own_eta : (double)NAN, fit, err);
 }
 
-static bool is_given(const Scene *scene, const char *key)
-{
-    return scene->given[scene_key_index(key)];
-}
+static const char BESIDE[] = "gives young and relaxation: leave these out beside it";
 
-static bool refuse_beside(const Scene *scene, const char *key, Error *err)
-{
-    error_set(err, ERROR_INPUT, __FILE__, __LINE__,
-              "gives young and relaxation: leave these out beside it");
-    return scene_blame(scene, key, false, err);
-}
-
-static bool complete_region(const Scene *scene, SceneMaterial *region, Error *err)
+static bool complete_region(const Scene *scene, SceneMaterial *region, const char **key, Error *err)
 {
     MaterialData data;
     MaterialFit fit;
     bool has_eta = region->given[MATERIAL_ETA1];
+    *key = "materials";
     if (region->given[MATERIAL_YOUNG] || region->given[MATERIAL_YOUNG_SHORT] ||
         region->has_relaxation)
-        return refuse_beside(scene, "materials", err);
-    bool done = scene_material_file(scene, region, &data, &fit, err);
+        return REFUSE(err, "%s: `from` %s", region->group, BESIDE);
+    bool done = scene_material_file(scene, region, &data, &fit, key, err);
     material_data_destroy(&data);
     if (!done) return false;
     const double number[] = {
@@ -328,21 +317,27 @@ static bool complete_region(const Scene *scene, SceneMaterial *region, Error *er
     return true;
 }
 
+static bool is_given(const Scene *scene, const char *key)
+{
+    return scene->given[scene_key_index(key)];
+}
+
 // What was found is written into results in the place of the file: they can be computed again
 // without it.
-bool scene_material_files(Scene *scene, Error *err)
+bool scene_material_files(Scene *scene, const char **key, Error *err)
 {
     for (int32_t k = 0; k < scene->materials.count; k++)
         if (scene->materials.region[k].has_from &&
-            !complete_region(scene, &scene->materials.region[k], err))
+            !complete_region(scene, &scene->materials.region[k], key, err))
             return false;
     if (!is_given(scene, "material.from")) return true;
+    *key = "material.from";
     if (is_given(scene, "material.young") || is_given(scene, "material.young_short") ||
         is_given(scene, "material.relaxation"))
-        return refuse_beside(scene, "material.from", err);
+        return REFUSE(err, "%s", BESIDE);
     MaterialData data;
     MaterialFit fit;
-    bool done = scene_material_file(scene, NULL, &data, &fit, err);
+    bool done = scene_material_file(scene, NULL, &data, &fit, key, err);
     material_data_destroy(&data);
     if (!done) return false;
     scene->material.young = fit.young;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // material.from: a dynamic mechanical analysis (DMA) or a relaxation curve in a table
-// (io/text/csv_reader), whose fit (fem/relaxation_fit) gives Young's modulus, viscosity and branches
-// of a material. Read by scene/scene_read, and by run/info for the picture.
+// (io/text/csv_reader), whose fit (fem/relaxation_fit) gives Young's modulus, viscosity and
+// branches of a material. Read by scene/scene_read, and by run/info for the picture.
 #ifndef AMONTONS_SCENE_MATERIAL_FILE_H
 #define AMONTONS_SCENE_MATERIAL_FILE_H
 
@@ -48,11 +48,11 @@ double material_fit_viscosity(const MaterialFit *fit, const MaterialData *data);
 void material_fit_at(const MaterialFit *fit, const MaterialData *data, double at, double value[2]);
 
 // Completes the materials of a scene that give a file: young, eta1 and eta2 where they are not
-// given, relaxation.
-bool scene_material_files(Scene *scene, Error *err);
+// given, relaxation. *key: that of the scene which is wrong (ERROR_INPUT).
+bool scene_material_files(Scene *scene, const char **key, Error *err);
 
 // The same of one of them: that of a region, or of `material` (NULL).
 bool scene_material_file(const Scene *scene, const SceneMaterial *region, MaterialData *data,
-                         MaterialFit *fit, Error *err);
+                         MaterialFit *fit, const char **key, Error *err);
 
 #endif

@@ -454,7 +454,8 @@ static bool finish_reading(Reader *reader, const char *path, Scene *scene, Error
         if (scene->materials.region[k].has_from &&
             !resolve_file(path, "materials", scene->materials.region[k].from, err))
             return false;
-    if (!scene_material_files(scene, err)) return false;
+    done = scene_material_files(scene, &word, err);
+    if (!done) return scene_blame(scene, word, false, err);
     if (!scene_check(scene, reader->sources, reader->file, err)) return false;
     if (!friction_has_drop(&scene->friction))
         scene->friction.mu_kinetic = scene->friction.mu_static;

@@ -243,7 +243,8 @@ bool info_write_material(const Scene *scene, FILE *out, Error *err)
     for (int32_t k = 0; k < count; k++) {
         MaterialData data;
         MaterialFit fit;
-        bool done = scene_material_file(scene, found[k], &data, &fit, err);
+        const char *key = NULL;
+        bool done = scene_material_file(scene, found[k], &data, &fit, &key, err);
         if (done) write_fit(path_of(scene, found[k]), &data, &fit, scene->units == UNITS_SI, out);
         material_data_destroy(&data);
         if (!done) return false;
@@ -259,10 +260,11 @@ bool info_draw_material(const Scene *scene, const InfoOptions *options, Error *e
     double x[MODULUS_POINTS], y[2][MODULUS_POINTS], ends[2], band[2] = {0, 0}, least = INFINITY,
                                                              most = 0;
     double *at = NULL;
+    const char *key = NULL;
     bool si = scene->units == UNITS_SI, known = false;
     if (find_files(scene, regions) == 0)
         return REFUSE(err, "%s: no material of the scene comes from a table (`from`)", scene->path);
-    TRY(scene_material_file(scene, regions[0], &data, &fit, err));
+    TRY(scene_material_file(scene, regions[0], &data, &fit, &key, err));
     const RelaxationData *moduli = &data.data;
     bool over_time = moduli->over_time;
     double per = over_time ? 1 : TWO_PI;

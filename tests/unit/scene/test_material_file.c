@@ -128,7 +128,7 @@ TEST(a_scene_that_names_a_file)
          "leave these out beside it"},
         {"material: {poisson: 0.45}\nmaterials: {pads: {from: material_file_test.csv}}", NULL},
         {"material: {poisson: 0.45}\nmaterials: {pads: {from: material_file_test.csv, young: 3}}",
-         "materials: gives young and relaxation"},
+         "materials: pads: `from` gives young and relaxation"},
         {"material: {from: none.csv, poisson: 0.45}", "material.from"},
         {"material: {from: material_file_test.csv, poisson: 0.45, wlf: [1, 2]}",
          "c1, c2, T_ref, T"},
