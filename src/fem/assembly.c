@@ -72,7 +72,7 @@ static void empty_row(int32_t dof, Bulk *bulk)
         int32_t mirror = sparse_entry(pattern, other, dof);
         bulk->stiffness[k] = bulk->stiffness[mirror] = 0;
         bulk->damping[k] = bulk->damping[mirror] = 0;
-        for (int32_t j = 0; j < bulk->spectrum.shape_count; j++)
+        for (int32_t j = 0; j < bulk->spectrum.matrix_count; j++)
             bulk->shape[j][k] = bulk->shape[j][mirror] = 0;
     }
 }
@@ -111,7 +111,7 @@ bool bulk_assemble(const Mesh *mesh, const Material *materials, Bulk *bulk, Erro
                 bulk->mass[node_dof(bulk->dim, group.node[a], d)] += matrices.mass[a];
         bulk->area += matrices.area;
     }
-    for (int32_t j = 0; j < bulk->spectrum.shape_count; j++) {
+    for (int32_t j = 0; j < bulk->spectrum.matrix_count; j++) {
         bulk->shape[j] = NEW_ARRAY(double, entries, err);
         if (error_is_clean(err)) add_shape(mesh, &bulk->spectrum.shape[j], bulk, bulk->shape[j]);
     }

@@ -20,13 +20,14 @@ typedef struct Bulk {
     double *damping;   // same; owned
     double *mass;   // [dof_count] lumped, all directions alike; owned
     Spectrum spectrum;   // of the materials' branches; set before bulk_assemble
-    double *shape[SPECTRUM_SHAPES_MAX];   // [spectrum.shape_count][entries] S_j; owned
+    double *shape[SPECTRUM_SHAPES_MAX];   // [spectrum.matrix_count][entries] S_j; owned
     double area;   // length^2; in space the volume
 } Bulk;
 
 // Without loads and supports, and without matrices.
 bool bulk_create(const Mesh *mesh, Bulk *bulk, Error *err);
-// Fills pattern, K, C, M and the shape matrices of bulk->spectrum. materials: one, or as many as the mesh has regions, by their numbers.
+// Fills pattern, K, C, M and the shape matrices of bulk->spectrum. materials: one, or as many as
+// the mesh has regions, by their numbers.
 bool bulk_assemble(const Mesh *mesh, const Material *materials, Bulk *bulk, Error *err);
 void bulk_destroy(Bulk *bulk);
 

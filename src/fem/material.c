@@ -218,7 +218,8 @@ double materials_viscous_time(const Materials *materials)
     double longest = 0;
     for (int32_t k = 0; k < materials->count; k++) {
         const Material *one = &materials->list[k];
-        if (materials_use(materials, k)) longest = fmax(longest, (one->eta1 + one->eta2) / one->young);
+        if (materials_use(materials, k))
+            longest = fmax(longest, (one->eta1 + one->eta2) / one->young);
     }
     return longest;
 }

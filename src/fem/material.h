@@ -4,8 +4,8 @@
 //     sigma = E/(1+nu) eps + lambda tr(eps) I  +  eta1 eps' + eta2 tr(eps') I
 //     lambda = E nu/(1-nu^2) in plane stress,  E nu/((1+nu)(1-2nu)) in plane strain and in space.
 //
-// Used by fem/element and fem/recovery; its wave speeds by model/ and run/. Beside these terms it may
-// have branches of a generalised Maxwell solid (fem/spectrum).
+// Used by fem/element and fem/recovery; its wave speeds by model/ and run/. Beside these terms it
+// may have branches of a generalised Maxwell solid (fem/spectrum).
 #ifndef AMONTONS_FEM_MATERIAL_H
 #define AMONTONS_FEM_MATERIAL_H
 
@@ -87,7 +87,8 @@ double material_out_of_plane(const Material *material, const double strain[3],
 typedef struct WaveSpeeds {
     double longitudinal, shear, rayleigh;   // velocity, elastic limit
 } WaveSpeeds;
-// Those of the short-time response. Rayleigh's equation is solved to rounding (Achenbach, Wave Propagation in Elastic Solids, 5.11).
+// Those of the short-time response. Rayleigh's equation is solved to rounding (Achenbach, Wave
+// Propagation in Elastic Solids, 5.11).
 WaveSpeeds material_speeds(const Material *material);
 
 // Damping over critical damping of the least damped wave of `length` (half a wave long): above 1 no

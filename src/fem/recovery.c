@@ -264,7 +264,8 @@ void nodal_stress_recover(const Material *materials, const double *displacement,
         for (int32_t j = 0; relaxing && j < spectrum->shape_count; j++) {
             const SpectrumShape *shape = &spectrum->shape[j];
             if (shape->region != (stress->region ? stress->region[point] : 0)) continue;
-            across += add_branches(stress, point, material, shape->moduli, relaxing[j], held, total);
+            across +=
+                add_branches(stress, point, material, shape->moduli, relaxing[j], held, total);
         }
         stress->von_mises[point] = von_mises(stress->dim, total, across);
     }

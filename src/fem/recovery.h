@@ -35,8 +35,8 @@ bool nodal_stress_create(const Mesh *mesh, NodalStress *stress, Error *err);
 void nodal_stress_destroy(NodalStress *stress);
 
 // displacement, velocity: [dim * node_count]. relaxing: [spectrum->shape_count] likewise, what the
-// materials' branches are stretched by, sum_k g_kj e_k of each shape (fem/spectrum), stress * length;
-// NULL: none is stretched.
+// materials' branches are stretched by, sum_k g_kj e_k of each shape (fem/spectrum), stress *
+// length; NULL: none is stretched.
 void nodal_stress_recover(const Material *materials, const double *displacement,
                           const double *velocity, const Spectrum *spectrum,
                           const double *const *relaxing, NodalStress *stress);

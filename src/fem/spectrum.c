@@ -86,8 +86,10 @@ static int32_t take_time(double time, Spectrum *spectrum)
 }
 
 // One shape where the bulk modulus of each branch is the same part of its shear modulus, else one
-// for shear and one for a strain of all axes alike.
-static bool take_material(const Material *material, int32_t region, int32_t dim, Spectrum *spectrum)
+// for shear and one for a strain of all axes alike; in the place of the latter K, where it is of
+// this material alone: K v is known in every stage.
+static bool take_material(const Material *material, int32_t region, int32_t dim, bool only,
+                          Spectrum *spectrum)
 {
     static const double ALIKE = 1e-12, NOTHING = 1e-14;   // parts of the sum of all
     PlaneBranch branch[2 * BRANCHES_MAX];
@@ -106,12 +108,19 @@ static bool take_material(const Material *material, int32_t region, int32_t dim,
     spectrum->shape_count += shapes;
     if (shear > 0) spectrum->shape[first] = (SpectrumShape){region, {2, part - 2.0 / dim}};
     if (!alike) spectrum->shape[first + shapes - 1] = (SpectrumShape){region, {0, 1}};
+    Moduli elastic = material_elastic(material);
+    bool by_whole = only && shapes == 2;
+    if (by_whole) spectrum->shape[1].moduli = elastic;
+    spectrum->matrix_count += by_whole ? 1 : shapes;
     for (int32_t k = 0; k < count; k++) {
         if (!(branch[k].shear + branch[k].bulk > NOTHING * (shear + bulk))) continue;
         int32_t time = take_time(branch[k].time, spectrum);
         if (time < 0) return false;
-        if (shear > 0) spectrum->share[time][first] += branch[k].shear;
-        if (!alike) spectrum->share[time][first + shapes - 1] += branch[k].bulk;
+        double as_whole = by_whole ? branch[k].bulk / moduli_bulk(elastic, dim) : 0;
+        if (shear > 0)
+            spectrum->share[time][first] += branch[k].shear - as_whole * moduli_shear(elastic);
+        if (!alike)
+            spectrum->share[time][first + shapes - 1] += by_whole ? as_whole : branch[k].bulk;
     }
     return true;
 }
@@ -121,7 +130,7 @@ bool spectrum_find(const Materials *materials, int32_t dim, Spectrum *spectrum, 
     *spectrum = (Spectrum){0};
     for (int32_t k = 0; k < materials->count; k++) {
         if (materials->list[k].branch_count == 0 || !materials_use(materials, k)) continue;
-        if (!take_material(&materials->list[k], k, dim, spectrum))
+        if (!take_material(&materials->list[k], k, dim, materials->count == 1, spectrum))
             return REFUSE(err,
                           "the branches of all regions together have more than %d different times, "
                           "or more than %d regions have some; fewer branches or the same times",
@@ -130,14 +139,47 @@ bool spectrum_find(const Materials *materials, int32_t dim, Spectrum *spectrum, 
     return true;
 }
 
-void spectrum_weights(const Spectrum *spectrum, double damping, double stiffness, double *weight)
+static void drop_branches(double fastest, Material *material)
 {
-    memset(weight, 0, (size_t)spectrum->shape_count * sizeof *weight);
+    int32_t kept = 0;
+    for (int32_t k = 0; k < material->branch_count; k++)
+        if (material->branch[k].time > fastest) material->branch[kept++] = material->branch[k];
+    material->branch_count = kept;
+}
+
+bool spectrum_fold(double fastest, Materials *materials, Spectrum *spectrum)
+{
+    int32_t kept = 0, count = spectrum->count;
+    for (int32_t k = 0; k < count; k++) {
+        double time = spectrum->time[k];
+        for (int32_t j = 0; time <= fastest && j < spectrum->shape_count; j++) {
+            const SpectrumShape *shape = &spectrum->shape[j];
+            double viscosity = time * spectrum->share[k][j];
+            materials->list[shape->region].eta1 += viscosity * shape->moduli.deviator;
+            materials->list[shape->region].eta2 += viscosity * shape->moduli.trace;
+        }
+        if (time <= fastest) continue;
+        spectrum->time[kept] = time;
+        memcpy(spectrum->share[kept++], spectrum->share[k], sizeof *spectrum->share);
+    }
+    spectrum->count = kept;
+    if (kept == 0) spectrum->shape_count = spectrum->matrix_count = 0;
+    for (int32_t k = kept; k < count; k++) memset(spectrum->share[k], 0, sizeof *spectrum->share);
+    for (int32_t k = 0; kept < count && k < materials->count; k++)
+        drop_branches(fastest, &materials->list[k]);
+    return kept < count;
+}
+
+double spectrum_weights(const Spectrum *spectrum, double damping, double stiffness, double *weight)
+{
+    double whole = 0;
+    memset(weight, 0, (size_t)spectrum->matrix_count * sizeof *weight);
     for (int32_t k = 0; k < spectrum->count; k++) {
         double factor = spectrum_factor(spectrum->time[k], damping, stiffness);
         for (int32_t j = 0; j < spectrum->shape_count; j++)
-            weight[j] += factor * spectrum->share[k][j];
+            *(j < spectrum->matrix_count ? &weight[j] : &whole) += factor * spectrum->share[k][j];
     }
+    return whole;
 }
 
 Spectrum spectrum_scaled(const Spectrum *spectrum, double share, double time)
@@ -145,13 +187,19 @@ Spectrum spectrum_scaled(const Spectrum *spectrum, double share, double time)
     Spectrum made = *spectrum;
     for (int32_t k = 0; k < made.count; k++) {
         made.time[k] *= time;
-        for (int32_t j = 0; j < made.shape_count; j++) made.share[k][j] *= share;
+        for (int32_t j = 0; j < made.matrix_count; j++) made.share[k][j] *= share;
+    }
+    for (int32_t j = made.matrix_count; j < made.shape_count; j++) {
+        made.shape[j].moduli.deviator *= share;
+        made.shape[j].moduli.trace *= share;
     }
     return made;
 }
 
 void spectrum_hash(const Spectrum *spectrum, Hash *hash)
 {
+    if (spectrum->count == 0) return;
+    hash_number(hash, spectrum->matrix_count);
     for (int32_t j = 0; j < spectrum->shape_count; j++) {
         hash_number(hash, spectrum->shape[j].region);
         hash_number(hash, spectrum->shape[j].moduli.deviator);

@@ -147,8 +147,8 @@ bool model_lay_bulk(Model *model, Error *err)
     double middle = 0, width = 0;
     model_rod_strip(scene, model->height, &middle, &width);
     if (!bulk_create(&model->mesh, &model->bulk, err) || !add_loads(model, err)) return false;
-    bool held = spectrum_find(&model->materials, model->mesh.dim, &model->bulk.spectrum, err);
-    if (!scene_blame(scene, "material.relaxation", held, err)) return false;
+    bool fits = model_lay_branches(model, err);
+    if (!scene_blame(scene, "material.relaxation", fits, err)) return false;
     InterfaceDef def = {.contact_name_count = scene->groups.contact.count,
                         .contact_names = scene->groups.contact.name,
                         .has_rod = scene->rod.kind != ROD_NONE,

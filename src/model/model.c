@@ -88,16 +88,14 @@ Model model_of(const Scene *scene)
 double model_friction_slip(const Model *model)
 {
     double pressure = model->scales.load / (model->length * model->breadth);
-    return friction_slip(&model->friction, pressure, model->height,
-                         material_at_once(&model->materials.mean).young);
+    return friction_slip(&model->friction, pressure, model->height, model->materials.mean.young);
 }
 
 double model_slip_per_mu(const Model *model)
 {
     Friction one = friction_everywhere(friction_constant(1));
     double pressure = model->scales.load / (model->length * model->breadth);
-    return friction_slip(&one, pressure, model->height,
-                         material_at_once(&model->materials.mean).young);
+    return friction_slip(&one, pressure, model->height, model->materials.mean.young);
 }
 
 // Mean height of the layer or the pads that the block stands on, where these have a material of
@@ -138,12 +136,16 @@ double model_settling_time(const Model *model)
     return model->scales.time + materials_relaxation_time(&model->materials);
 }
 
+double model_stiffening(const Model *model)
+{
+    return material_at_once(&model->materials.mean).young / model->materials.mean.young;
+}
+
 // Slip times E L/H is the drop (mu_S - mu_K) F_N.
 double model_machine_yield(const Model *model)
 {
     double stiffness = model_machine(model).stiffness;
-    double young = material_at_once(&model->materials.mean).young;
-    double block = young * model->length * model->breadth / model->height;
+    double block = model->materials.mean.young * model->length * model->breadth / model->height;
     return stiffness > 0 ? model_friction_slip(model) * block / stiffness : 0;
 }
 

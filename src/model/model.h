@@ -27,6 +27,9 @@ typedef struct Model {
     RodEnd rod_end[2];   // the lower and the upper end of the rod's strip
     int32_t contact_region;   // of which of them the contact (its first pad) is
     bool on_contact[MATERIALS_MAX];   // which of them have a side in the contact
+    // Branches that relax within this are a viscosity, as not even waves within an element are so
+    // fast (model/regions); 0: there are none, time.
+    double folded_time;
     Friction friction;
     FrictionNode *friction_nodes;   // [contact_count] where they differ, or laws remember
         // (model/contact_laws); owned
@@ -61,7 +64,8 @@ void model_destroy(Model *model);   // zeroed and half-built too
 Model model_of(const Scene *scene);
 
 // The slip that the drop of friction can drive, (mu_S - mu_K) p H / E with p the mean pressure and
-// E that of the mean material, at once where it has branches, length. For Coulomb friction, which has no drop, mu_S stands in its place; without friction 1.
+// E that of the mean material, length. For Coulomb friction, which has no drop, mu_S stands in its
+// place; without friction 1.
 // Tolerances of slip are measured by it, so that they hold for any load and any units.
 double model_friction_slip(const Model *model);
 
@@ -73,6 +77,10 @@ double model_slip_per_mu(const Model *model);
 // block above it hardly come through.
 double model_crossing(const Model *model);
 bool model_floor_is_slow(const Model *model);   // the latter
+
+// The mean E of the short-time response over that of the long-time one; 1: no branches. By so much
+// less slip can a drop of friction drive at once.
+double model_stiffening(const Model *model);
 
 // How long the block takes to settle: waves along it, viscosity, the slowest branch; time.
 double model_settling_time(const Model *model);

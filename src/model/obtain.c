@@ -86,7 +86,7 @@ static bool load_basis(Model *model, const ReductionBlock *block, const char *na
     bool *found = &model->from_cache;
     if (!basis_cache_load(name, wants_modes(model->scene), reduced, found, model->cache_note, err))
         return false;
-    if (*found && reduced->part[0].shape_count == block->bulk.spectrum.shape_count &&
+    if (*found && reduced->part[0].shape_count == block->bulk.spectrum.matrix_count &&
         reduced->interface_count == model->interface.count &&
         reduced->full_dofs == block->bulk.dof_count)
         return true;

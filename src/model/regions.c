@@ -84,6 +84,43 @@ bool model_mark_regions(Model *model, Error *err)
     return check_locking(model, is_mean, err) && element_groups_find(is_mean, &model->mesh, err);
 }
 
+// A branch is a viscosity where rate * time stays below this: its modulus is off by this part then.
+static const double FOLDED = 1e-3;
+
+// The rate of the fastest wave within an element, c/h, if what relaxes within `time` has relaxed.
+static double element_rate(const Model *model, double time)
+{
+    const Mesh *mesh = &model->mesh;
+    double area = 0, fastest = 0;
+    for (int32_t e = 0; e < mesh->element_count; e++) area += mesh_element_area(mesh, e);
+    for (int32_t k = 0; k < model->materials.count; k++) {
+        Material slow = model->materials.list[k];
+        int32_t kept = 0;
+        if (!materials_use(&model->materials, k)) continue;
+        for (int32_t i = 0; i < slow.branch_count; i++)
+            if (slow.branch[i].time > time) slow.branch[kept++] = slow.branch[i];
+        slow.branch_count = kept;
+        fastest = fmax(fastest, material_slip_speed(&slow));
+    }
+    return fastest / pow(area / mesh->element_count, 1.0 / mesh->dim);
+}
+
+bool model_lay_branches(Model *model, Error *err)
+{
+    Spectrum *spectrum = &model->bulk.spectrum;
+    Materials *materials = &model->materials;
+    double folded = 0;
+    if (!spectrum_find(materials, model->mesh.dim, spectrum, err)) return false;
+    for (int32_t k = 0; k < spectrum->count; k++) {
+        double time = spectrum->time[k];
+        if (time > folded && time * element_rate(model, time) < FOLDED) folded = time;
+    }
+    if (folded == 0 || !spectrum_fold(folded, materials, spectrum)) return true;
+    model->folded_time = folded;
+    materials_find_mean(materials);
+    return true;
+}
+
 // The material of the first element that has a face on a boundary, at the height *z (NULL: at any);
 // -1: none has. on: [nodes] of the boundary.
 static int32_t find_region(const Mesh *mesh, const uint8_t *on, const double *z)

@@ -14,4 +14,8 @@ bool model_mark_regions(Model *model, Error *err);
 // Sets the materials that the contact and the ends of the rod's strip, from low to high, lie on.
 bool model_place_regions(Model *model, double low, double high, Error *err);
 
+// Fills the bulk's spectrum. What relaxes so fast that not even waves within an element follow is
+// made a viscosity (model->folded_time).
+bool model_lay_branches(Model *model, Error *err);
+
 #endif

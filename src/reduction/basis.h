@@ -35,9 +35,9 @@ bool basis_start(Basis *basis, InterfaceOperator *statics, Error *err);
 // Adds what the next block of responses has beside all modes.
 bool basis_extend(Basis *basis, Error *err);
 
-// The response to A, the sum of factor[term], by BulkTerm, times K/E, C/eta, M/(rho L^2), S_j: schur
-// [interface^2], and the energy of the response to the unit load, the interface at rest. *definite:
-// false, and no more, where rounding left A of the interior with a negative eigenvalue.
+// The response to A, the sum of factor[term], by BulkTerm, times K/E, C/eta, M/(rho L^2), S_j:
+// schur [interface^2], and the energy of the response to the unit load, the interface at rest.
+// *definite: false, and no more, where rounding left A of the interior with a negative eigenvalue.
 bool basis_condense(const Basis *basis, const double *factor, double *schur, double *energy,
                     bool *definite, Error *err);
 

@@ -45,7 +45,7 @@ bool basis_create(const BulkOperator *full, const BulkScales *scales, Basis *bas
 {
     int64_t m = full->interface_count;
     *basis = (Basis){.full_dofs = full->dof_count, .interface_count = full->interface_count};
-    for (int term = 0; term < BULK_TERMS + full->bulk->spectrum.shape_count; term++)
+    for (int term = 0; term < BULK_TERMS + full->bulk->spectrum.matrix_count; term++)
         basis->statics[term] = NEW_ARRAY(double, m *m, err);
     basis->load = NEW_ARRAY(double, m, err);
     return error_is_clean(err) && responses_create(full, scales, &basis->responses, err);

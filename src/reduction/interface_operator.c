@@ -110,6 +110,8 @@ const Spectrum *bulk_operator_spectrum(const BulkOperator *system)
 void bulk_operator_apply(const BulkOperator *system, BulkTerm term, const double *x, double *y)
 {
     const Bulk *bulk = system->bulk;
+    if ((int32_t)term >= BULK_SHAPE + bulk_operator_spectrum(system)->matrix_count)
+        term = BULK_STIFFNESS;
     if (!bulk) {
         reduced_operator_apply(system->small, term, x, y);
     } else if (term == BULK_MASS) {
@@ -159,10 +161,10 @@ static double combine_sparse(BulkOperator *system, OperatorTerms terms)
     const SparsePattern *pattern = &bulk->pattern;
     double *values = system->values, largest = 0;
     int32_t entries = pattern->start[bulk->dof_count];
+    terms.stiffness += spectrum_weights(&bulk->spectrum, terms.damping, terms.stiffness, weight);
     for (int32_t k = 0; k < entries; k++)
         values[k] = terms.damping * bulk->damping[k] + terms.stiffness * bulk->stiffness[k];
-    spectrum_weights(&bulk->spectrum, terms.damping, terms.stiffness, weight);
-    for (int32_t j = 0; j < bulk->spectrum.shape_count; j++)
+    for (int32_t j = 0; j < bulk->spectrum.matrix_count; j++)
         for (int32_t k = 0; weight[j] != 0 && k < entries; k++)
             values[k] += weight[j] * bulk->shape[j][k];
     for (int32_t dof = 0; terms.mass != 0 && dof < bulk->dof_count; dof++)
@@ -328,7 +330,7 @@ void bulk_operator_hash(const BulkOperator *system, Hash *hash)
         hash_numbers(hash, bulk->mass, bulk->dof_count);
         hash_numbers(hash, bulk->stiffness, entries);
         hash_numbers(hash, bulk->damping, entries);
-        for (int32_t j = 0; j < bulk->spectrum.shape_count; j++)
+        for (int32_t j = 0; j < bulk->spectrum.matrix_count; j++)
             hash_numbers(hash, bulk->shape[j], entries);
     } else {
         for (int p = 0; p < reduced->part_count; p++) hash_part(hash, &reduced->part[p]);

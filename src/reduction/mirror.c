@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// K, C, M and the shape matrices are compared with their images entry by entry: so elements, materials and supports
-// need not be looked at.
+// K, C, M and the shape matrices are compared with their images entry by entry: so elements,
+// materials and supports need not be looked at.
 #include "reduction/mirror.h"
 
 #include "base/memory.h"
@@ -64,7 +64,7 @@ static const double *values_of(const Bulk *bulk, int32_t which)
 static bool find_roots(Finder *find, Error *err)
 {
     const Bulk *bulk = find->bulk;
-    for (int32_t which = 0; which < 2 + bulk->spectrum.shape_count; which++) {
+    for (int32_t which = 0; which < 2 + bulk->spectrum.matrix_count; which++) {
         const double *values = values_of(bulk, which);
         double *root = find->root[which] = NEW_ARRAY(double, bulk->dof_count, err);
         for (int32_t k = 0; root && k < bulk->dof_count; k++)
@@ -90,7 +90,7 @@ static bool is_alike(const Finder *find)
             while (at < end && pattern->index[at] != image[row]) at++;
             if (at == end) return false;
             double sign = sign_of(find, last, row) * sign_of(find, last, j);
-            for (int32_t which = 0; which < 2 + bulk->spectrum.shape_count; which++) {
+            for (int32_t which = 0; which < 2 + bulk->spectrum.matrix_count; which++) {
                 const double *values = values_of(bulk, which), *root = find->root[which];
                 if (!(fabs(values[k] - sign * values[at]) <= ALIKE * root[row] * root[j]))
                     return false;

@@ -7,7 +7,7 @@
 
 #include "fem/spectrum.h"
 
-// BULK_SHAPE + j is the shape matrix S_j.
+// BULK_SHAPE + j is the shape matrix S_j, which may be K.
 typedef enum BulkTerm { BULK_STIFFNESS, BULK_DAMPING, BULK_MASS, BULK_SHAPE } BulkTerm;
 enum { BULK_TERMS = BULK_SHAPE, BULK_TERMS_MAX = BULK_SHAPE + SPECTRUM_SHAPES_MAX };
 

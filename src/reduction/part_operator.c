@@ -11,9 +11,14 @@ void part_apply(const ReducedPart *part, BulkTerm term, const double *x, double 
     int32_t m = part->border_count, r = part->interior_count;
     DenseView border = {term == BULK_MASS ? part->mass : part->stiffness, m, m};
     DenseView coupling = {part->coupling, r, m};
-    if (term == BULK_DAMPING || term >= BULK_SHAPE) {
-        dense_symmetric_apply(term == BULK_DAMPING ? part->damping : part->shape[term - BULK_SHAPE],
-                              part->count, x, y);
+    if (term == BULK_DAMPING) {
+        dense_symmetric_apply(part->damping, part->count, x, y);
+        return;
+    }
+    if (term >= BULK_SHAPE) {   // asked in every stage, where most of the interface is at rest
+        DenseView shape = {part->shape[term - BULK_SHAPE], part->count, part->count};
+        memset(y, 0, (size_t)part->count * sizeof *y);
+        dense_add_nonzero(shape, x, 1, y);
         return;
     }
     memset(y, 0, (size_t)m * sizeof *y);

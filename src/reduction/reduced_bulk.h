@@ -11,8 +11,8 @@
 // it. A state is x = [ u_b; u_R; q_0; q_1 ], z_p = T_p' [u_b; u_R]: all T_p side by side turn the
 // border, so that forces are split and joined as motions are.
 //
-// All matrices are normalised: K/E, C/eta, M/(rho L^2) with lengths over L, as those of the shapes of
-// materials' branches are (fem/spectrum); so one serves every
+// All matrices are normalised: K/E, C/eta, M/(rho L^2) with lengths over L, as those of the shapes
+// of materials' branches are (fem/spectrum); so one serves every
 // size and stiffness of a shape. Built by reduction/reduction and reduction/symmetry_reduction,
 // stored by model/basis_cache, used through reduction/interface_operator.
 #ifndef AMONTONS_REDUCTION_REDUCED_BULK_H

@@ -115,7 +115,7 @@ CondensedBulk *condensed_bulk_create(const ReducedOperator *system, OperatorTerm
     if (!error_is_clean(err)) goto cleanup;
     condensed->system = system;
     condensed->pushed = NEW_ARRAY(double, size, err);
-    spectrum_weights(&reduced->spectrum, terms.damping, terms.stiffness, weight);
+    terms.stiffness += spectrum_weights(&reduced->spectrum, terms.damping, terms.stiffness, weight);
     terms.stiffness *= reduced->scales.stiffness;
     terms.damping *= reduced->scales.damping;
     terms.mass *= reduced->scales.mass;

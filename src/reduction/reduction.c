@@ -174,8 +174,8 @@ cleanup:
 
 static void list_training_points(Builder *work, double slowest)
 {
-    training_points_list(&work->def->materials, &work->def->scales,
-                         &work->full->bulk->spectrum, slowest,
+    training_points_list(&work->def->materials, &work->def->scales, &work->full->bulk->spectrum,
+                         slowest,
                          inertia_element(work->full->bulk, &work->def->scales,
                                          work->full->interface_dofs, work->full->interface_count),
                          &work->part->errors, &work->training);

@@ -60,6 +60,10 @@ static Spectrum normalise_spectrum(const Spectrum *given, const Material *mean)
         for (int32_t j = 0; j < made.shape_count; j++)
             made.share[k][j] = keep_bits(made.share[k][j]);
     }
+    for (int32_t j = 0; j < made.shape_count; j++) {
+        made.shape[j].moduli.deviator = keep_bits(made.shape[j].moduli.deviator);
+        made.shape[j].moduli.trace = keep_bits(made.shape[j].moduli.trace);
+    }
     return made;
 }
 

@@ -19,7 +19,8 @@ typedef struct ReductionBlock {
     Bulk bulk;   // M / (rho L^2), C / (eta1 + eta2), K / E, f / load_size; owned
 } ReductionBlock;
 
-// bulk: of `mesh`; its load, held unknowns and spectrum are taken over. load_size: its largest nodal load.
+// bulk: of `mesh`; its load, held unknowns and spectrum are taken over. load_size: its largest
+// nodal load.
 bool reduction_block_create(const Mesh *mesh, const Bulk *bulk, const Materials *materials,
                             double load_size, ReductionBlock *block, Error *err);
 // M, C and K of it. mesh: the same.

@@ -46,7 +46,7 @@ bool responses_create(const BulkOperator *full, const BulkScales *scales, Respon
     const Bulk *bulk = full->bulk;
     *responses = (Responses){.full = full,
                              .scales = *scales,
-                             .term_count = BULK_TERMS + bulk->spectrum.shape_count,
+                             .term_count = BULK_TERMS + bulk->spectrum.matrix_count,
                              .shelf_count = 2,
                              .shelf_of = {0, 1}};
     responses->unit_load = NEW_ARRAY(double, bulk->dof_count, err);
@@ -155,8 +155,8 @@ static unsigned needed_products(const Responses *responses, const ResponseBlock 
     ParameterPoint old = one->point, new = other->point;
     bool ascends = old.inertia < new.inertia;
     ParameterPoint low = ascends ? old : new, high = ascends ? new : old;
-    unsigned mass = 1u << BULK_MASS, all = all_products(responses), shapes = all >> BULK_SHAPE
-                                                                                    << BULK_SHAPE;
+    unsigned mass = 1u << BULK_MASS, all = all_products(responses),
+             shapes = all >> BULK_SHAPE << BULK_SHAPE;
     unsigned light = 1u << (low.viscosity < 0.5 ? BULK_DAMPING : BULK_STIFFNESS);
     if (one->formed || other->formed) return all;
     if (fabs(low.viscosity - high.viscosity) * FAR >= 1) return shapes | mass;

@@ -71,24 +71,25 @@ static int32_t list_moduli(const Materials *materials, const BulkScales *scales,
                            const Spectrum *spectrum, double v, double *logarithm)
 {
     int32_t count = 0;
-    OperatorTerms terms = {.damping = v / scales->damping, .stiffness = (1 - v) / scales->stiffness};
+    OperatorTerms terms = {.damping = v / scales->damping,
+                           .stiffness = (1 - v) / scales->stiffness};
     double weight[SPECTRUM_SHAPES_MAX];
-    spectrum_weights(spectrum, terms.damping, terms.stiffness, weight);
+    terms.stiffness += spectrum_weights(spectrum, terms.damping, terms.stiffness, weight);
     for (int32_t k = 0; k < materials->count; k++) {
         if (!materials_use(materials, k)) continue;
         Moduli elastic = material_elastic(&materials->list[k]),
                viscous = material_viscous(&materials->list[k]);
         Moduli sum = {terms.stiffness * elastic.deviator + terms.damping * viscous.deviator,
                       terms.stiffness * elastic.trace + terms.damping * viscous.trace};
-        for (int32_t j = 0; j < spectrum->shape_count; j++) {
+        for (int32_t j = 0; j < spectrum->matrix_count; j++) {
             if (spectrum->shape[j].region != k) continue;
             sum.deviator += weight[j] * spectrum->shape[j].moduli.deviator;
             sum.trace += weight[j] * spectrum->shape[j].moduli.trace;
         }
         double unit = scales->stiffness;
         logarithm[count++] = log(unit * moduli_shear(sum) / moduli_shear(elastic));
-        logarithm[count++] = log(unit * (moduli_axial(sum) + sum.trace) /
-                                 (moduli_axial(elastic) + elastic.trace));
+        logarithm[count++] =
+            log(unit * (moduli_axial(sum) + sum.trace) / (moduli_axial(elastic) + elastic.trace));
     }
     return count;
 }
@@ -119,8 +120,8 @@ static void find_path(const Materials *materials, const BulkScales *scales,
     *path = (ViscosityPath){.stiffest = 1};
     for (int32_t k = 0; k <= PATH_STEPS; k++) {
         double low = INFINITY, high = -INFINITY;
-        int32_t count = list_moduli(materials, scales, spectrum,
-                                    path_viscosity(k, slowest, fastest), now);
+        int32_t count =
+            list_moduli(materials, scales, spectrum, path_viscosity(k, slowest, fastest), now);
         for (int32_t i = 0; i < count; i++) {
             double change = k > 0 ? now[i] - before[i] : 0;
             low = fmin(low, change);
@@ -210,7 +211,9 @@ void parameter_factors(ParameterPoint point, const BulkScales *scales, const Spe
     factor[BULK_STIFFNESS] = 1 - point.viscosity;
     factor[BULK_DAMPING] = point.viscosity;
     factor[BULK_MASS] = point.inertia;
-    spectrum_weights(spectrum, terms.damping, terms.stiffness, factor + BULK_SHAPE);
+    factor[BULK_STIFFNESS] += scales->stiffness * spectrum_weights(spectrum, terms.damping,
+                                                                   terms.stiffness,
+                                                                   factor + BULK_SHAPE);
 }
 
 static void add(TrainingPoints *training, const ReductionErrors *errors, double viscosity,
@@ -234,8 +237,7 @@ void training_points_list(const Materials *materials, const BulkScales *scales,
     *training = (TrainingPoints){.element_inertia = element_inertia};
     for (int32_t pass = 0; pass < 2; pass++) {
         for (int32_t level = pass; level < errors->count - 1; level += 2)
-            for (int32_t k = 0; k <= path.steps; k++)
-                add(training, errors, path.at[2 * k], level);
+            for (int32_t k = 0; k <= path.steps; k++) add(training, errors, path.at[2 * k], level);
         for (int32_t k = 0; pass == 0 && k < path.steps; k++)
             add(training, errors, path.at[2 * k + 1], 0);
     }

@@ -263,7 +263,7 @@ static bool transform_matrices(const Bulk *from, const Transform *by, Bulk *to, 
     to->stiffness = NEW_ARRAY(double, entries, err);
     to->damping = NEW_ARRAY(double, entries, err);
     to->spectrum = from->spectrum;
-    for (int32_t j = 0; j < from->spectrum.shape_count; j++)
+    for (int32_t j = 0; j < from->spectrum.matrix_count; j++)
         to->shape[j] = NEW_ARRAY(double, entries, err);
     work.image = NEW_ARRAY(double, work.most_listed *columns, err);
     work.moved = NEW_ARRAY(double, work.most_listed *columns, err);
@@ -274,7 +274,7 @@ static bool transform_matrices(const Bulk *from, const Transform *by, Bulk *to, 
         fill_pattern(&work, b);
         fill_values(&work, b, from->stiffness, to->stiffness);
         fill_values(&work, b, from->damping, to->damping);
-        for (int32_t j = 0; j < from->spectrum.shape_count; j++)
+        for (int32_t j = 0; j < from->spectrum.matrix_count; j++)
             fill_values(&work, b, from->shape[j], to->shape[j]);
     }
 cleanup:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Lengths here are the block's; slip is measured by what the drop of friction can drive
-// (model_friction_slip).
+// (model_friction_slip), where branches have not relaxed yet.
 #include "run/start.h"
 
 #include "base/clock.h"
@@ -27,14 +27,14 @@ bool start_prepare_steps(Simulation *simulation, Error *err)
     const Scene *scene = &simulation->scene;
     Model *model = &simulation->model;
     const FrictionLaw *law = model->friction.whole.law;
-    StepSizes sizes = {.slip = model_friction_slip(model),
+    StepSizes sizes = {.slip = model_friction_slip(model) / model_stiffening(model),
                        .yield = model_machine_yield(model),
                        .memory = law->remembers ? law->slip_distance : 0,
                        .crossing = model_crossing(model),
                        .tolerance = TOLERANCES[scene->time.accuracy]};
     StepControlDef def = step_rule(scene, &sizes);
     def.relax_step = model_settling_time(model);
-    def.slip_per_mu = model_slip_per_mu(model);
+    def.slip_per_mu = model_slip_per_mu(model) / model_stiffening(model);
     simulation->t_end = step_rule_end(scene);
     bool held = scene->start.rod == START_ROD_HELD;
     RodKind kind = held ? ROD_KINDS[scene->rod.kind] : ROD_AWAY;

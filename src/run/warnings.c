@@ -67,6 +67,16 @@ void warnings_of_viscosity(const Scene *scene, const Model *model, RunWarnings *
     }
 }
 
+void warnings_of_branches(const Model *model, RunWarnings *warnings)
+{
+    if (model->folded_time > 0)
+        warnings_add(
+            warnings,
+            "branches of `relaxation` with times of %.3g or less are taken as a viscosity: "
+            "waves within an element are a thousand times slower",
+            model->folded_time);
+}
+
 void warnings_of_resolution(const Certificate *certificate, double load, RunWarnings *warnings)
 {
     double worst = 0;

@@ -172,10 +172,11 @@ static bool check_relaxation(const Check *check, const SceneMaterial *region, co
         bulk -= relaxation->branch[k].bulk;
     }
     if (shear > 0 && bulk > 0) return true;
-    return blame(check, key,
-                 "%s%syoung_short: %g leaves a %s modulus of %g after all branches have relaxed; it "
-                 "must be above 0",
-                 name, dot, young, shear > 0 ? "bulk" : "shear", shear > 0 ? bulk : shear);
+    return blame(
+        check, key,
+        "%s%syoung_short: %g leaves a %s modulus of %g after all branches have relaxed; it "
+        "must be above 0",
+        name, dot, young, shear > 0 ? "bulk" : "shear", shear > 0 ? bulk : shear);
 }
 
 // The number is that of the region, or else that of `material`.
@@ -394,8 +395,10 @@ const char *amontons_scene_warning(const Scene *scene)
         if (scene_material_number(scene, &scene->materials.region[i], MATERIAL_ETA1) > 0)
             return NULL;
     if (scene->material.relaxation.count > 0)
-        return "material.eta1 is 0, and branches of `relaxation` are elastic at once: with friction "
-               "that weakens, the shortest wave that the mesh can hold grows fastest, so the answer "
+        return "material.eta1 is 0, and branches of `relaxation` are elastic at once: with "
+               "friction "
+               "that weakens, the shortest wave that the mesh can hold grows fastest, so the "
+               "answer "
                "has no limit as the mesh gets finer (an ill-posed problem); give eta1 beside them";
     return "material.eta1 is 0: with friction that weakens, the shortest wave that the mesh can "
            "hold grows fastest, so the answer has no limit as the mesh gets finer (an ill-posed "

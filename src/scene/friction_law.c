@@ -19,10 +19,9 @@ static double fastest_slip(const Scene *scene)
     if (given > 0) return given;
     for (int32_t i = 0; i < scene->materials.count; i++) {
         const SceneMaterial *region = &scene->materials.region[i];
-        double young = scene_material_number(scene, region,
-                                             scene_material_is_short(scene, region)
-                                                 ? MATERIAL_YOUNG_SHORT
-                                                 : MATERIAL_YOUNG);
+        double young = scene_material_number(
+            scene, region,
+            scene_material_is_short(scene, region) ? MATERIAL_YOUNG_SHORT : MATERIAL_YOUNG);
         double density = scene_material_number(scene, region, MATERIAL_DENSITY);
         fastest = fmax(fastest, sqrt(young / density));
     }

@@ -94,13 +94,11 @@ static const SceneKey keys[] = {
         "`time`."),
     WORDS(KEY_TEXT, material.from, NULL,
           "In the place of young, eta1, eta2 and relaxation: a table of storage and loss modulus "
-          "over "
-          "frequency (f, E', E''), or of a relaxation curve (t, E), to which they are fitted; "
+          "over frequency (f, E', E''), or of a relaxation curve (t, E), to which they are fitted; "
           "relative to the scene's folder. eta1 and eta2 may be given beside it."),
     KEY("material.wlf", KEY_NUMBERS, material.wlf, "1", RANGE_ANY, NULL,
         "Shifts such tables: [c1, c2, T_ref, T] of Williams, Landel and Ferry, T that of the "
-        "block, "
-        "in degrees Celsius; data are at T_ref, or at that of their column T."),
+        "block, in degrees Celsius; data are at T_ref, or at that of their column T."),
     NUMBER(material.shift, "1", RANGE_POSITIVE, "1",
            "Relaxation in the block takes so many times as long as in such tables."),
     CHOICE(

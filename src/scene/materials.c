@@ -10,10 +10,9 @@ const char *scene_region_name(const Scene *scene, int32_t k)
 
 double scene_material_number(const Scene *scene, const SceneMaterial *region, int32_t k)
 {
-    const double whole[SCENE_MATERIAL_NUMBERS] = {scene->material.young, scene->material.poisson,
-                                                  scene->material.density, scene->material.eta1,
-                                                  scene->material.eta2,
-                                                  scene->material.young_short};
+    const double whole[SCENE_MATERIAL_NUMBERS] = {
+        scene->material.young, scene->material.poisson, scene->material.density,
+        scene->material.eta1,  scene->material.eta2,    scene->material.young_short};
     return region->given[k] ? region->number[k] : whole[k];
 }
 

@@ -13,7 +13,7 @@ bool branches_create(const BulkOperator *system, int32_t stages, Branches *branc
     *branches = (Branches){.system = system, .spectrum = spectrum};
     branches->stretch_rate = NEW_ARRAY(double, (stages - 1) * size, err);
     branches->pull_rate = NEW_ARRAY(double, (stages - 1) * size, err);
-    branches->image = NEW_ARRAY(double, (int64_t)spectrum->shape_count *system->dof_count, err);
+    branches->image = NEW_ARRAY(double, (int64_t)spectrum->shape_count * system->dof_count, err);
     branches->work = NEW_ARRAY(double, spectrum->count > 0 ? system->dof_count : 0, err);
     return error_is_clean(err);
 }
@@ -31,65 +31,74 @@ static int64_t rate_at(const Branches *branches, int32_t i, int32_t k)
 }
 
 void branches_start_stage(const Branches *branches, const Tableau *tableau, double step, int32_t i,
-                          const State *from, State *to, double *rhs)
+                          const State *from, State *to, double *restrict rhs)
 {
     int32_t dofs = branches->system->dof_count;
     for (int32_t k = 0; k < branches->spectrum->count; k++) {
         int64_t at = (int64_t)k * dofs;
-        double *stretch = to->stretch + at, *pull = to->pull + at;
+        double *restrict stretch = to->stretch + at, *restrict pull = to->pull + at;
         double left = 1 / (1 + tableau->gamma * step / branches->spectrum->time[k]);
         memcpy(stretch, from->stretch + at, (size_t)dofs * sizeof *stretch);
         memcpy(pull, from->pull + at, (size_t)dofs * sizeof *pull);
         for (int32_t j = 0; j < i; j++) {
             double weight = step * tableau->a[i][j];
-            const double *stretch_rate = branches->stretch_rate + rate_at(branches, j, k);
-            const double *pull_rate = branches->pull_rate + rate_at(branches, j, k);
-            for (int32_t d = 0; d < dofs; d++) stretch[d] += weight * stretch_rate[d];
-            for (int32_t d = 0; d < dofs; d++) pull[d] += weight * pull_rate[d];
+            const double *restrict stretch_rate = branches->stretch_rate + rate_at(branches, j, k);
+            const double *restrict pull_rate = branches->pull_rate + rate_at(branches, j, k);
+            for (int32_t d = 0; d < dofs; d++) {
+                stretch[d] += weight * stretch_rate[d];
+                pull[d] += weight * pull_rate[d];
+            }
         }
         for (int32_t d = 0; d < dofs; d++) rhs[d] -= left * pull[d];
     }
 }
 
-// out := K_k v of the images S_j v.
-static void add_up_images(const Branches *branches, int32_t k, double *out)
+// image := K_k v of the S_j v.
+static void add_up_images(const Branches *branches, int32_t k, double *restrict image)
 {
     int32_t dofs = branches->system->dof_count;
-    memset(out, 0, (size_t)dofs * sizeof *out);
+    memset(image, 0, (size_t)dofs * sizeof *image);
     for (int32_t j = 0; j < branches->spectrum->shape_count; j++) {
         double share = branches->spectrum->share[k][j];
-        const double *image = branches->image + (int64_t)j * dofs;
-        for (int32_t d = 0; share != 0 && d < dofs; d++) out[d] += share * image[d];
+        const double *restrict one = branches->image + (int64_t)j * dofs;
+        if (share == 0) continue;
+        for (int32_t d = 0; d < dofs; d++) image[d] += share * one[d];
     }
 }
 
 double branches_end_stage(Branches *branches, const Tableau *tableau, double step, int32_t i,
-                          const double *velocity, State *to, double *force)
+                          const double *restrict velocity, const double *elastic, State *to,
+                          double *restrict force)
 {
     const BulkOperator *system = branches->system;
     const Spectrum *spectrum = branches->spectrum;
     int32_t dofs = system->dof_count;
     double scaled = tableau->gamma * step, power = 0;
     bool last = i + 1 == tableau->stages;
-    for (int32_t j = 0; j < spectrum->shape_count; j++)
-        bulk_operator_apply(system, BULK_SHAPE + j, velocity, branches->image + (int64_t)j * dofs);
+    for (int32_t j = 0; j < spectrum->shape_count; j++) {
+        double *image = branches->image + (int64_t)j * dofs;
+        if (j < spectrum->matrix_count)
+            bulk_operator_apply(system, BULK_SHAPE + j, velocity, image);
+        else
+            memcpy(image, elastic, (size_t)dofs * sizeof *image);
+    }
     for (int32_t k = 0; k < spectrum->count; k++) {
-        double time = spectrum->time[k], left = 1 / (1 + scaled / time);
-        double *stretch = to->stretch + (int64_t)k * dofs, *pull = to->pull + (int64_t)k * dofs;
-        double *moved = branches->work;
-        add_up_images(branches, k, moved);
+        double left = 1 / (1 + scaled / spectrum->time[k]), rate = 1 / spectrum->time[k];
+        double *restrict stretch = to->stretch + (int64_t)k * dofs;
+        double *restrict pull = to->pull + (int64_t)k * dofs, *restrict image = branches->work;
+        add_up_images(branches, k, image);
         for (int32_t d = 0; d < dofs; d++) {
-            force[d] -= scaled * left * moved[d];
+            force[d] -= scaled * left * image[d];
             stretch[d] = left * (stretch[d] + scaled * velocity[d]);
-            pull[d] = left * (pull[d] + scaled * moved[d]);
+            pull[d] = left * (pull[d] + scaled * image[d]);
         }
-        power += dense_dot(stretch, pull, dofs) / time;
+        power += rate * dense_dot(stretch, pull, dofs);
         if (last) continue;
-        double *stretch_rate = branches->stretch_rate + rate_at(branches, i, k);
-        double *pull_rate = branches->pull_rate + rate_at(branches, i, k);
+        double *restrict stretch_rate = branches->stretch_rate + rate_at(branches, i, k);
+        double *restrict pull_rate = branches->pull_rate + rate_at(branches, i, k);
         for (int32_t d = 0; d < dofs; d++) {
-            stretch_rate[d] = velocity[d] - stretch[d] / time;
-            pull_rate[d] = moved[d] - pull[d] / time;
+            stretch_rate[d] = velocity[d] - rate * stretch[d];
+            pull_rate[d] = image[d] - rate * pull[d];
         }
     }
     return power;

@@ -30,10 +30,11 @@ void branches_destroy(Branches *branches);
 void branches_start_stage(const Branches *branches, const Tableau *tableau, double step, int32_t i,
                           const State *from, State *to, double *rhs);
 
-// e_k and K_k e_k of the stage that ended with v, in `to`; takes off `force` what is proportional
-// to v of their forces. Returns the power that they dissipate, sum_k e_k' K_k e_k/tau_k.
+// e_k and K_k e_k of the stage that ended with v, in `to`; elastic: K v, force/time. Takes off
+// `force` what is proportional to v of their forces. Returns the power that they dissipate, sum_k
+// e_k' K_k e_k/tau_k.
 double branches_end_stage(Branches *branches, const Tableau *tableau, double step, int32_t i,
-                          const double *velocity, State *to, double *force);
+                          const double *velocity, const double *elastic, State *to, double *force);
 
 // force [dof_count] += sum_k K_k e_k, by the matrices.
 void branches_add_force(Branches *branches, const State *state, double *force);

@@ -54,7 +54,8 @@ static double advance_branches(ExplicitReference *scheme, State *state)
                 scheme->mesh.next[explicit_velocity(&scheme->mesh, i) + d];
     memset(moved, 0, (size_t)spectrum->count * (size_t)dofs * sizeof *moved);
     for (int32_t j = 0; j < spectrum->shape_count; j++) {
-        sparse_apply(&bulk->pattern, bulk->shape[j], velocity, image);
+        sparse_apply(&bulk->pattern, j < spectrum->matrix_count ? bulk->shape[j] : bulk->stiffness,
+                     velocity, image);
         for (int32_t k = 0; k < spectrum->count; k++)
             for (int32_t d = 0; spectrum->share[k][j] != 0 && d < dofs; d++)
                 moved[(int64_t)k * dofs + d] += spectrum->share[k][j] * image[d];

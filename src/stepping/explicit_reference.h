@@ -5,8 +5,8 @@
 //
 //     M (v' - v)/dt = f - K u_n - C v + r_n,   u_n+1 = u_n + dt v',   v, v' at t_n -+ dt/2
 //
-// The materials' branches are stepped by the midpoint rule, e' - e = dt (v' - (e + e')/(2 tau)), and
-// pull with what they are at t_n (fem/spectrum), of order 2.
+// The materials' branches are stepped by the midpoint rule, e' - e = dt (v' - (e + e')/(2 tau)),
+// and pull with what they are at t_n (fem/spectrum), of order 2.
 //
 // Viscous forces lag half a step: of order 1 in dt C, with twice the stable step that an
 // extrapolation of order 2 would have (stepping/stable_step gives it). Without viscosity and

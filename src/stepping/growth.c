@@ -124,8 +124,8 @@ void growth_destroy(Growth *growth)
 {
     if (!growth) return;
     for (int32_t k = 0; k < GROWTH_SHIFTS_MAX; k++) interface_operator_destroy(growth->at[k]);
-    double *arrays[] = {growth->matrix,  growth->step,    growth->g,        growth->border,
-                        growth->rhs,     growth->image,   growth->basis,    growth->eigen_work,
+    double *arrays[] = {growth->matrix,  growth->step,    growth->g,         growth->border,
+                        growth->rhs,     growth->image,   growth->basis,     growth->eigen_work,
                         growth->mode_re, growth->mode_im, growth->real_mode, growth->sum};
     for (size_t k = 0; k < sizeof arrays / sizeof arrays[0]; k++) memory_free(arrays[k]);
     moving_set_destroy(&growth->moving);

@@ -87,8 +87,8 @@ static double estimate_error(Sdirk *scheme, const State *from, const State *to, 
     return bulk_operator_size(scheme->system, error);
 }
 
-// Largest |M a + C v + K u + sum_k K_k e_k - f - r|, but for M a all computed for it. K u stays: what
-// the steps add up of it must not drift.
+// Largest |M a + C v + K u + sum_k K_k e_k - f - r|, but for M a all computed for it. K u stays:
+// what the steps add up of it must not drift.
 static double end_residual(Sdirk *scheme, State *to)
 {
     const BulkOperator *system = scheme->system;
@@ -208,7 +208,7 @@ static bool solve_stage(Sdirk *scheme, int32_t k, int32_t i, const State *from, 
         scheme->viscous[d] = scheme->rhs[d] - rate * momentum[d] - scaled * elastic[d];
     for (int32_t c = 0; c < count; c++) scheme->viscous[interface_dofs[c]] += contact.reaction[c];
 
-    double relaxed = branches_end_stage(&scheme->branches, tableau, step, i, velocity, to,
+    double relaxed = branches_end_stage(&scheme->branches, tableau, step, i, velocity, elastic, to,
                                         scheme->viscous);
 
     // Powers. The load's work beyond that of the load as it was goes by stages.

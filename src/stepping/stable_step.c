@@ -100,12 +100,13 @@ bool stable_step(const Bulk *bulk, double *step, Error *err)
     for (int32_t j = 0; j < spectrum->shape_count; j++)
         for (int32_t k = 0; k < spectrum->count; k++)
             for (int64_t i = 0; spectrum->share[k][j] != 0 && i < entries; i++)
-                at_once[i] += spectrum->share[k][j] * bulk->shape[j][i];
+                at_once[i] += spectrum->share[k][j] *
+                              (j < spectrum->matrix_count ? bulk->shape[j] : bulk->stiffness)[i];
     TRY(largest_rate(bulk, at_once, &elastic, err));
     *step = SAFETY * 4 / (viscous + sqrt(viscous * viscous + 4 * elastic));
     if (!(*step > 0 && isfinite(*step)))
-        FAIL(err, ERROR_COMPUTE, "no stable explicit step: the largest rates are %g and %g", viscous,
-             sqrt(elastic));
+        FAIL(err, ERROR_COMPUTE, "no stable explicit step: the largest rates are %g and %g",
+             viscous, sqrt(elastic));
 cleanup:
     memory_free(at_once);
     return error_is_clean(err);

@@ -201,6 +201,16 @@ class Relaxation(OwnCache):
         for key in ("l_sc_over_L", "l_c_over_L"):
             self.assertLess(abs(made[0]["results"][key] - made[1]["results"][key]), 1e-2)
 
+    def test_folded(self):
+        """What relaxes faster than waves within an element is a viscosity, and said to be one."""
+        here = ["material.plane=strain", "time.until.U=6e-4"]
+        fast, left = self.run_scene(BLOCK, "fast", *here,
+                                    "material.relaxation=[{time: 1e-6, shear: 2e5, bulk: 3e5}, {time: 2, shear: 0.2}]")
+        _, right = self.run_scene(BLOCK, "viscous", *here, "material.relaxation=[{time: 2, shear: 0.2}]",
+                                  "material.eta1=1.4", f"material.eta2={1 + 0.3 - 0.4 / 3:.17g}")
+        self.assertIn("are taken as a viscosity", str(fast["warnings"]))
+        numpy.testing.assert_allclose(left["series/mu"], right["series/mu"], rtol=1e-6, atol=1e-9)
+
     def test_resume(self):
         """A run that is extended goes on with the stretches of its branches."""
         _, once = self.run_scene(BLOCK, "once", "time.until.U=6e-4")

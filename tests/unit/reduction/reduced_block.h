@@ -104,7 +104,8 @@ static inline void recover_state(const ReducedBulk *reduced, const double *state
     assert_true(reduced_bulk_recover(reduced, 1, &state, &full, &err));
 }
 
-// S of A = mass M + damping C + stiffness K and its branches: on the full mesh, or on a reduced bulk.
+// S of A = mass M + damping C + stiffness K and its branches: on the full mesh, or on a reduced
+// bulk.
 static inline double *full_schur(ReducedBlock *block, OperatorTerms terms)
 {
     Error err = {0};

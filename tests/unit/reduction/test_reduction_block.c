@@ -19,7 +19,11 @@ typedef struct Case {
     int32_t interface;   // unknowns of it
 } Case;
 
-static const Case BASE = {1, 0, {1, 0.34, 1, 1, 1, false}, 0.003, 0.001, -1, -1, 12};
+#define MATERIAL(...)                                                                              \
+    {                                                                                              \
+        __VA_ARGS__, .branch_count = 0                                                             \
+    }
+static const Case BASE = {1, 0, MATERIAL(1, 0.34, 1, 1, 1, false), 0.003, 0.001, -1, -1, 12};
 
 // Builds mesh and bulk of a case, then the block and its name.
 static void build(Case what, Mesh *mesh, ReductionBlock *block, char name[HASH_TEXT_SIZE])
@@ -57,8 +61,8 @@ TEST(test_similar_blocks_are_one)
 {
     Case cases[] = {BASE, BASE, BASE, BASE};
     cases[0].length = 0.04;
-    cases[1] = (Case){4, -1.7, {1, 0.34, 7, 1, 1, false}, 0.3, 0.1, -1, -1, 12};
-    cases[2] = (Case){0.1, 0, {3e9, 0.34, 1200, 6e4, 6e4, false}, 2e6, 2e6 / 3, -1, -1, 12};
+    cases[1] = (Case){4, -1.7, MATERIAL(1, 0.34, 7, 1, 1, false), 0.3, 0.1, -1, -1, 12};
+    cases[2] = (Case){0.1, 0, MATERIAL(3e9, 0.34, 1200, 6e4, 6e4, false), 2e6, 2e6 / 3, -1, -1, 12};
     cases[3].length = 1.0 / 3;
     Mesh mesh, other;
     ReductionBlock base, block;
@@ -85,7 +89,7 @@ TEST(test_normalised)
     Error err = {0};
     Case si = BASE;
     si.length = 0.1;
-    si.material = (Material){3e9, 0.37, 1200, 6e4, 4e4, true};
+    si.material = (Material)MATERIAL(3e9, 0.37, 1200, 6e4, 4e4, true);
     Mesh mesh;
     Bulk bulk;
     ReductionBlock block;

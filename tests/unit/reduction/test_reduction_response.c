@@ -100,8 +100,8 @@ TEST(test_error_is_known)
         for (int32_t t = 0; t < 3; t++) check_error(&shapes[s], &MATERIAL, tolerances[t], &random);
 }
 
-// The same with branches: in plane strain shear alone relaxes, by little and by far; in plane stress
-// the plate's areal modulus has times of its own; and a volume that relaxes after shear has.
+// The same with branches: in plane strain shear alone relaxes, by little and by far; in plane
+// stress the plate's areal modulus has times of its own; and a volume that relaxes after shear has.
 TEST(test_error_of_branches)
 {
     const BlockDef shape = {.kind = ELEMENT_Q4, .nx = 16, .nz = 8, .length = 1, .height = 0.5};

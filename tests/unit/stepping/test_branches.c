@@ -99,8 +99,8 @@ static Reference reference_create(const BlockRig *rig)
     for (int32_t b = 0; b < BRANCHES; b++) {
         ref.branch[b] = hand_matrix(ref.n, ref.n);
         for (int32_t i = 0; i < ref.n * ref.n; i++)
-            ref.branch[b][i] =
-                BRANCH[b].shear * (2 * one[i] - two[i]) + BRANCH[b].bulk * (two[i] - one[i]);
+            ref.branch[b][i] = BRANCH[b].shear * (2 * one[i] - two[i]) +
+                               BRANCH[b].bulk * (two[i] - one[i]);
     }
     free(one);
     free(two);
@@ -197,7 +197,8 @@ TEST(test_order)
             stepper_destroy(&stepper);
         }
         for (int32_t w = 0; w < 2 + BRANCHES; w++)
-            assert_near("order", log2(errors[0][w] / errors[1][w]), cases[c].order, cases[c].within);
+            assert_near("order", log2(errors[0][w] / errors[1][w]), cases[c].order,
+                        cases[c].within);
         if (cases[c].order > 1) assert_true(errors[1][0] < 1e-3 * 3e-3);   // of the motion
     }
 }

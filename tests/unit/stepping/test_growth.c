@@ -192,7 +192,8 @@ static int32_t dense_rates(const Case *test, Complex *rates)
     double *both = hand_matrix(count, size), *companion = hand_matrix(size, size);
     memcpy(both, k, (size_t)(count * count) * sizeof *k);
     memcpy(both + count * count, c, (size_t)(count * count) * sizeof *k);
-    for (int32_t j = 0; j < spectrum->shape_count; j++) {   // u, u', then the stretch of each branch
+    for (int32_t j = 0; j < spectrum->shape_count;
+         j++) {   // u, u', then the stretch of each branch
         double *shape = moving_matrix(test, BULK_SHAPE + j, moving, count);
         for (int32_t b = 0; b < branches; b++)
             for (int32_t a = 0; a < count * count; a++)
