@@ -110,7 +110,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// --- the solid ------------------------------------------------------------------------------------
+// --- the solid ----------------------------------------------------------------------------------
 
 void relaxation_moduli(const RelaxationFit *fit, double frequency, double *storage, double *loss)
 {

@@ -37,7 +37,8 @@ typedef struct RelaxationFit {
 } RelaxationFit;
 
 // Relaxation times are even over their logarithm, from a third of that of the fastest datum to
-// three times that of the slowest; as few as leave no more misfit than half a per cent above the least that there is.
+// three times that of the slowest; as few as leave no more misfit than half a per cent above the
+// least that there is.
 // has_viscosity: eta is found with them, what relaxes faster than the data tell; else it is 0.
 // ERROR_INPUT: data that are not as above.
 bool relaxation_fit(const RelaxationData *data, bool has_viscosity, RelaxationFit *fit, Error *err);

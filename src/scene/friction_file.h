@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // friction.file of the law `table`: a coefficient that was measured at some speeds, a table of v
-// and mu (io/text/csv_reader). Read by scene/friction_law, and by run/info for the picture of the law.
+// and mu (io/text/csv_reader). Read by scene/friction_law, and by run/info for the picture of the
+// law.
 #ifndef AMONTONS_SCENE_FRICTION_FILE_H
 #define AMONTONS_SCENE_FRICTION_FILE_H
 

@@ -36,8 +36,8 @@ typedef struct MaterialFit {
 
 // Branches relax in shear alone, and volume stays elastic (rubber), or both alike (bulk_relaxes):
 // then Poisson's ratio, which is that of the long-time response, stays what it is. ERROR_INPUT:
-// moduli that no such volume allows for. eta1: given beside the data, of which it is a part; NaN: it
-// is found.
+// moduli that no such volume allows for. eta1: given beside the data, of which it is a part; NaN:
+// it is found.
 bool material_fit(const MaterialData *data, double poisson, bool bulk_relaxes, double eta1,
                   MaterialFit *fit, Error *err);
 // The eta1 that adds a tenth to the loss at the highest frequency; 0: of a relaxation curve.
