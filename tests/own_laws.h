@@ -43,6 +43,15 @@ static inline FrictionLaw own_table(int32_t count, const double *velocity, const
     return own_law((FrictionLaw){.kind = FRICTION_TABLE}, &source);
 }
 
+// Cubics over ln v. mu_static 0: not given.
+static inline FrictionLaw own_log_table(int32_t count, const double *velocity, const double *mu,
+                                        double mu_static)
+{
+    FrictionSource source = {
+        .velocity = velocity, .velocity_count = count, .mu = mu, .mu_count = count, .by_log = true};
+    return own_law((FrictionLaw){.kind = FRICTION_TABLE, .mu_static = mu_static}, &source);
+}
+
 static inline FrictionLaw own_formula(const char *text, double end)
 {
     FrictionSource source = {.formula = text, .end = end};

@@ -75,21 +75,35 @@ static bool find_quantity(const CsvTable *table, const char *name, const char *d
     return unit_factor(table, view, unit, dimension, column, err);
 }
 
-// A number without a unit, under one of two names.
+// A number without a dimension, under one of two names.
 static bool find_number(const CsvTable *table, const char *name, const char *other, Column *column,
                         Error *err)
 {
+    int32_t second = -1;
+    CsvUnit unit, of_second = {"", 0};
     *column = NONE;
-    column->index = csv_column(table, name);
-    int32_t second = other ? csv_column(table, other) : -1;
+    if (!csv_find(table, name, &column->index, &unit, err)) return false;
+    if (other && !csv_find(table, other, &second, &of_second, err)) return false;
     if (column->index >= 0 && second >= 0)
         return csv_refuse(table, -1, second, err, "is %s a second time", name);
-    if (column->index < 0) column->index = second;
-    return true;
+    if (second >= 0) {
+        column->index = second;
+        unit = of_second;
+    }
+    return column->index < 0 || unit.length == 0 ||
+           csv_to_si(table, column->index, unit, "1", &column->factor, err);
 }
 
-// mu or F_T/F_N; else F_T over F_N, both with a unit of the same kind or both without.
-static bool find_ratio(const CsvTable *table, Column *ratio, Error *err)
+// F_N of the whole block of the result, N; NaN: in the plane its thickness is not known.
+static double whole_load(const ResultView *view)
+{
+    bool space = view->number[NUMBER_FORMAT] > 1;
+    return view->number[NUMBER_LOAD] * (space ? 1 : view->number[NUMBER_THICKNESS]);
+}
+
+// mu or F_T/F_N; else F_T over F_N, both with a unit of the same kind or both without; else F_T in
+// newtons over the load of the result.
+static bool find_ratio(const CsvTable *table, const ResultView *view, Column *ratio, Error *err)
 {
     char over[CSV_UNIT_SIZE], under[CSV_UNIT_SIZE];
     CsvUnit unit[2];
@@ -98,6 +112,11 @@ static bool find_ratio(const CsvTable *table, Column *ratio, Error *err)
     if (!csv_find(table, "F_T", &ratio->index, &unit[0], err) ||
         !csv_find(table, "F_N", &ratio->under, &unit[1], err))
         return false;
+    if (ratio->index >= 0 && ratio->under < 0 && view->si && whole_load(view) > 0) {
+        if (!csv_to_si(table, ratio->index, unit[0], "force", &ratio->factor, err)) return false;
+        ratio->factor /= whole_load(view);
+        return true;
+    }
     if (ratio->index < 0 || ratio->under < 0) {
         *ratio = NONE;
         return true;
@@ -114,19 +133,18 @@ static bool find_ratio(const CsvTable *table, Column *ratio, Error *err)
 
 // All that a file may hold.
 typedef struct Columns {
-    Column U, t, ratio, x, area, length, speed, error;
+    Column U, t, ratio, x, area, length, speed;
 } Columns;
 
 static bool find_columns(const CsvTable *table, const ResultView *view, Columns *found, Error *err)
 {
-    return find_ratio(table, &found->ratio, err) &&
+    return find_ratio(table, view, &found->ratio, err) &&
            find_quantity(table, "U", "length", view, &found->U, err) &&
            find_quantity(table, "t", "time", view, &found->t, err) &&
            find_quantity(table, "x", "length", view, &found->x, err) &&
            find_number(table, "A/A_0", NULL, &found->area, err) &&
            find_quantity(table, "l", "length", view, &found->length, err) &&
-           find_quantity(table, "v", "velocity", view, &found->speed, err) &&
-           find_number(table, "error", NULL, &found->error, err);
+           find_quantity(table, "v", "velocity", view, &found->speed, err);
 }
 
 // Which columns `kind` has: over what, and the value. false: the file does not have it.
@@ -150,25 +168,27 @@ static double read_cell(const CsvTable *table, int32_t row, const Column *column
     return column->under < 0 ? value : value / csv_value(table, row, column->under);
 }
 
-// The column `error`, else `NAME_error` of the value's own name; with its own unit, else in that of
-// the value.
-static bool find_error(const CsvTable *table, const Columns *found, const Column *value,
-                       const ResultView *view, Column *error, Error *err)
+// The errors of a value, in a unit of their own or in that of the value.
+static bool find_error(const CsvTable *table, const Column *value, Column *error, Error *err)
 {
-    char name[NAME_SIZE + sizeof "_error"];
-    CsvUnit unit;
+    CsvUnit unit, own;
+    char of_error[CSV_UNIT_SIZE], of_value[CSV_UNIT_SIZE];
     int32_t length = 0;
-    *error = found->error;
-    error->factor = value->under < 0 ? value->factor : 1;
-    if (error->index >= 0) return true;
-    csv_split(table, value->index, &length, &unit);
-    if (length >= NAME_SIZE || value->under >= 0) return true;
-    snprintf(name, sizeof name, "%.*s_error", length, csv_name(table, value->index));
-    if (!csv_find(table, name, &error->index, &unit, err)) return false;
+    double ratio = 1;
+    *error = NONE;
+    if (value->under >= 0) {   // of a ratio of two columns
+        error->index = csv_column(table, "error");
+        return csv_check(table, error->index, true, err);
+    }
+    csv_find_error(table, value->index, &error->index, &unit);
     if (error->index < 0) return true;
-    if (unit.length > 0 && view->si &&
-        !csv_to_si(table, error->index, unit, NULL, &error->factor, err))
-        return false;
+    csv_split(table, value->index, &length, &own);
+    snprintf(of_error, sizeof of_error, "%.*s", unit.length, unit.text);
+    snprintf(of_value, sizeof of_value, "%.*s", own.length, own.text);
+    if (*of_error && *of_value && !unit_ratio(of_error, of_value, &ratio))
+        return csv_refuse(table, -1, error->index, err, "has `%s`, and its values have `%s`",
+                          of_error, of_value);
+    error->factor = value->factor * ratio;
     return csv_check(table, error->index, true, err);
 }
 
@@ -182,7 +202,7 @@ static bool take_rows(const CsvTable *table, const Columns *found, const ResultV
                         &measured->computed};
     for (size_t k = 0; k < sizeof lists / sizeof *lists; ++k)
         if (!(*lists[k] = NEW_ARRAY(double, table->rows, err))) return false;
-    if (!find_error(table, found, &value, view, &error, err)) return false;
+    if (!find_error(table, &value, &error, err)) return false;
     bool is_time = measured->kind <= MEASURED_AREA && found->U.index < 0;
     for (int32_t row = 0; row < table->rows; ++row) {
         int32_t k = measured->count;
@@ -223,7 +243,6 @@ static bool read_table(const char *path, const ResultView *view, CsvTable *table
     for (size_t k = 0; k < sizeof columns / sizeof *columns; ++k)
         TRY(csv_check(table, columns[k]->index, false, err));
     TRY(csv_check(table, found->ratio.under, true, err));
-    TRY(csv_check(table, found->error.index, true, err));
 cleanup:
     error_context(err, "measurements");
     return error_is_clean(err);

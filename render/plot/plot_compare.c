@@ -10,8 +10,6 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { NAME_SIZE = PLOT_LABEL_SIZE + 8 };
-
 static const double MARGIN = 0.05;   // of the axis, beyond a measurement outside of it
 
 // The column called `given`, with a unit or without, else the plain one. *factor: to SI where it
@@ -29,19 +27,20 @@ static bool find_column(const CsvTable *table, const char *given, const char *pl
 
 static bool read_points(const Plot *plot, const CsvTable *table, PlotSeries *series, Error *err)
 {
-    char name[NAME_SIZE];
+    CsvUnit unit;
     int32_t x = -1, y = -1, error = -1;
     double factor[3];   // of x, y, error
-    snprintf(name, sizeof name, "%s_error", plot->column[1]);
     if (!find_column(table, plot->column[0], "x", &x, &factor[0], err) ||
-        !find_column(table, plot->column[1], "y", &y, &factor[1], err) ||
-        !find_column(table, name, "error", &error, &factor[2], err))
+        !find_column(table, plot->column[1], "y", &y, &factor[1], err))
         return false;
-    if (factor[2] == 1) factor[2] = factor[1];   // in the unit of y where it has none
     if (x < 0 || y < 0)
         return REFUSE(err, "%s: it needs the columns %s and %s", table->path,
                       plot->column[0][0] ? plot->column[0] : "x",
                       plot->column[1][0] ? plot->column[1] : "y");
+    csv_find_error(table, y, &error, &unit);
+    factor[2] = factor[1];   // in the unit of y where it has none
+    if (error >= 0 && unit.length > 0 && !csv_to_si(table, error, unit, NULL, &factor[2], err))
+        return false;
     if (table->rows == 0)
         return REFUSE(err, "%s: below the names of its columns there is no row", table->path);
     if (!(csv_check(table, x, false, err) && csv_check(table, y, false, err) &&

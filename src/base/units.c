@@ -24,19 +24,26 @@ static const Unit dimensions[] = {
     {"stress", 0, 0, {-1, 1, -2}, "Pa, kPa, MPa, GPa"},
     {"density", 0, 0, {-3, 1, 0}, "kg/m3, g/cm3"},
     {"viscosity", 0, 0, {-1, 1, -1}, "Pa s, kPa s, MPa s"},
+    {"force", 0, 0, {1, 1, -2}, "N, kN, mN"},
+    {"force/length", 0, 0, {0, 1, -2}, "N/m, kN/m, N/mm"},
+    {"area", 0, 0, {2, 0, 0}, "m2, cm2, mm2"},
+    {"frequency", 0, 0, {0, 0, -1}, "Hz, kHz, rad/s"},
 };
 
 static const Unit bases[] = {
-    {"m", 0, 0, {1, 0, 0}, NULL},   {"s", 0, 0, {0, 0, 1}, NULL},    {"g", -3, 0, {0, 1, 0}, NULL},
-    {"N", 0, 0, {1, 1, -2}, NULL},  {"Pa", 0, 0, {-1, 1, -2}, NULL}, {"J", 0, 0, {2, 1, -2}, NULL},
-    {"min", 0, 1, {0, 0, 1}, NULL},
+    {"m", 0, 0, {1, 0, 0}, NULL},     {"s", 0, 0, {0, 0, 1}, NULL},
+    {"g", -3, 0, {0, 1, 0}, NULL},    {"N", 0, 0, {1, 1, -2}, NULL},
+    {"Pa", 0, 0, {-1, 1, -2}, NULL},  {"J", 0, 0, {2, 1, -2}, NULL},
+    {"min", 0, 1, {0, 0, 1}, NULL},   {"h", 0, 2, {0, 0, 1}, NULL},
+    {"bar", 5, 0, {-1, 1, -2}, NULL}, {"Hz", 0, 0, {0, 0, -1}, NULL},
+    {"rad", 0, 0, {0, 0, 0}, NULL},
 };
 
 static const struct {
     const char *name;
     int32_t ten;
-} prefixes[] = {{"n", -9}, {"u", -6}, {"\xC2\xB5", -6}, {"\xCE\xBC", -6}, {"m", -3},
-                {"c", -2}, {"k", 3},  {"M", 6},         {"G", 9}};
+} prefixes[] = {{"n", -9}, {"u", -6}, {"\xC2\xB5", -6}, {"\xCE\xBC", -6}, {"\xB5", -6},
+                {"m", -3}, {"c", -2}, {"k", 3},         {"M", 6},         {"G", 9}};
 
 enum {
     DIMENSION_COUNT = sizeof dimensions / sizeof dimensions[0],
@@ -104,11 +111,23 @@ static bool read_factor(const char **text, int32_t sign, Unit *product)
     return true;
 }
 
+// Numbers without a dimension: "mu (-)", "mu/1", "mu (%)".
+static bool read_dimensionless(const char *text, Unit *product)
+{
+    product->ten = strcmp(text, "%") == 0 ? -2 : 0;
+    return strcmp(text, "-") == 0 || strcmp(text, "1") == 0 || strcmp(text, "%") == 0;
+}
+
 // All of `text` is a unit.
 static bool read_unit(const char *text, Unit *product)
 {
     int32_t sign = 1;
     *product = (Unit){0};
+    if (read_dimensionless(text, product)) return true;
+    if (strncmp(text, "1/", 2) == 0) {   // 1/s
+        sign = -1;
+        text += 2;
+    }
     for (;;) {
         if (!read_factor(&text, sign, product)) return false;
         text += strspn(text, " ");
@@ -144,6 +163,22 @@ bool unit_ratio(const char *a, const char *b, double *ratio)
         return false;
     *ratio = times_power(times_power(1, 10, over.ten - under.ten), 60, over.sixty - under.sixty);
     return true;
+}
+
+const char *unit_quotient(const char *suffix, const char *dimension, bool *times)
+{
+    Unit unit;
+    if (!read_unit(suffix, &unit)) return NULL;
+    const Unit *wanted = find_dimension(dimension);
+    for (int32_t d = 1; d < DIMENSION_COUNT; d++)
+        for (int32_t sign = 1; sign >= -1; sign -= 2) {
+            bool fits = true;
+            for (int32_t i = 0; i < 3; i++)
+                fits = fits && unit.powers[i] - wanted->powers[i] == sign * dimensions[d].powers[i];
+            *times = sign < 0;
+            if (fits) return dimensions[d].name;
+        }
+    return NULL;
 }
 
 const char *unit_examples(const char *dimension)

@@ -7,14 +7,18 @@
 #include <stdbool.h>
 
 // Turns *value, given in the unit `suffix`, into SI base units. A suffix is a product of m, s, g,
-// N, Pa, J (and min), each with an SI prefix (n u m c k M G) and an integer power ("m3", "m^3",
-// "s-1"), separated by spaces, dots or `*`; after a `/` they divide. False: not a unit, or not one
-// of `dimension`.
-// dimension NULL: any will do.
+// N, Pa, J, Hz, rad, bar (and min, h), each with an SI prefix (n u m c k M G) and an integer power
+// ("m3", "m^3", "s-1"), separated by spaces, dots or `*`; after a `/` they divide. False: not a
+// unit, or not one of `dimension`.
+// dimension NULL: any will do. "-" and "1" are units of numbers without a dimension, "%" is 1/100.
 bool unit_to_si(const char *suffix, const char *dimension, double *value);
 
 // How many of the unit `b` one of `a` is. False: they are no units of the same dimension.
 bool unit_ratio(const char *a, const char *b, double *ratio);
+
+// By which dimension a number in the unit `suffix` must be divided to become one of `dimension`: of
+// kN, wanted a stress, "area". *times: it must be multiplied by it. NULL: by none that is known.
+const char *unit_quotient(const char *suffix, const char *dimension, bool *times);
 
 // Units that fit, for an error message: "m, mm, um"; "" for a plain number ("1").
 const char *unit_examples(const char *dimension);

@@ -240,6 +240,17 @@ static void print_critical_length(const RunSummary *summary)
             summary->leading > 0 ? " from rest" : "");
 }
 
+// Forces of the whole block, in the units of the scene: newtons in SI.
+static void print_forces(const RunSummary *summary)
+{
+    double load = summary->normal_force;
+    if (isnan(load)) return;
+    say("  forces          F_N %.4g", load);
+    if (!isnan(summary->mu_M)) say(", F_T %.4g at mu_M", load * summary->mu_M);
+    if (!isnan(summary->mu_hold)) say(", F_T %.4g at mu_hold", load * summary->mu_hold);
+    say(", F_T %.4g at mu_max (N in an SI scene)\n", load * summary->mu_max);
+}
+
 static void print_answers(const RunSummary *summary)
 {
     print_mu_M(summary);
@@ -250,6 +261,7 @@ static void print_answers(const RunSummary *summary)
                    summary->bar_runs == 0);
     say(", the largest load ratio of the run%s\n",
         summary->bar_runs > 0 ? " in full, on the last mesh" : "");
+    print_forces(summary);
     say("  precursors      %d quasi-static, %d bounded rapid (faster than 2.5 V, over 5 %% of the "
         "contact)\n",
         summary->quasi_static, summary->bounded);

@@ -21,7 +21,9 @@ int command_info(const Command *command, int argc, char **argv)
          "several times",
          .words = &settings},
         {"picture", 0, "FILE.png",
-         "Draw the mesh, and for a scene where the rod is. Also .pdf, .svg", .word = &picture},
+         "Draw the mesh, and for a scene where the rod is; friction.png: mu of the scene over slip "
+         "rate, material.png: its moduli over frequency, with their data. Also .pdf, .svg",
+         .word = &picture},
         option_overwrite(&overwrite),
         option_trust(&trust),
         {0}};

@@ -6,6 +6,7 @@
 #include "base/clock.h"
 #include "algebra/dense.h"
 #include "fem/floor.h"
+#include "model/loads.h"
 #include "model/regions.h"
 #include "model/scene_mesh.h"
 
@@ -60,6 +61,9 @@ bool model_read_mesh(const ChildWatch *watch, Model *model, Error *err)
     model->height = mesh->z_max - mesh->z_min;
     if (mesh->dim > 2) model->breadth = mesh->y_max - mesh->y_min;
     TRY(mesh->dim > 2 ? take_to_space(model, err) : refuse_across(scene, err));
+    TRY(scene_check_thickness(scene, mesh, err));
+    TRY(scene_pressure(scene, mesh, &model->pressure, err));
+    model->machine_stiffness = scene_machine_stiffness(scene, mesh, model->breadth);
     TRY(model_mark_regions(model, err));
 cleanup:
     model->seconds_mesh = clock_seconds() - started;
@@ -79,9 +83,10 @@ static double free_scale(const Model *model, double load)
 }
 
 // The pressure, else the largest traction. Never 0: a scene without loads is measured by 1.
-double load_reference(const Scene *scene)
+double load_reference(const Model *model)
 {
-    double largest = fabs(scene->load.pressure);
+    const Scene *scene = model->scene;
+    double largest = fabs(model->pressure);
     if (largest > 0) return largest;
     for (int32_t k = 0; k < scene->load.traction_count; k++)
         largest =
@@ -106,7 +111,7 @@ static bool supports_block(const Model *model)
 static bool set_load(Model *model, Error *err)
 {
     const Scene *scene = model->scene;
-    double load = model->unit_load.resultant * load_reference(scene);
+    double load = model->unit_load.resultant * load_reference(model);
     bool held = supports_block(model) || scene->start.velocity_z < 0;
     if (!(load > 0) && held) load = free_scale(model, load);
     if (!(load > 0))
@@ -126,11 +131,11 @@ static bool add_loads(Model *model, Error *err)
     const Scene *scene = model->scene;
     Bulk *bulk = &model->bulk;
     MeshBoundary boundary;
-    double reference = load_reference(scene), unit = 0;
+    double reference = load_reference(model), unit = 0;
     int32_t up = bulk->dim - 1;
-    if (scene->load.pressure != 0) {
+    if (model->pressure != 0) {
         MeshPlace traction = {0};
-        traction[up] = -scene->load.pressure / reference;
+        traction[up] = -model->pressure / reference;
         bool found = mesh_boundary(&model->mesh, scene->groups.top, &boundary, err);
         if (!scene_blame(scene, "groups.top", found, err)) return false;
         bulk_add_traction(&model->mesh, &boundary, traction, bulk);

@@ -12,6 +12,6 @@ bool model_lay_bulk(Model *model, Error *err);   // the bulk's loads, and the in
 bool model_hold_supports(Model *model, Error *err);   // marks their unknowns
 
 // The stress the loads are measured with.
-double load_reference(const Scene *scene);
+double load_reference(const Model *model);
 
 #endif

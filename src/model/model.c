@@ -188,9 +188,8 @@ bool model_build_rod(const Model *model, RodKind kind, Rod *rod, Error *err)
 Machine model_machine(const Model *model)
 {
     const Interface *interface = &model->interface;
-    return (Machine){
-        .stiffness = interface->rod_count > 0 ? model->scene->rod.stiffness * model->breadth : 0,
-        .first = interface_rod(interface, 0)};
+    return (Machine){.stiffness = interface->rod_count > 0 ? model->machine_stiffness : 0,
+                     .first = interface_rod(interface, 0)};
 }
 
 void model_rod_strip(const Scene *scene, double height, double *middle, double *width)

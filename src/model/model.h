@@ -49,6 +49,8 @@ typedef struct Model {
     double length, height;   // L, H of the block, length
     double breadth;   // of the block along y, length; 1 in the plane, where forces are per width
     double middle;   // x of its middle, length
+    double pressure;   // on the top, load.pressure or that of load.force; stress
+    double machine_stiffness;   // force/width over length, in space force over length; 0: rigid
     MeshOrigin mesh_origin;   // where it was read
     ObservationScales scales;   // what forces, times and velocities are measured with
     bool block_is_held;   // by a support: its forces are not known

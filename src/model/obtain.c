@@ -71,7 +71,7 @@ static double reduction_tolerance(const Scene *scene)
 // (E, eta, rho L^2, load) are set here and multiply whatever is asked of them.
 static bool adopt_basis(Model *model, Error *err)
 {
-    double load = model->unit_load.size * load_reference(model->scene);
+    double load = model->unit_load.size * load_reference(model);
     model->reduced.scales = bulk_scales(model, load);
     double deep = model->reduced.scales.stiffness / model->materials.mean.young;
     model->reduced.spectrum = spectrum_scaled(&model->bulk.spectrum, deep, 1);
@@ -226,7 +226,7 @@ static void name_basis(const Model *model, const ReductionBlock *block, char nam
 static bool make_block(Model *model, ReductionBlock *block, char name[HASH_TEXT_SIZE],
                        int32_t *parts, Error *err)
 {
-    double load = model->unit_load.size * load_reference(model->scene);
+    double load = model->unit_load.size * load_reference(model);
     const Interface *interface = &model->interface;
     if (!reduction_block_create(&model->mesh, &model->bulk, &model->materials, load, block, err))
         return false;

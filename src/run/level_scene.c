@@ -23,6 +23,7 @@ bool scene_refine(Scene *scene, double refine, Error *err)
 void scene_scale_loads(Scene *scene, double factor)
 {
     scene->load.pressure *= factor;
+    scene->load.force *= factor;
     for (int32_t k = 0; k < scene->load.traction_count; k++) {
         scene->load.tractions[k].x *= factor;
         scene->load.tractions[k].y *= factor;

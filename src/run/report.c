@@ -10,6 +10,7 @@
 #include "base/computation.h"
 #include "base/kernels.h"
 #include "io/text/json_writer.h"
+#include "model/loads.h"
 #include "run/warnings.h"
 #include "scene/keys.h"
 
@@ -83,7 +84,8 @@ static void write_model(JsonWriter *json, const Model *model, int64_t relaxation
     json_boolean(json, "from_cache", model->from_cache);
     json_number(json, "mesh_scale", model->mesh.move.scale);
     json_number_list(json, "mesh_shift", model->mesh.move.shift, model->mesh.dim);
-    json_numbers_of(json, {"length", model->length}, {"height", model->height});
+    json_numbers_of(json, {"length", model->length}, {"height", model->height},
+                    {"pressure", model->pressure});
     json_object_of(json, "wave_speeds", {"longitudinal", speeds.longitudinal},
                    {"shear", speeds.shear}, {"rayleigh", speeds.rayleigh});
     json_number(json, "wave_damping",
@@ -176,11 +178,23 @@ static void write_warnings(JsonWriter *json, const RunWarnings *warnings)
     json_end(json);
 }
 
+// Forces of the whole block at the load ratios of the answers; in the plane with `thickness` only.
+static void write_forces(JsonWriter *json, const Simulation *simulation, const Answers *answers)
+{
+    double load = simulation->model.scales.load *
+                  scene_whole_force(&simulation->scene, simulation->model.interface.dim);
+    if (isnan(load)) return;
+    json_numbers_of(json, {"F_N", load}, {"F_T_M", load * answers->mu_M.value},
+                    {"F_T_hold", load * answers->mu_hold.value},
+                    {"F_T_max", load * answers->mu_max});
+}
+
 static void write_results(JsonWriter *json, const RunReport *report)
 {
     const Simulation *simulation = report->simulation;
     json_begin_object(json, "results");
     answers_write_json(report->answers, &simulation->drops, simulation->model.length, json);
+    write_forces(json, simulation, report->answers);
     steady_write_json(&simulation->steady, report->answers, json);
     write_slip(json, report->least_resolved, &simulation->pads);
     pads_write_json(&simulation->pads, json);

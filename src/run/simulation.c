@@ -224,7 +224,6 @@ bool simulation_create_by(const Scene *scene, const RunOptions *options, double 
     simulation->options = *options;
     simulation->deadline = deadline;
     simulation->scene.output.whole = options->whole_block;
-    simulation->pressure = scene->load.pressure;
     simulation->started = simulation->checkpoint_at = clock_seconds();
     TRY(dense_begin(err));
     TRY(accept(simulation, &state, err));
@@ -232,6 +231,7 @@ bool simulation_create_by(const Scene *scene, const RunOptions *options, double 
     if (warning) warnings_add(&simulation->warnings, "%s", warning);
     StageNotice notice = {.tell = tell_stage, .goes_on = goes_on_reducing, .self = simulation};
     TRY(model_obtain(&simulation->scene, &notice, &simulation->model, err));
+    simulation->pressure = simulation->model.pressure;
     if (simulation->model.not_reduced[0])
         warnings_add(&simulation->warnings,
                      "the block is not reduced, steps are those of the whole mesh: %s",

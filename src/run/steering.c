@@ -104,8 +104,8 @@ bool amontons_simulation_set_pressure(Simulation *simulation, double pressure, E
     if (!(pressure > 0 && scene_size_holds(pressure)))
         return REFUSE(err, "a pressure of %g is not possible: above 0, of a size from %g to %g",
                       pressure, SCENE_SMALLEST, SCENE_LARGEST);
-    if (!(scene->load.pressure > 0) || scene->load.traction_count > 0)
-        return REFUSE(err, "%s: the pressure can be changed where load.pressure is the only load",
+    if (!(simulation->pressure > 0) || scene->load.traction_count > 0)
+        return REFUSE(err, "%s: the pressure can be changed where that on the top is the only load",
                       scene->path);
     if (system->reduced)
         return REFUSE(

@@ -9,6 +9,7 @@
 #include "base/decimal_point.h"
 #include "base/memory.h"
 #include "base/text.h"
+#include "model/loads.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -192,6 +193,7 @@ RunSummary summary_none(void)
                         .mu_M_spread = NAN,
                         .run_in_drift = NAN,
                         .run_in_drops_left = NAN,
+                        .normal_force = NAN,
                         .critical_length = NAN,
                         .slip_length = NAN,
                         .slip_cells = NAN,
@@ -205,40 +207,44 @@ void summary_fill(const Simulation *simulation, const RunCounters *counters, con
                   RunSummary *summary)
 {
     const int32_t *kinds = simulation->events.kinds;
-    *summary = (RunSummary){.mu_M = answers->mu_M.value,
-                            .mu_M_error = answers->mu_M.error,
-                            .mu_M_known_to = answers->mu_M_known_to,
-                            .mu_M_spread = answers->mu_M_spread,
-                            .mu_hold = answers->mu_hold.value,
-                            .mu_hold_error = answers->mu_hold.error,
-                            .mu_hold_known_to = answers->mu_hold_known_to,
-                            .mu_max = answers->mu_max,
-                            .mu_max_known_to = answers->mu_max_known_to,
-                            .mu_steady = steady_mu(&simulation->steady).value,
-                            .mu_M_is = steady_words(&simulation->steady, answers),
-                            .peaks = answers->peaks,
-                            .peaks_counted = answers->peaks_counted,
-                            .period = answers->period,
-                            .drops = answers->regime.count,
-                            .drop_period = answers->regime.period,
-                            .drops_enough = answers->enough,
-                            .run_in_drift = answers->regime.drift,
-                            .run_in_drops_left = answers->regime.drops_left,
-                            .quasi_static = kinds[EVENT_QUASI_STATIC],
-                            .bounded = kinds[EVENT_BOUNDED],
-                            .leading = kinds[EVENT_LEADING],
-                            .slight = kinds[EVENT_SLIGHT],
-                            .critical_length = answers->critical_length / simulation->model.length,
-                            .energy_error = simulation->errors.energy,
-                            .moment_error = simulation->errors.moment,
-                            .complementarity_error = simulation->errors.complementarity,
-                            .seconds_solve = simulation->timing.solve,
-                            .seconds_output = simulation->timing.output,
-                            .seconds_total = simulation->timing.total,
-                            .counters = *counters,
-                            .warnings = simulation->warnings,
-                            .field_files = simulation->fields.written,
-                            .figures = simulation->figures};
+    const Model *model = &simulation->model;
+    *summary =
+        (RunSummary){.mu_M = answers->mu_M.value,
+                     .mu_M_error = answers->mu_M.error,
+                     .mu_M_known_to = answers->mu_M_known_to,
+                     .mu_M_spread = answers->mu_M_spread,
+                     .mu_hold = answers->mu_hold.value,
+                     .mu_hold_error = answers->mu_hold.error,
+                     .mu_hold_known_to = answers->mu_hold_known_to,
+                     .mu_max = answers->mu_max,
+                     .mu_max_known_to = answers->mu_max_known_to,
+                     .mu_steady = steady_mu(&simulation->steady).value,
+                     .mu_M_is = steady_words(&simulation->steady, answers),
+                     .peaks = answers->peaks,
+                     .peaks_counted = answers->peaks_counted,
+                     .period = answers->period,
+                     .drops = answers->regime.count,
+                     .drop_period = answers->regime.period,
+                     .drops_enough = answers->enough,
+                     .run_in_drift = answers->regime.drift,
+                     .run_in_drops_left = answers->regime.drops_left,
+                     .quasi_static = kinds[EVENT_QUASI_STATIC],
+                     .bounded = kinds[EVENT_BOUNDED],
+                     .leading = kinds[EVENT_LEADING],
+                     .slight = kinds[EVENT_SLIGHT],
+                     .normal_force = model->scales.load *
+                                     scene_whole_force(&simulation->scene, model->interface.dim),
+                     .critical_length = answers->critical_length / simulation->model.length,
+                     .energy_error = simulation->errors.energy,
+                     .moment_error = simulation->errors.moment,
+                     .complementarity_error = simulation->errors.complementarity,
+                     .seconds_solve = simulation->timing.solve,
+                     .seconds_output = simulation->timing.output,
+                     .seconds_total = simulation->timing.total,
+                     .counters = *counters,
+                     .warnings = simulation->warnings,
+                     .field_files = simulation->fields.written,
+                     .figures = simulation->figures};
     if (answers->regime.run_in != RUN_IN_OVER)
         summary->run_in = run_in_name(answers->regime.run_in);
     mesh_move_text(&simulation->model.mesh, summary->mesh_moved);

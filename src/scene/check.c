@@ -78,10 +78,14 @@ static const char *friction_word(const SceneKey *key)
 static bool is_needed(const SceneKey *key, const Scene *scene)
 {
     const char *word = friction_word(key);
+    bool of_table = key->offset == offsetof(Scene, own_friction.velocity) ||
+                    key->offset == offsetof(Scene, own_friction.mu);
+    if (of_table && *scene->own_friction.file) return false;
     if (word && !key->standard) return friction_use(&scene->friction, word) == FRICTION_MUST;
     if (strcmp(key->name, "material.young") == 0 && scene->material.young_short > 0) return false;
     if (strcmp(key->name, "rod.velocity") == 0)
         return scene->rod.kind != ROD_NONE && !is_static(scene);
+    if (strcmp(key->name, "load.pressure") == 0) return !(scene->load.force > 0);
     return key->must_be_given || (key->given_in_si && scene->units == UNITS_SI);
 }
 
@@ -121,6 +125,9 @@ static bool check_friction_keys(const Check *check)
 static bool check_friction(const Check *check)
 {
     if (!check_friction_keys(check)) return false;
+    if (*check->scene->own_friction.file &&
+        (is_given(check, "friction.velocity") || is_given(check, "friction.mu")))
+        return blame(check, "friction.file", "give either a file or velocity and mu");
     if (friction_is_own(&check->scene->friction)) return true;
     const Scene *scene = check->scene;
     bool weakens = friction_has_drop(&scene->friction);
@@ -201,8 +208,11 @@ static bool check_load(const Check *check)
     if (scene->material.plane == PLANE_STRAIN && scene->material.poisson >= 0.5)
         return blame(check, "material.poisson", "%g; plane strain needs less than 0.5",
                      scene->material.poisson);
+    if (scene->load.force > 0 && is_given(check, "load.pressure"))
+        return blame(check, "load.force", "give either this or load.pressure");
     bool held = scene->load.support_count > 0 || scene->start.velocity_z < 0;
-    if (scene->load.pressure == 0 && scene->load.traction_count == 0 && !held)
+    if (scene->load.pressure == 0 && scene->load.force == 0 && scene->load.traction_count == 0 &&
+        !held)
         return blame(check, "load.pressure",
                      "0, and no load.tractions: nothing presses the block down");
     return true;

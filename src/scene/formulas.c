@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "scene/formulas.h"
 
-#include "base/formula.h"
 #include "scene/keys.h"
 #include "scene/materials.h"
 
@@ -41,16 +40,22 @@ bool scene_number(const void *context, const char *name, double *value)
 }
 
 // 15 digits: what is shown in messages and in tables is what is computed with.
-bool scene_work_out(const Scene *scene, const SceneSetting *formula, const char *name,
-                    YamlDocument **value, Error *err)
+bool scene_formula_value(const SceneSetting *formula, const char *name, FormulaLookUp look_up,
+                         const void *context, YamlDocument **value, Error *err)
 {
     char number[40];
     double result = 0;
     Error found = {0};
     const char *text = yaml_text(formula->document, formula->node) + 1;
-    if (!formula_value(text, scene_number, scene, &result, &found))
+    if (!formula_value(text, look_up, context, &result, &found))
         return yaml_error(formula->document, formula->node, err, "%s: %s", formula->key,
                           found.message);
     snprintf(number, sizeof number, "%.15g", result);
     return yaml_scalar(name, number, value, err);
+}
+
+bool scene_work_out(const Scene *scene, const SceneSetting *formula, const char *name,
+                    YamlDocument **value, Error *err)
+{
+    return scene_formula_value(formula, name, scene_number, scene, value, err);
 }

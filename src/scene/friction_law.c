@@ -2,6 +2,7 @@
 #include "scene/friction_law.h"
 
 #include "friction/friction_make.h"
+#include "scene/friction_file.h"
 #include "scene/materials.h"
 
 #include <math.h>
@@ -67,11 +68,23 @@ bool scene_friction_law(const Scene *scene, const char *formula, FrictionLaw *la
 #undef X
     law->slip_law = own->evolution == EVOLUTION_SLIP;
     FrictionLaw given = *law;   // a formula may name its numbers
-    FrictionSource source = {.velocity = own->velocity.value,
-                             .velocity_count = own->velocity.count,
-                             .mu = own->mu.value,
-                             .mu_count = own->mu.count,
+    bool by_force = scene->load.force > 0;
+    double velocity[FRICTION_POINTS_MAX], mu[FRICTION_POINTS_MAX];
+    int32_t points = 0;
+    if (law->kind == FRICTION_TABLE && *own->file) {
+        FrictionData data;
+        bool done = friction_data_read(scene, &data, err) &&
+                    friction_data_points(scene, &data, velocity, mu, &points, err);
+        friction_data_destroy(&data);
+        *key = "file";
+        if (!done) return false;
+    }
+    FrictionSource source = {.velocity = points > 0 ? velocity : own->velocity.value,
+                             .velocity_count = points > 0 ? points : own->velocity.count,
+                             .mu = points > 0 ? mu : own->mu.value,
+                             .mu_count = points > 0 ? points : own->mu.count,
                              .straight = own->interpolation == INTERPOLATION_LINEAR,
+                             .by_log = own->interpolation == INTERPOLATION_LOG,
                              .formula = formula,
                              .file = own->file,
                              .trusted = scene->trusted,
@@ -81,9 +94,14 @@ bool scene_friction_law(const Scene *scene, const char *formula, FrictionLaw *la
                              .state_count = own->states.count,
                              .rod_velocity = scene->rod.velocity,
                              .rest = own->rest,
-                             .pressure = scene->load.pressure,
+                             .pressure = by_force ? 1 : scene->load.pressure,
                              .parameters = own->parameters.value,
                              .parameter_count = own->parameters.count,
                              .end = fastest_slip(scene)};
-    return friction_make(&source, law, key, err);
+    if (!friction_make(&source, law, key, err)) return false;
+    *key = "law";
+    if (by_force && law->feels_pressure)
+        return REFUSE(err, "mu of the pressure needs load.pressure: what load.force makes on the "
+                           "top is known with the mesh only");
+    return true;
 }

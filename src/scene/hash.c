@@ -43,6 +43,8 @@ bool scene_hash(const Scene *scene, bool (*counts)(const char *key), Hash *hash,
         hash_text(hash, keys[k].name);
         if (keys[k].type == KEY_NUMBER) {
             hash_number(hash, *(const double *)field);
+            if (keys[k].whole)
+                hash_number(hash, *(const bool *)((const char *)scene + keys[k].is_whole));
         } else if (keys[k].type == KEY_PARAMETERS) {
             hash_parameters(scene, hash);
         } else {

@@ -72,6 +72,7 @@ static const ScenePart MATERIAL[] = {NUMBER("young", MATERIAL_YOUNG),
                                      NUMBER("eta2", MATERIAL_ETA2),
                                      NUMBER("young_short", MATERIAL_YOUNG_SHORT),
                                      GIVEN(SceneMaterial, "relaxation", relaxation, has_relaxation),
+                                     GIVEN(SceneMaterial, "from", from, has_from),
                                      {0}};
 const SceneItems scene_material_items = {
     ITEMS(group, materials.count, materials.region),

@@ -3,6 +3,7 @@
 // are those of keys.
 #include "scene/items.h"
 
+#include "scene/formulas.h"
 #include "scene/states.h"
 
 #include <string.h>
@@ -96,6 +97,8 @@ static bool set_word(const SceneKey *key, int32_t k, const SceneValue *value, Sc
     if (!part) return report_word(key, path, value, err);
     snprintf(name, sizeof name, "%s.%s", path, word);
     SceneKey own = scene_part_key(items, part, k, name);
+    if (items == &scene_material_items && scene_is_formula(value->document, value->node))
+        return true;   // worked out afterwards
     if (own.type == KEY_TEXT && !*yaml_text(value->document, value->node))
         return yaml_refuse(value->document, value->node, name, "a text", err);
     if (part->given) *(bool *)(item + part->given) = true;

@@ -4,6 +4,7 @@
 // never needed again. What is written can be read as a scene, JSON being YAML.
 #include "scene/keys.h"
 
+#include "base/units.h"
 #include "io/files/folder.h"
 #include "scene/items.h"
 
@@ -56,10 +57,17 @@ void scene_write_value(const SceneKey *key, const Scene *scene, JsonWriter *json
     const void *field = (const char *)scene + key->offset;
     const SceneNumbers *numbers = field;
     const SceneNames *names = field;
+    char number[60];
     const SceneRelaxation *relaxation = field;
     switch (key->type) {
     case KEY_NUMBER:
-        json_number(json, name, *(const double *)field);
+        if (key->whole && *(const bool *)((const char *)scene + key->is_whole)) {
+            const char *unit = unit_examples(key->whole);
+            snprintf(number, sizeof number, "%.17g %.*s", *(const double *)field,
+                     (int)strcspn(unit, ","), unit);
+            json_text(json, name, number);
+        } else
+            json_number(json, name, *(const double *)field);
         return;
     case KEY_FLAG:
         json_boolean(json, name, *(const bool *)field);

@@ -15,7 +15,7 @@ static const char *const law_choices[] = {
     FRICTION_LAWS(X)
 #undef X
         NULL};
-static const char *const interpolation_choices[] = {"cubic", "linear", NULL};
+static const char *const interpolation_choices[] = {"cubic", "linear", "log", NULL};
 static const char *const unit_choices[] = {
 #define X(symbol, name, metres) name,
     SCENE_LENGTHS(X)
@@ -47,6 +47,9 @@ static const SceneKey keys[] = {
            "`normalised`: plain numbers; density, Young's modulus and eta1 usually 1. `si`: "
            "numbers in SI base units, or with a unit (10 um/s, 3 kPa).",
            "normalised", "si"),
+    NUMBER(thickness, "length", RANGE_POSITIVE, NULL,
+           "In the plane: how thick the block is, across the plane. Forces are then those of the "
+           "whole block: load.force, rod.stiffness in N/m, and results in newtons."),
     WORDS(KEY_TEXT, mesh.file, NULL,
           "The mesh: a .msh file, or a .geo for gmsh; relative to the scene's folder.",
           .must_be_given = true),
@@ -93,12 +96,27 @@ static const SceneKey keys[] = {
         "Branches of a generalised Maxwell solid (a Prony series) beside all else, each a spring "
         "of shear modulus `shear` and bulk modulus `bulk` (0 if not given) that relaxes in "
         "`time`."),
+    WORDS(KEY_TEXT, material.from, NULL,
+          "In the place of young, eta1, eta2 and relaxation: a table of storage and loss modulus "
+          "over frequency (f, E', E''), or of a relaxation curve (t, E), to which they are fitted; "
+          "relative to the scene's folder. eta1 and eta2 may be given beside it."),
+    KEY("material.wlf", KEY_NUMBERS, material.wlf, "1", RANGE_ANY, NULL,
+        "Shifts such tables: [c1, c2, T_ref, T] of Williams, Landel and Ferry, T that of the "
+        "block, in degrees Celsius; data are at T_ref, or at that of their column T."),
+    NUMBER(material.shift, "1", RANGE_POSITIVE, "1",
+           "Relaxation in the block takes so many times as long as in such tables."),
+    CHOICE(
+        material.bulk, "elastic",
+        "What such tables mean for volume: it is `elastic` and shape alone relaxes (rubber), or it "
+        "`relaxes` alike.",
+        "elastic", "relaxes"),
     CHOICE(material.plane, "stress",
            "Plane stress (a thin plate) or plane strain (a wide block); in space neither.",
            "stress", "strain"),
     KEY("materials", KEY_ITEMS, materials.count, "1", RANGE_ANY, NULL,
         "Materials of regions, by the names of physical surfaces (volumes): those of young, "
-        "young_short, poisson, density, eta1, eta2, relaxation that differ there from `material`.",
+        "young_short, poisson, density, eta1, eta2, relaxation, from that differ there from "
+        "`material`.",
         .items = &scene_material_items),
     KEY("friction.law", KEY_CHOICE, friction.kind, "1", RANGE_ANY, "linear-weakening",
         "How the local coefficient changes with slip rate; `table`, `formula` and `plugin` are "
@@ -113,11 +131,14 @@ static const SceneKey keys[] = {
     NUMBER(friction.critical_velocity, "velocity", RANGE_NOT_NEGATIVE, "0",
            "Slip rate v_c over which friction weakens; needed by the weakening laws."),
     KEY("friction.velocity", KEY_NUMBERS, own_friction.velocity, "velocity", RANGE_NOT_NEGATIVE,
-        NULL, "Law `table`: slip rates, ascending from 0; beyond the last mu stays."),
+        NULL, "Law `table`: slip rates, ascending; beyond the last mu stays."),
     KEY("friction.mu", KEY_NUMBERS, own_friction.mu, "1", RANGE_NOT_NEGATIVE, NULL,
-        "Law `table`: the coefficient at each; the first holds at rest."),
+        "Law `table`: the coefficient at each. At rest it is mu_static where the table begins "
+        "above "
+        "0 and that is given, else the first."),
     KEY("friction.interpolation", KEY_CHOICE, own_friction.interpolation, "1", RANGE_ANY, NULL,
-        "Law `table`: between points `cubic` (each piece monotone; if not given) or `linear`.",
+        "Law `table`: between points `cubic` (each piece monotone; if not given), `linear`, or "
+        "`log`: the same cubics over the logarithm of the slip rate.",
         .choices = interpolation_choices),
     KEY("friction.formula", KEY_TEXT, own_friction.formula, "1", RANGE_ANY, NULL,
         "Law `formula`: mu of the slip rate v >= 0, the pressure p and the states, with + - * / ^, "
@@ -128,8 +149,9 @@ static const SceneKey keys[] = {
         "it is at first (if not given, as in steady slip at rod.velocity).",
         .items = &scene_state_items),
     KEY("friction.file", KEY_TEXT, own_friction.file, "1", RANGE_ANY, NULL,
-        "Law `plugin`: a shared object with the functions of amontons_friction.h, relative to the "
-        "scene's folder; needs --trust."),
+        "Law `table`: a file with the columns v and mu, in the place of `velocity` and `mu`. Law "
+        "`plugin`: a shared object with the functions of amontons_friction.h, which needs --trust. "
+        "Relative to the scene's folder."),
     KEY("friction.parameters", KEY_NUMBERS, own_friction.parameters, "1", RANGE_ANY, NULL,
         "Law `plugin`: at most 16 numbers for it."),
     KEY("friction.velocity_max", KEY_NUMBER, own_friction.velocity_max, "velocity", RANGE_POSITIVE,
@@ -182,7 +204,13 @@ static const SceneKey keys[] = {
           "in space also x, y and gap (a height map), over all of the contact. A first line may "
           "give units, `x [mm], gap [um]`."),
     NUMBER(load.pressure, "stress", RANGE_NOT_NEGATIVE, NULL,
-           "Uniform pressure P_ext on groups.top.", .must_be_given = true),
+           "Uniform pressure P_ext on groups.top; needed where load.force is not given.",
+           .must_be_given = true,
+           .hint = "that of groups.top; or give `load.force`, in the plane with `thickness`"),
+    NUMBER(load.force, "force", RANGE_POSITIVE, NULL,
+           "The force that presses groups.top down, spread evenly, in the place of load.pressure; "
+           "in the plane it needs `thickness`.",
+           .hint = "a force per width times `thickness`, a pressure as `load.pressure`"),
     KEY("load.tractions", KEY_ITEMS, load.traction_count, "stress", RANGE_ANY, "[]",
         "Further tractions, a list of {group, x, z} (and y): a stress on a group.",
         .items = &scene_traction_items),
@@ -204,8 +232,10 @@ static const SceneKey keys[] = {
            .must_be_given = true),
     NUMBER(rod.stiffness, "stress", RANGE_POSITIVE, NULL,
            "Stiffness of the machine: a spring between the drive, which moves with `rod.velocity`, "
-           "and the rod; force per width (breadth) of the block over length. If not given, the rod "
-           "itself moves with `rod.velocity`."),
+           "and the rod; force per width (breadth) of the block over length, or that of the whole "
+           "machine with its unit (4e6 N/m), in the plane with `thickness`. If not given, the rod "
+           "itself moves with `rod.velocity`.",
+           .whole = "force/length", .is_whole = offsetof(Scene, rod.stiffness_is_whole)),
     NUMBER(rod.displacement, "length", RANGE_ANY, "0",
            "How far the rod stands inside the undeformed block; read by `amontons static` only."),
     NUMBER(rod.height, "length", RANGE_NOT_NEGATIVE, "0",

@@ -55,6 +55,11 @@ typedef struct SceneKey {
     const SceneItems *items;   // of KEY_ITEMS
     bool must_be_given;   // of those without a default; friction.law says which of its keys must
     bool given_in_si;   // the default suits normalised scenes: with SI it must be given
+    const char *hint;   // what else to do with a number of another dimension; NULL: nothing
+    // Dimension of the same quantity of the whole block, where `unit` is per width of it; NULL: it
+    // is not taken. `is_whole`: offset of the bool in Scene that says which of them was given.
+    const char *whole;
+    size_t is_whole;
 } SceneKey;
 
 // One word of an item: {group: a, mu_static: 0.5} has mu_static beside its group.

@@ -11,10 +11,11 @@
 #include "io/text/yaml_document.h"
 #include "scene/scene_values.h"
 
-enum { SCENE_KEYS_MAX = 128 };   // of scene/keys
+enum { SCENE_KEYS_MAX = 144 };   // of scene/keys
 
 typedef enum SceneUnits { UNITS_NORMALISED, UNITS_SI } SceneUnits;
 typedef enum ScenePlane { PLANE_STRESS, PLANE_STRAIN } ScenePlane;
+typedef enum SceneBulk { BULK_ELASTIC, BULK_RELAXES } SceneBulk;
 typedef enum SceneRodEnds { ROD_ENDS_EXACT, ROD_ENDS_NODES } SceneRodEnds;
 typedef enum SceneRodKind { ROD_PUSH, ROD_BONDED, ROD_NONE } SceneRodKind;
 typedef enum SceneStartFriction { START_FRICTION_OFF, START_FRICTION_ON } SceneStartFriction;
@@ -48,6 +49,7 @@ typedef struct Scene {
     char path[SCENE_TEXT_SIZE];   // of the scene file, as given
     char title[SCENE_TEXT_SIZE];
     SceneUnits units;
+    double thickness;   // of a block in the plane, length; 0: not given, forces are per width
     struct {
         char file[SCENE_TEXT_SIZE];   // resolved against the scene file's folder
         int32_t parameter_count;
@@ -66,6 +68,11 @@ typedef struct Scene {
     struct {
         double young, poisson, density, eta1, eta2, young_short;
         SceneRelaxation relaxation;
+        char from[SCENE_TEXT_SIZE];   // measured moduli, as in SceneMaterial
+        bool eta_from_file;   // eta1 was found with the branches
+        SceneNumbers wlf;   // c1, c2, T_ref, T: of all files
+        double shift;   // of their times, 1
+        SceneBulk bulk;   // whether it relaxes in what files give
         ScenePlane plane;
     } material;
     SceneMaterials materials;   // of single regions
@@ -79,6 +86,7 @@ typedef struct Scene {
     } contact;
     struct {
         double pressure;
+        double force;   // on the top, in the place of the pressure; 0: not given
         int32_t traction_count;   // load.tractions: [{group, x, y, z}]
         SceneTraction tractions[SCENE_LIST_MAX];
         int32_t support_count;   // load.supports: [{group, direction}]
@@ -88,6 +96,8 @@ typedef struct Scene {
     struct {
         double velocity, displacement;   // V; how far it is moved in `amontons static`
         double stiffness, height, width, breadth;   // of its spring; of the strip; 0: not given
+        bool
+            stiffness_is_whole;   // of the whole machine, force/length; else per width of the block
         SceneRodKind kind;
         SceneRodEnds ends;
         bool whole;   // all of its group, no strip

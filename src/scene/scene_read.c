@@ -3,6 +3,9 @@
 // checks. Settings are gathered first and stored after, because `units` must be known before any
 // number is.
 //
+// A value that is a formula (`= 6 * load.pressure`) is worked out when all plain values are stored,
+// each formula after those that it depends on.
+//
 // A later setting wins, key by key; a map given whole (--set time.until={t: 3}) first gives its
 // keys their defaults back. `sources` remembers where each value stands, for errors of the checks.
 #include "scene/scene.h"
@@ -14,19 +17,28 @@
 #include "scene/friction_law.h"
 #include "scene/items.h"
 #include "scene/keys.h"
+#include "scene/material_file.h"
 #include "scene/profile.h"
 #include "scene/value.h"
 
 #include <stdio.h>
 #include <string.h>
 
-enum { SETTINGS_MAX = 4 * SCENE_KEYS_MAX, KEY_NAME_SIZE = 96 };
+enum { SETTINGS_MAX = 4 * SCENE_KEYS_MAX, KEY_NAME_SIZE = 96, FORMULAS_MAX = 64 };
 
 typedef struct Setting {
     int32_t key;   // of scene_keys(); -1: give `group` its defaults back
     SceneValue value;
     char group[KEY_NAME_SIZE];
 } Setting;
+
+// A key whose value is a formula over the others.
+typedef struct FormulaSetting {
+    char name[KEY_NAME_SIZE];   // as after --set: "mesh.set.height"
+    SceneValue value;
+    int32_t before;   // settings that were gathered before it; later ones replace it
+    YamlDocument *result;   // its value, NULL: not worked out; owned
+} FormulaSetting;
 
 typedef struct Reader {
     const SceneKey *keys;   // [key_count]
@@ -37,6 +49,8 @@ typedef struct Reader {
     int32_t override_count;
     Setting *settings;   // [setting_count] of SETTINGS_MAX, later ones win
     int32_t setting_count;
+    FormulaSetting *formulas;   // [formula_count] of FORMULAS_MAX, in their order
+    int32_t formula_count;
     SceneValue sources[SCENE_KEYS_MAX];
     bool trusted;   // Scene.trusted of what is read
 } Reader;
@@ -80,12 +94,45 @@ static bool gather_children(Reader *reader, const char *name, const SceneValue *
     return true;
 }
 
+static bool add_formula(Reader *reader, const char *name, const SceneValue *value, Error *err)
+{
+    if (reader->formula_count == FORMULAS_MAX)
+        return yaml_error(value->document, value->node, err, "%s: more than %d formulas", name,
+                          FORMULAS_MAX);
+    FormulaSetting *formula = &reader->formulas[reader->formula_count++];
+    *formula = (FormulaSetting){.value = *value, .before = reader->setting_count};
+    snprintf(formula->name, sizeof formula->name, "%s", name);
+    return true;
+}
+
+// Formulas in the maps of a key that has names of one's own below it: "mesh.set.height",
+// "materials.pads.young". What reads the map leaves them out.
+static bool gather_formulas_below(Reader *reader, const char *name, const SceneValue *value,
+                                  Error *err)
+{
+    YAML_EACH (item, value->document, value->node) {
+        char path[KEY_NAME_SIZE];
+        SceneValue child = {.document = value->document, .node = item};
+        snprintf(path, sizeof path, "%.60s.%.30s", name, yaml_key(value->document, item));
+        bool done = scene_is_formula(value->document, item)
+                        ? add_formula(reader, path, &child, err)
+                        : gather_formulas_below(reader, path, &child, err);
+        if (!done) return false;
+    }
+    return true;
+}
+
 // Turns the value standing under `name` into settings of keys.
 static bool gather(Reader *reader, const char *name, const SceneValue *value, Error *err)
 {
     Setting setting = {.key = scene_key_index(name), .value = *value};
     if (setting.key >= 0) {
+        const SceneKey *key = &reader->keys[setting.key];
+        bool open = key->type == KEY_PARAMETERS || key->items == &scene_material_items;
+        if (key->type == KEY_NUMBER && scene_is_formula(value->document, value->node))
+            return add_formula(reader, name, value, err);
         if (!add_setting(reader, &setting, err)) return false;
+        if (open && !gather_formulas_below(reader, name, value, err)) return false;
         bool has_children = reader->keys[setting.key].type == KEY_FIELDS &&
                             yaml_kind(value->document, value->node) == YAML_MAP;
         return !has_children || gather_children(reader, name, value, err);
@@ -224,6 +271,108 @@ static bool store_from(Reader *reader, int32_t first, Scene *scene, Error *err)
     return true;
 }
 
+// --- formulas -----------------------------------------------------------------------------------
+
+// A setting that was gathered later gives the formula's key, or a map that it is in.
+static bool is_replaced(const Reader *reader, const FormulaSetting *formula)
+{
+    for (int32_t i = formula->before; i < reader->setting_count; i++) {
+        const Setting *setting = &reader->settings[i];
+        char name[2 * KEY_NAME_SIZE];
+        bool below = setting->key >= 0 && setting->value.part;
+        const char *key = setting->key >= 0 ? reader->keys[setting->key].name : setting->group;
+        snprintf(name, sizeof name, "%s%s%s", key, below ? "." : "", below ? setting->group : "");
+        size_t length = strlen(name);
+        if (strncmp(formula->name, name, length) == 0 &&
+            (!formula->name[length] || formula->name[length] == '.'))
+            return true;
+    }
+    for (const FormulaSetting *later = formula + 1;
+         later < reader->formulas + reader->formula_count; later++)
+        if (strcmp(later->name, formula->name) == 0) return true;
+    return false;
+}
+
+// Numbers of a scene of which some formulas are not worked out yet.
+typedef struct Numbers {
+    const Reader *reader;
+    const Scene *scene;
+    const bool *waiting;   // [formula_count]
+} Numbers;
+
+static bool find_number(const void *context, const char *name, double *value)
+{
+    const Numbers *numbers = context;
+    for (int32_t k = 0; k < numbers->reader->formula_count; k++)
+        if (numbers->waiting[k] && strcmp(numbers->reader->formulas[k].name, name) == 0)
+            return false;
+    if (*numbers->scene->material.from && strcmp(name, "material.young") == 0) return false;
+    return scene_number(numbers->scene, name, value);
+}
+
+// Stores the result of a formula, at the place of the formula in its file.
+static bool store_formula(Reader *reader, FormulaSetting *formula, Scene *scene, Error *err)
+{
+    Setting setting = {.value = {.document = formula->result, .node = YAML_ROOT}};
+    const char *part = NULL;
+    setting.key = scene_key_index(formula->name);
+    if (setting.key < 0) setting.key = scene_key_above(formula->name, &part);
+    if (part) snprintf(setting.group, sizeof setting.group, "%s", part);
+    setting.value.part = part;
+    if (!store_setting(reader, &setting, scene, err)) return false;
+    if (formula->value.document == reader->file)
+        scene->line[setting.key] = yaml_line(formula->value.document, formula->value.node);
+    return true;
+}
+
+// Works out the formulas of the file over what else the scene has, each as soon as no other that
+// it names is waiting. ERROR_INPUT: what is wrong with one, or that some wait for each other.
+static bool work_out_file(Reader *reader, Scene *scene, Error *err)
+{
+    bool waiting[FORMULAS_MAX] = {false};
+    int32_t left = 0, before;
+    Numbers numbers = {reader, scene, waiting};
+    for (int32_t k = 0; k < reader->formula_count; k++) {
+        yaml_destroy(reader->formulas[k].result);
+        reader->formulas[k].result = NULL;
+        waiting[k] = !is_replaced(reader, &reader->formulas[k]);
+        left += waiting[k];
+    }
+    do {
+        before = left;
+        for (int32_t k = 0; k < reader->formula_count; k++) {
+            FormulaSetting *formula = &reader->formulas[k];
+            char shown[SCENE_TEXT_SIZE + KEY_NAME_SIZE];
+            Error ignored = {0};
+            if (!waiting[k]) continue;
+            const SceneValue *value = &formula->value;
+            SceneSetting setting = {formula->name, value->document, value->node};
+            snprintf(shown, sizeof shown, "%s:%d: value of `%.80s`", scene->path,
+                     yaml_line(value->document, value->node),
+                     yaml_text(value->document, value->node));
+            if (!scene_formula_value(&setting, shown, find_number, &numbers, &formula->result,
+                                     &ignored))
+                continue;
+            waiting[k] = false;
+            left--;
+            if (!store_formula(reader, formula, scene, err)) return false;
+        }
+    } while (left > 0 && left < before);
+    for (int32_t k = 0; k < reader->formula_count; k++) {
+        const FormulaSetting *formula = &reader->formulas[k];
+        YamlDocument *none = NULL;
+        if (!waiting[k]) continue;
+        SceneSetting setting = {formula->name, formula->value.document, formula->value.node};
+        bool wrong = !scene_work_out(scene, &setting, "", &none, err);
+        yaml_destroy(none);
+        return !wrong && yaml_error(formula->value.document, formula->value.node, err,
+                                    "%s: a formula over itself, or over another one that is over "
+                                    "this",
+                                    formula->name);
+    }
+    return true;
+}
+
 // --- reading ------------------------------------------------------------------------------------
 
 // A file named by `key`, relative to the folder of the scene `path`, becomes relative to the
@@ -264,6 +413,7 @@ static bool begin_reading(Reader *reader, const char *path, Scene *scene, Error 
         return REFUSE(err, "%.80s...: a path of more than 511 bytes", path);
     memcpy(scene->path, path, strlen(path) + 1);
     return (reader->settings = NEW_ARRAY(Setting, SETTINGS_MAX, err)) &&
+           (reader->formulas = NEW_ARRAY(FormulaSetting, FORMULAS_MAX, err)) &&
            read_defaults(reader, err) && gather_file(reader, err);
 }
 
@@ -286,7 +436,8 @@ static bool work_out_all(Reader *reader, const char *const *overrides, int32_t c
         if (!gather_outside(reader, name, &(SceneValue){.document = *value, .node = YAML_ROOT},
                             err))
             return false;
-        if (!store_from(reader, first, scene, err)) return false;
+        if (!store_from(reader, first, scene, err) || !work_out_file(reader, scene, err))
+            return false;
     }
     return true;
 }
@@ -298,6 +449,13 @@ static bool finish_reading(Reader *reader, const char *path, Scene *scene, Error
     const char *word;
     SceneProfile profile;   // read again when the contact is known
     bool done;
+    if (!resolve_file(path, "material.from", scene->material.from, err)) return false;
+    for (int32_t k = 0; k < scene->materials.count; k++)
+        if (scene->materials.region[k].has_from &&
+            !resolve_file(path, "materials", scene->materials.region[k].from, err))
+            return false;
+    done = scene_material_files(scene, &word, err);
+    if (!done) return scene_blame(scene, word, false, err);
     if (!scene_check(scene, reader->sources, reader->file, err)) return false;
     if (!friction_has_drop(&scene->friction))
         scene->friction.mu_kinetic = scene->friction.mu_static;
@@ -318,7 +476,8 @@ static bool finish_reading(Reader *reader, const char *path, Scene *scene, Error
 static void destroy_reader(Reader *reader)
 {
     for (int32_t i = 0; i < reader->override_count; i++) yaml_destroy(reader->overrides[i]);
-    memory_free_all(reader->overrides, reader->settings);
+    for (int32_t i = 0; i < reader->formula_count; i++) yaml_destroy(reader->formulas[i].result);
+    memory_free_all(reader->overrides, reader->settings, reader->formulas);
     yaml_destroy(reader->file);
     yaml_destroy(reader->defaults);
 }
@@ -331,6 +490,7 @@ bool scene_read(const char *path, const char *const *overrides, int32_t override
     TRY((reader.overrides = NEW_ARRAY(YamlDocument *, 2 * (int64_t)override_count, err)));
     for (int32_t i = 0; i < override_count; i++) TRY(gather_override(&reader, overrides[i], err));
     TRY(store_settings(&reader, scene, err));
+    TRY(work_out_file(&reader, scene, err));
     TRY(work_out_all(&reader, overrides, override_count, scene, err));
     TRY(finish_reading(&reader, path, scene, err));
 cleanup:
@@ -342,7 +502,7 @@ cleanup:
 
 struct SceneSource {
     Reader reader;   // its settings: first those of the file, then those of the scene at hand
-    int32_t file_count;   // of the file
+    int32_t file_count, file_formulas;   // of the file
     SceneValue file_sources[SCENE_KEYS_MAX];
     Scene file, made;   // what the file alone gives; the scene at hand, not finished
 };
@@ -354,6 +514,7 @@ bool scene_source_open(const char *path, bool trusted, SceneSource **source, Err
     made->reader.trusted = trusted;
     if (!begin_reading(&made->reader, path, &made->file, err)) return false;
     made->file_count = made->reader.setting_count;
+    made->file_formulas = made->reader.formula_count;
     if (!store_settings(&made->reader, &made->file, err)) return false;
     memcpy(made->file_sources, made->reader.sources, sizeof made->file_sources);
     return true;
@@ -368,7 +529,8 @@ void scene_source_close(SceneSource *source)
 static bool finish_copy(SceneSource *source, Scene *scene, Error *err)
 {
     memcpy(scene, &source->made, sizeof *scene);
-    return finish_reading(&source->reader, source->made.path, scene, err);
+    return work_out_file(&source->reader, scene, err) &&
+           finish_reading(&source->reader, source->made.path, scene, err);
 }
 
 // Other units than the file's change what its numbers mean: all is stored anew.
@@ -379,6 +541,9 @@ bool scene_source_begin(SceneSource *source, const SceneSetting *settings, int32
     int32_t units = scene_key_index("units");
     bool other_units = false;
     reader->setting_count = source->file_count;
+    for (int32_t k = source->file_formulas; k < reader->formula_count; k++)
+        yaml_destroy(reader->formulas[k].result);
+    reader->formula_count = source->file_formulas;
     for (int32_t i = 0; i < count; i++) {
         SceneValue value = {.document = settings[i].document, .node = settings[i].node};
         if (!gather_outside(reader, settings[i].key, &value, err)) return false;

@@ -80,8 +80,10 @@ typedef struct SceneMaterial {
     char group[GROUP_NAME_SIZE];   // a physical surface
     bool given[SCENE_MATERIAL_NUMBERS];
     double number[SCENE_MATERIAL_NUMBERS];   // where given
-    bool has_relaxation;
+    bool has_relaxation, has_from, eta_from_file;   // eta_from_file: found with the branches
     SceneRelaxation relaxation;   // where given
+    char from[SCENE_TEXT_SIZE];   // measured moduli, resolved like mesh.file; has_from: given, and
+        // not yet made into numbers (scene/material_file)
 } SceneMaterial;
 
 typedef struct SceneMaterials {
@@ -89,7 +91,11 @@ typedef struct SceneMaterials {
     SceneMaterial region[SCENE_MATERIALS_MAX];
 } SceneMaterials;
 
-typedef enum SceneInterpolation { INTERPOLATION_CUBIC, INTERPOLATION_LINEAR } SceneInterpolation;
+typedef enum SceneInterpolation {
+    INTERPOLATION_CUBIC,
+    INTERPOLATION_LINEAR,
+    INTERPOLATION_LOG
+} SceneInterpolation;
 typedef enum SceneEvolution { EVOLUTION_AGEING, EVOLUTION_SLIP } SceneEvolution;
 
 // friction.state: {NAME: {rate: FORMULA, start: FORMULA}}.
@@ -104,7 +110,7 @@ typedef struct SceneOwnFriction {
     SceneInterpolation interpolation;
     char formula[SCENE_TEXT_SIZE];
     SceneStates states;   // of a formula
-    char file[SCENE_TEXT_SIZE];   // of a plug-in, resolved against the scene file's folder
+    char file[SCENE_TEXT_SIZE];   // of a plug-in or a table, resolved against the scene's folder
     double velocity_max;   // 0: the speed of sound
 #define X(number, symbol) double number;   // 0: not given
     FRICTION_NUMBERS(X)

@@ -6,6 +6,7 @@
 
 #include "base/text.h"
 #include "base/units.h"
+#include "scene/formulas.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -61,12 +62,33 @@ static bool split_number(const char *text, double *number, const char **suffix)
     return length > 0;
 }
 
-// Applies the unit `suffix` to *number, or says why it does not fit.
-static bool apply_unit(const SceneKey *key, const SceneValue *value, SceneUnits units,
-                       const char *suffix, double *number, Error *err)
+// A unit of another dimension: which are allowed, and by what the number has to be divided. Always
+// false.
+static bool report_unit(const SceneKey *key, const SceneValue *value, const char *suffix,
+                        Error *err)
 {
     const char *text = yaml_text(value->document, value->node);
-    const char *examples = unit_examples(key->unit);
+    bool times = false;
+    const char *by = unit_quotient(suffix, key->unit, &times);
+    const char *article = by && strchr("aeiou", *by) ? "an" : "a";
+    char advice[240] = "";
+    if (by)
+        snprintf(advice, sizeof advice, "; %s it by %s %s%s%s%s", times ? "multiply" : "divide",
+                 article, by, key->hint ? " (" : "", key->hint ? key->hint : "",
+                 key->hint ? ")" : "");
+    return yaml_error(value->document, value->node, err,
+                      "%s: found `%.60s`; `%.30s` is no unit of %s; allowed: %s%s%s%s", key->name,
+                      text, suffix, key->unit, unit_examples(key->unit), key->whole ? ", " : "",
+                      key->whole ? unit_examples(key->whole) : "", advice);
+}
+
+// Applies the unit `suffix` to *number, or says why it does not fit. *whole: it is one of the
+// dimension key->whole.
+static bool apply_unit(const SceneKey *key, const SceneValue *value, SceneUnits units,
+                       const char *suffix, double *number, bool *whole, Error *err)
+{
+    const char *text = yaml_text(value->document, value->node);
+    *whole = false;
     if (!*suffix) return true;
     if (strcmp(key->unit, "1") == 0 && strcmp(suffix, "%") == 0) {
         *number /= 100;
@@ -77,15 +99,13 @@ static bool apply_unit(const SceneKey *key, const SceneValue *value, SceneUnits 
                           "%s: found `%.60s`, with a unit; a normalised scene has plain numbers "
                           "(units need `units: si`)",
                           key->name, text);
-    if (!*examples)
+    if (!*unit_examples(key->unit))
         return yaml_error(value->document, value->node, err,
                           "%s: found `%.60s`; this number has no unit; allowed: %s", key->name,
                           text, scene_range_words(key->range));
-    if (!unit_to_si(suffix, key->unit, number))
-        return yaml_error(value->document, value->node, err,
-                          "%s: found `%.60s`; `%.30s` is no unit of %s; allowed: %s", key->name,
-                          text, suffix, key->unit, examples);
-    return true;
+    if (unit_to_si(suffix, key->unit, number)) return true;
+    *whole = key->whole && unit_to_si(suffix, key->whole, number);
+    return *whole || report_unit(key, value, suffix, err);
 }
 
 // ERROR_INPUT: "0,003", or a minus sign that is none of ASCII, as word processors and spreadsheets
@@ -109,14 +129,14 @@ static bool check_typing(const SceneKey *key, const SceneValue *value, Error *er
 
 // Range is the caller's to check. ERROR_INPUT for what is not a finite decimal number.
 static bool read_number(const SceneKey *key, const SceneValue *value, SceneUnits units,
-                        double *number, Error *err)
+                        double *number, bool *whole, Error *err)
 {
     const char *suffix = "";
     if (!expect_scalar(key, value, err)) return false;
     const char *text = yaml_text(value->document, value->node);
     if (!check_typing(key, value, err)) return false;
     if (!split_number(text, number, &suffix)) return report_wrong(key, value, err);
-    if (!apply_unit(key, value, units, suffix, number, err)) return false;
+    if (!apply_unit(key, value, units, suffix, number, whole, err)) return false;
     if (!isfinite(*number)) return report_wrong(key, value, err);
     if (!scene_size_holds(*number))
         return yaml_error(value->document, value->node, err,
@@ -127,17 +147,19 @@ static bool read_number(const SceneKey *key, const SceneValue *value, SceneUnits
 }
 
 static bool read_in_range(const SceneKey *key, const SceneValue *value, SceneUnits units,
-                          double *number, Error *err)
+                          double *number, bool *whole, Error *err)
 {
-    if (!read_number(key, value, units, number, err)) return false;
+    if (!read_number(key, value, units, number, whole, err)) return false;
     return scene_range_holds(key->range, *number) || report_wrong(key, value, err);
 }
 
 static bool set_number(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
 {
     double number = 0;
-    if (!read_in_range(key, value, scene->units, &number, err)) return false;
+    bool whole = false;
+    if (!read_in_range(key, value, scene->units, &number, &whole, err)) return false;
     memcpy(field_of(key, scene), &number, sizeof number);
+    if (key->whole) *(bool *)((char *)scene + key->is_whole) = whole;
     return true;
 }
 
@@ -145,7 +167,8 @@ static bool add_number(const SceneKey *key, const SceneValue *value, Scene *scen
 {
     SceneNumbers *numbers = field_of(key, scene);
     double number = 0;
-    if (!read_in_range(key, value, scene->units, &number, err)) return false;
+    bool whole = false;
+    if (!read_in_range(key, value, scene->units, &number, &whole, err)) return false;
     numbers->value[numbers->count++] = number;
     return true;
 }
@@ -186,7 +209,7 @@ static bool add_branch(const SceneKey *key, const SceneValue *value, Scene *scen
         SceneKey own = words[k];
         snprintf(path, sizeof path, "%s.%s", key->name, word);
         own.name = path;
-        if (!read_in_range(&own, &one, scene->units, &number[k], err)) return false;
+        if (!read_in_range(&own, &one, scene->units, &number[k], &(bool){false}, err)) return false;
         given[k] = true;
     }
     if (!given[TIME])
@@ -336,14 +359,16 @@ static bool set_parameter(const SceneKey *key, const SceneValue *value, Scene *s
     const char *name = value->part ? value->part : yaml_key(value->document, value->node);
     const char *text = yaml_text(value->document, value->node);
     MeshParameter *parameter = find_parameter(scene, name);
+    if (scene_is_formula(value->document, value->node)) return true;   // worked out afterwards
     bool full = !parameter && scene->mesh.parameter_count == SCENE_LIST_MAX;
     if (full || !*name || strlen(name) >= GROUP_NAME_SIZE)
         return yaml_key_error(value->document, value->node, err,
                               "%s: at most 32 parameters, with names of 1 to 63 bytes", key->name);
     if (!expect_scalar(key, value, err)) return false;
     double ignored = 0;
+    bool whole = false;
     bool number = !yaml_is_quoted(value->document, value->node) && text_number(text, &ignored);
-    bool read = number ? read_number(key, value, scene->units, &made.value, err)
+    bool read = number ? read_number(key, value, scene->units, &made.value, &whole, err)
                        : copy_text(key, value, GROUP_NAME_SIZE, made.text, err);
     if (!read) return false;
     memcpy(made.name, name, strlen(name) + 1);
@@ -385,6 +410,7 @@ void scene_value_clear(const SceneKey *key, Scene *scene)
                   : key->type == KEY_ITEMS    ? sizeof(int32_t)   // how many there are
                                               : SCENE_TEXT_SIZE;
     memset(field_of(key, scene), 0, size);
+    if (key->whole) *(bool *)((char *)scene + key->is_whole) = false;
 }
 
 bool scene_value_set(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)

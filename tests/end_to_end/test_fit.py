@@ -2,6 +2,7 @@
 """`amontons fit`: numbers that data were made with are found again, from results and from a curve; what the data do not know is
 said; a fit that is gone on with; errors that name the place."""
 import csv
+import json
 import math
 import os
 import re
@@ -124,6 +125,33 @@ class Fit(unittest.TestCase):
         self.assertTrue(low < 0.8 < high and high - low < 0.2, (value, low, high))
         said = self.call("fit", study.replace("history: true", "history: false"), "-o", "none", status=2).stderr
         self.assertIn("output.history: true", said)
+
+    def test_slide_hold_slide(self):
+        """Times held and peaks of mu give healing and slip distance of the ageing law, within their errors."""
+        (self.folder / "held.yaml").write_text(f"""mesh: {{file: {SOURCE}/meshes/block.geo, set: {{length: 1.0, height: 0.5, nx: 6, nz: 3}}}}
+material: {{young: 1000, poisson: 0.34, eta1: 1000, eta2: 1000}}
+load: {{pressure: 0.003}}
+friction: {{law: ageing, mu_static: 0.38, mu_kinetic: 0.38, critical_velocity: 1, healing: 0.03, healing_time: 10, slip_distance: 1e-3}}
+rod: {{velocity: 1e-4, kind: bonded, height: 0.1, program: {{t: [0, 1, 100, 100, 130, 130, 230, 230, 530, 530, 630, 630, 3630, 3630, 3730], factor: [0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1]}}}}
+time: {{until: {{t: 3730}}, step_max: 0.2}}
+output: {{history: false}}
+""")
+        head = "scene: held.yaml\n"
+        self.call("sweep", head + "vary: {friction.healing: [0.03]}\n", "-q", "-o", "truth")
+        folder = next((self.folder / "truth/points").iterdir())
+        holds = json.loads((folder / "run.json").read_text())["results"]["program"]["holds"]
+        self.assertEqual([round(hold["duration"]) for hold in holds], [30, 300, 3000])
+        rows = [[f"{hold['duration']:.9g}".replace(".", ","), f"{hold['mu_before'] + hold['healing'] + 0.0005 * by:.9g}".replace(".", ","), "0,0005"]
+                for hold, by in zip(holds, (0.5, -0.8, 0.3))]
+        table = "# slide-hold-slide\nhold (s);mu (-);mu_sd\n" + "".join(";".join(row) + "\n" for row in rows)
+        (self.folder / "measured.csv").write_text(table)
+        study = head + "search: {friction.healing: {log: [0.01, 0.1]}, friction.slip_distance: {log: [2e-4, 5e-3]}}\n" \
+            "fit: {measured: measured.csv, designs: 12}\n"
+        regions = self.regions(self.call("fit", study, "-j", "2", "-o", "out").stdout)
+        for key, true, part in (("friction.healing", 0.03, 0.3), ("friction.slip_distance", 1e-3, 0.8)):
+            value, low, high = regions[key]
+            self.assertTrue(low < true < high, (key, value, low, high))
+            self.assertLess(high - low, 2 * part * true, key)
 
     def test_mistakes(self):
         good = [["load.pressure", "mu_max", "mu_max_error"], ["0.002", "0.4", "0.01"], ["0.004", "0.4", "0.01"]]

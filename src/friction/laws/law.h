@@ -47,7 +47,7 @@ typedef enum FrictionKind {
     X(reference_velocity, "V_0") /* velocity */
 
 enum { STATES_MAX = AMONTONS_FRICTION_STATES_MAX };   // states of a node
-enum { FRICTION_POINTS_MAX = 64 };   // points of a table
+enum { FRICTION_POINTS_MAX = 256 };   // points of a table
 
 // mu and the rates g of the states, with their derivatives: as many entries as there are states.
 typedef AmontonsFrictionRates FrictionRates;
@@ -56,9 +56,13 @@ typedef AmontonsFrictionRates FrictionRates;
 typedef struct FrictionTable {
     int32_t count;   // number of points, at least 2
     bool straight;   // lines between the points in place of cubics
-    double speed[FRICTION_POINTS_MAX];   // ascending from 0, velocity
+    bool by_log;   // cubics over ln v; below the first point a line from `rest` at v = 0
+    double rest;   // mu at v = 0, 1
+    double first;   // the least velocity that is given; 0: mu at rest is
+    double speed[FRICTION_POINTS_MAX];   // ascending, from 0 but where by_log, velocity
+    double at[FRICTION_POINTS_MAX];   // the same, or their logarithms
     double mu[FRICTION_POINTS_MAX];   // 1
-    double slope[FRICTION_POINTS_MAX];   // slopes of the cubics at the points, one over a velocity
+    double slope[FRICTION_POINTS_MAX];   // slopes of the cubics at the points, over `at`
 } FrictionTable;
 
 // Expressions of the law `formula`.
@@ -130,7 +134,7 @@ typedef struct FrictionStateText {
 typedef struct FrictionSource {
     const double *velocity, *mu;   // [velocity_count], [mu_count] points of a table
     int32_t velocity_count, mu_count;
-    bool straight;   // lines between them
+    bool straight, by_log;   // lines between them; cubics over ln v
     const char *formula, *file;
     FormulaLookUp look_up;   // numbers that a formula may name; NULL: none
     const void *context;   // handed to look_up

@@ -103,6 +103,8 @@ typedef enum ResultColumns {
     X(NUMBER_TRAILING, "trailing_end", "length", "x at which the block begins")                    \
     X(NUMBER_PRESSURE, "pressure", "stress", "P_ext on the top")                                   \
     X(NUMBER_LOAD, "normal_force", "force/width", "F_N, the applied load")                         \
+    X(NUMBER_THICKNESS, "thickness", "length",                                                     \
+      "in the plane: forces times this are those of the whole block; absent: not given")           \
     X(NUMBER_ROD_VELOCITY, "rod_velocity", "velocity", "V")                                        \
     X(NUMBER_CRITICAL_VELOCITY, "critical_velocity", "velocity", "v_c of the friction law")        \
     X(NUMBER_MU_STATIC, "mu_static", "1", "mu_S, local; absent of rate and state")                 \

@@ -41,9 +41,9 @@ static bool ends_line(char c)
 // Where the cell that begins at `at` ends. Blanks before a bracket separate nothing: x [mm].
 static const char *cell_end(const char *at, char separator)
 {
-    bool quoted = false;
+    bool quoted = false, has_quotes = at[strspn(at, BLANKS)] == '"';   // else E" is a name
     for (; *at && (quoted || !ends_line(*at)); at++) {
-        if (*at == '"') quoted = !quoted;
+        if (*at == '"' && has_quotes) quoted = !quoted;
         if (quoted || (separator == ' ' ? !strchr(BLANKS, *at) : *at != separator)) continue;
         if (separator != ' ') break;
         const char *next = at + strspn(at, BLANKS);
@@ -313,7 +313,14 @@ static CsvUnit in_brackets(const char *bracket)
     return unit;
 }
 
-// All cells of a row [-1: of the names] are units, or empty where there is none.
+// Numbers without a dimension have "-", "1" or "%" in the place of a unit.
+static bool is_dimensionless(const char *text, int32_t length)
+{
+    return length == 1 && strchr("-1%", *text);
+}
+
+// All cells of a row [-1: of the names] are units, or empty or dashes where there is none. A row of
+// ones or dashes alone is one of values.
 static bool is_of_units(const CsvTable *table, int32_t row)
 {
     int32_t units = 0;
@@ -322,7 +329,7 @@ static bool is_of_units(const CsvTable *table, int32_t row)
         CsvUnit unit = in_brackets(cell);
         if (unit.length == 0) unit = (CsvUnit){cell, (int32_t)strlen(cell)};
         if (*cell && !is_unit(unit.text, unit.length)) return false;
-        units += *cell != 0;
+        units += *cell && !is_dimensionless(unit.text, unit.length);
     }
     return units > 0;
 }
@@ -500,10 +507,12 @@ bool csv_take_unit(const char *rest, CsvUnit *unit)
     if (unit->length > 0) return true;
     if (at > rest && strncmp(at, "in", 2) == 0 && strchr(BLANKS, at[2])) at += 2;
     if (at == rest && !strchr("/_", *at)) return false;
-    at += *at == '/' || *at == '_';
+    bool over = *at == '/';
+    at += over || *at == '_';
     at += strspn(at, BLANKS);
     *unit = in_brackets(at);   // v/(m/s)
     if (unit->length == 0) *unit = (CsvUnit){at, (int32_t)strlen(at)};
+    if (!over && is_dimensionless(unit->text, unit->length)) return false;   // x_1, run 1
     return is_unit(unit->text, unit->length);
 }
 
@@ -537,6 +546,75 @@ bool csv_find(const CsvTable *table, const char *name, int32_t *column, CsvUnit 
         *unit = behind;
     }
     return true;
+}
+
+bool csv_find_any(const CsvTable *table, const char *const *names, int32_t *column, CsvUnit *unit,
+                  Error *err)
+{
+    *column = -1;
+    *unit = (CsvUnit){"", 0};
+    for (; *names; names++) {
+        CsvUnit found;
+        int32_t k = -1;
+        if (!csv_find(table, *names, &k, &found, err)) return false;
+        if (k < 0) continue;
+        if (*column >= 0)
+            return csv_refuse(table, -1, k, err, "is the same as column %d, %.40s", *column + 1,
+                              csv_name(table, *column));
+        *column = k;
+        *unit = found;
+    }
+    return true;
+}
+
+// Endings of the name of a column of errors, and names of one that says not of what.
+static const char *const ERROR_ENDINGS[] = {"_error", " error", "_err", " err",
+                                            "_std",   " std",   "_sd",  " sd"};
+static const char *const ERROR_NAMES[] = {"error", "err", "std", "sd", "+-", "+/-", "\xC2\xB1"};
+static const char SIGMA[] = "sigma_";   // before the name
+
+// Column `column` is called `name`, which may have a unit behind it.
+static bool is_called(const CsvTable *table, int32_t column, const char *name, CsvUnit *unit)
+{
+    size_t length = strlen(name);
+    const char *own = csv_name(table, column);
+    *unit = csv_unit_of_row(table, column);
+    return strncmp(own, name, length) == 0 && (!own[length] || csv_take_unit(own + length, unit));
+}
+
+static bool is_named_error(const CsvTable *table, int32_t column, const char *of, CsvUnit *unit)
+{
+    char name[2 * CSV_UNIT_SIZE];
+    snprintf(name, sizeof name, "%s%s", SIGMA, of);
+    if (is_called(table, column, name, unit)) return true;
+    for (size_t k = 0; k < sizeof ERROR_ENDINGS / sizeof *ERROR_ENDINGS; k++) {
+        snprintf(name, sizeof name, "%s%s", of, ERROR_ENDINGS[k]);
+        if (is_called(table, column, name, unit)) return true;
+    }
+    return false;
+}
+
+static bool is_nameless_error(const CsvTable *table, int32_t column, CsvUnit *unit)
+{
+    for (size_t k = 0; k < sizeof ERROR_NAMES / sizeof *ERROR_NAMES; k++)
+        if (is_called(table, column, ERROR_NAMES[k], unit)) return true;
+    return false;
+}
+
+void csv_find_error(const CsvTable *table, int32_t of, int32_t *column, CsvUnit *unit)
+{
+    char name[CSV_UNIT_SIZE + 1];
+    CsvUnit found;
+    int32_t length = 0;
+    csv_split(table, of, &length, &found);
+    snprintf(name, sizeof name, "%.*s", length, csv_name(table, of));
+    for (*column = 0; *column < table->columns; ++*column)
+        if (*column != of && length < CSV_UNIT_SIZE && is_named_error(table, *column, name, unit))
+            return;
+    *column = of + 1;
+    if (*column < table->columns && is_nameless_error(table, *column, unit)) return;
+    *column = -1;
+    *unit = (CsvUnit){"", 0};
 }
 
 bool csv_to_si(const CsvTable *table, int32_t column, CsvUnit unit, const char *dimension,

@@ -60,11 +60,18 @@ enum { CSV_UNIT_SIZE = 40 };
 
 // *column: the one called `name`, alone or with a unit behind it; -1: none. ERROR_INPUT: two are.
 bool csv_find(const CsvTable *table, const char *name, int32_t *column, CsvUnit *unit, Error *err);
+// The same of a quantity that people call by one of these names, of which the last is NULL.
+bool csv_find_any(const CsvTable *table, const char *const *names, int32_t *column, CsvUnit *unit,
+                  Error *err);
 CsvUnit csv_unit_of_row(const CsvTable *table, int32_t column);   // length 0: there is none
 // Whether what stands behind a name, `rest`, is a unit, and which.
 bool csv_take_unit(const char *rest, CsvUnit *unit);
 // The name of a column without its unit, and the unit; length 0: it has none.
 void csv_split(const CsvTable *table, int32_t column, int32_t *name_length, CsvUnit *unit);
+// *column: the one that holds the errors of column `of`, with its own unit: NAME_error, NAME error,
+// err, std, sd in the place of error, sigma_NAME; else one to its right that is called error, err,
+// std, sd or +- alone; -1: there is none.
+void csv_find_error(const CsvTable *table, int32_t of, int32_t *column, CsvUnit *unit);
 // Finds the factor that converts numbers of the column to SI base units. dimension NULL: any.
 // ERROR_INPUT: the unit is not of this dimension.
 bool csv_to_si(const CsvTable *table, int32_t column, CsvUnit unit, const char *dimension,

@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "model/model.h"
 #include "model/scene_mesh.h"
+#include "run/info/info_curves.h"
 #include "scene/keys.h"
 
 #include <errno.h>
@@ -27,6 +28,16 @@ static bool info_scene_mesh(const Scene *scene, const InfoOptions *options, FILE
 cleanup:
     mesh_destroy(&mesh);
     return error_is_clean(err);
+}
+
+// What mu is at rest under a table that begins above v = 0.
+static void write_rest(const Scene *scene, FILE *out)
+{
+    const FrictionTable *table = &scene->friction.table;
+    bool given = scene->given[scene_key_index("friction.mu_static")];
+    if (table->first > 0)
+        fprintf(out, "The table begins at v = %.4g; at rest mu is %.6g, %s\n", table->first,
+                table->rest, given ? "friction.mu_static" : "its first value");
 }
 
 // Every key with its value after defaults; `-` where a key without a default was left out, which
@@ -52,8 +63,15 @@ static bool info_scene(const char *path, const InfoOptions *options, FILE *out, 
         fprintf(out, "\nThe law's own mu at rest %.6g, lowest mu %.6g, v_c %.4g\n",
                 scene->friction.mu_static, scene->friction.mu_kinetic,
                 scene->friction.critical_velocity);
+    if (scene->friction.kind == FRICTION_TABLE) write_rest(scene, out);
+    TRY(info_write_material(scene, out, err));
     fprintf(out, "\nThe mesh file is %s\n", scene->mesh.file);
-    if (options->picture) TRY(info_scene_mesh(scene, options, out, err));
+    if (options->picture && info_picture_is_of(options->picture, "friction"))
+        TRY(info_draw_friction(scene, options, err));
+    else if (options->picture && info_picture_is_of(options->picture, "material"))
+        TRY(info_draw_material(scene, options, err));
+    else if (options->picture)
+        TRY(info_scene_mesh(scene, options, out, err));
 cleanup:
     amontons_scene_destroy(scene);
     return error_is_clean(err);

@@ -161,7 +161,7 @@ static bool static_solve(Model *model, StaticSolution *solution, Error *err)
     // A rod on a spring is found from the forces: displacements are against it until then.
     bool rigid = scene->rod.stiffness == 0;
     if (rigid) solution->rod_way = scene->rod.displacement;
-    interface_operator_pull(stiffness, scene->rod.stiffness * scene->rod.displacement);
+    interface_operator_pull(stiffness, model->machine_stiffness * scene->rod.displacement);
     TRY(interface_operator_condense(stiffness, bulk->load, g, err));
     TRY(solve_contact(model, stiffness, g, bound, solution, err));
     double way = interface_operator_release(stiffness, solution->contact_displacement);

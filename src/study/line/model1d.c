@@ -11,6 +11,7 @@
 #include "algebra/dense.h"
 #include "base/decimal_point.h"
 #include "base/memory.h"
+#include "model/loads.h"
 #include "model/scene_mesh.h"
 #include "friction/friction.h"
 #include "run/result/result_folder.h"
@@ -82,8 +83,8 @@ static bool check_scene(const Scene *scene, Error *err)
                       "be left at mu_kinetic; this `%s` strengthens again at faster slip "
                       "(`amontons stability` and `run` take it)",
                       path, friction_law_name(&scene->friction));
-    if (!(scene->load.pressure > 0))
-        return REFUSE(err, "%s: the 1D model needs load.pressure above 0", path);
+    if (!(scene->load.pressure > 0 || scene->load.force > 0))
+        return REFUSE(err, "%s: the 1D model needs load.pressure or load.force above 0", path);
     if (scene->load.traction_count > 0 || scene->load.support_count > 0)
         return REFUSE(err,
                       "%s: the 1D model has a pressure on top and a rod only, no load.tractions or "
@@ -122,6 +123,8 @@ static bool measure_block(const Scene *scene, Model1d *model, Error *err)
         FAIL(err, ERROR_INPUT,
              "%s: is a mesh in space, and the 1D model a line along a block in the plane",
              scene->mesh.file);
+    TRY(scene_check_thickness(scene, &mesh, err));
+    TRY(scene_pressure(scene, &mesh, &model->pressure, err));
     TRY(mesh_contact(&mesh, scene->groups.contact.name, scene->groups.contact.count, &contact,
                      err));
     model->length = mesh.x_max - mesh.x_min;
@@ -159,7 +162,6 @@ static bool translate_scene(const Scene *scene, const Model1dOptions *options, M
                        .elastic_shear = young / (2 * (1 + poisson)),
                        .viscous_x = scene->material.eta1 + scene->material.eta2,
                        .viscous_shear = scene->material.eta1 / 2,
-                       .pressure = scene->load.pressure,
                        .velocity = scene->rod.velocity,
                        .young = young,
                        .speed = sqrt(confined / scene->material.density),

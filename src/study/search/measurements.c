@@ -6,6 +6,7 @@
 #include "io/files/folder.h"
 #include "io/hdf5/array_file.h"
 #include "io/text/csv_reader.h"
+#include "io/text/json_reader.h"
 #include "scene/keys.h"
 #include "study/sweep/reading/study_wanted.h"
 
@@ -18,7 +19,9 @@
 
 // Misfits are squares of differences over errors: none of them may overflow.
 static const double LARGEST = 1e30, SMALLEST = 1e-30, DIGITS = 1e-12;   // DIGITS: of the value
-static const char SERIES[] = "series/", ERROR_ENDING[] = "_error";
+static const char SERIES[] = "series/";
+// Slide-hold-slide: the time that the rod was held, and what is measured when it goes on.
+static const char HOLD[] = "hold", PEAK[] = "mu", HEALING[] = "healing";
 
 typedef enum ColumnKind { COLUMN_CONDITION, COLUMN_RESULT, COLUMN_ERROR, COLUMN_ALONG } ColumnKind;
 
@@ -49,27 +52,17 @@ static bool is_series(const char *name)
     return strncmp(name, SERIES, sizeof SERIES - 1) == 0;
 }
 
+// A table of holds has `mu`, its peak after each, or `healing`, that peak over mu before.
+static bool is_after_hold(const char *name)
+{
+    return strcmp(name, PEAK) == 0 || strcmp(name, HEALING) == 0;
+}
+
 static int32_t find_name(const Table *table, const char *name)
 {
     for (int32_t k = 0; k < table->csv.columns; k++)
         if (strcmp(table->columns[k].name, name) == 0) return k;
     return -1;
-}
-
-// NAME of NAME_error, where there is such a column. false: it is none's error.
-static bool is_error(const Table *table, const char *name)
-{
-    char of[STUDY_NAME_SIZE];
-    if (!text_ends_with(name, ERROR_ENDING)) return false;
-    snprintf(of, sizeof of, "%.*s", (int)(strlen(name) - sizeof ERROR_ENDING + 1), name);
-    return find_name(table, of) >= 0;
-}
-
-static int32_t error_of(const Table *table, const char *name)
-{
-    char column[STUDY_NAME_SIZE + sizeof ERROR_ENDING];
-    snprintf(column, sizeof column, "%s%s", name, ERROR_ENDING);
-    return find_name(table, column);
 }
 
 // Names and units, each name once.
@@ -97,48 +90,81 @@ static bool read_names(Table *table, Error *err)
     return true;
 }
 
-static bool read_column(Table *table, int32_t k, Error *err)
+// Read at a place of its own: along a series, or after a hold.
+static bool is_curve(const Table *table, const char *name)
+{
+    return is_series(name) || (find_name(table, HOLD) >= 0 && is_after_hold(name));
+}
+
+static bool is_result(const Table *table, const char *name)
+{
+    return is_curve(table, name) || study_record_path(name) != NULL;
+}
+
+// Finds the errors of each result, in the result's unit where they have none.
+static bool find_errors(Table *table, Error *err)
 {
     const CsvTable *csv = &table->csv;
+    for (int32_t k = 0; k < csv->columns; k++) table->columns[k].error = -1;
+    for (int32_t k = 0; k < csv->columns; k++) {
+        Column *column = &table->columns[k];
+        CsvUnit unit;
+        if (is_key(column->name) || !is_result(table, column->name)) continue;
+        csv_find_error(csv, k, &column->error, &unit);
+        if (column->error < 0) continue;
+        Column *error = &table->columns[column->error];
+        if (error->kind == COLUMN_ERROR)
+            return csv_refuse(csv, -1, column->error, err,
+                              "is the error of one of several results: name each, as in %s_error",
+                              column->name);
+        error->kind = COLUMN_ERROR;
+        if (unit.length == 0) error->factor = column->factor;
+    }
+    return true;
+}
+
+static bool read_column(Table *table, int32_t k, Error *err)
+{
     Column *column = &table->columns[k];
-    const char *name = column->name;
-    column->error = -1;
-    column->kind = COLUMN_ERROR;
-    if (is_error(table, name)) return true;
+    if (column->kind == COLUMN_ERROR) return true;
     column->kind = COLUMN_CONDITION;
-    if (is_key(name)) return true;
-    column->error = error_of(table, name);
+    if (is_key(column->name)) return true;
     column->kind = column->error < 0 ? COLUMN_ALONG : COLUMN_RESULT;
-    if (is_series(name)) return true;
-    if (!study_record_path(name))
+    if (is_series(column->name) || strcmp(column->name, HOLD) == 0) return true;
+    if (!is_curve(table, column->name) && !study_record_path(column->name))
         return csv_refuse(
-            csv, -1, k, err,
+            &table->csv, -1, k, err,
             "is neither a key of the scene nor a result, as `record` of a study names "
-            "it, nor a series of history.h5, as in series/mu");
+            "it, nor a series of history.h5, as in series/mu, nor `hold` with `mu` or `healing`");
     if (column->error < 0)
-        return csv_refuse(csv, -1, k, err,
-                          "has no error: a column %s_error has one standard deviation of it", name);
+        return csv_refuse(&table->csv, -1, k, err,
+                          "has no error: a column %s_error has one standard deviation of it",
+                          column->name);
     return true;
 }
 
 static bool read_columns(Table *table, Error *err)
 {
-    int32_t along = 0, results = 0, curves = 0;
+    int32_t along = 0, results = 0, curves = 0, held = 0;
     if (!(table->columns = NEW_ARRAY(Column, table->csv.columns, err))) return false;
-    if (!read_names(table, err)) return false;
+    if (!read_names(table, err) || !find_errors(table, err)) return false;
     for (int32_t k = 0; k < table->csv.columns; k++) {
         if (!read_column(table, k, err)) return false;
         along += table->columns[k].kind == COLUMN_ALONG;
         results += table->columns[k].kind == COLUMN_RESULT;
-        curves += table->columns[k].kind == COLUMN_RESULT && is_series(table->columns[k].name);
+        const char *name = table->columns[k].name;
+        curves += table->columns[k].kind == COLUMN_RESULT && is_curve(table, name);
+        held += table->columns[k].kind == COLUMN_RESULT && is_after_hold(name);
     }
+    bool holds = find_name(table, HOLD) >= 0;
     if (results == 0)
         return REFUSE(err, "%s: no column is a result, as in mu_M with mu_M_error", table->path);
-    if (along > 1 || (along == 0) != (curves == 0))
+    if (along > 1 || (along == 0) != (curves == 0) || (holds && held < curves))
         return REFUSE(
             err,
             "%s: a curve has one column without an error, the series along which it is read, and "
-            "at least one with an error: series/rod_displacement, series/mu, series/mu_error",
+            "at least one with an error: series/rod_displacement, series/mu, series/mu_error; "
+            "or hold, mu, mu_error",
             table->path);
     return true;
 }
@@ -245,7 +271,7 @@ static bool read_row(Measurements *measured, const Table *table, int32_t row, Er
         if (table->columns[k].kind != COLUMN_RESULT || !*csv_cell(&table->csv, row, k)) continue;
         snprintf(datum.name, sizeof datum.name, "%s", name);
         snprintf(datum.along, sizeof datum.along, "%s",
-                 is_series(name) ? table->columns[along].name : "");
+                 is_curve(table, name) ? table->columns[along].name : "");
         if (!read_number(table, row, k, &datum.value, err)) return false;
         if (!read_number(table, row, table->columns[k].error, &datum.error, err)) return false;
         if (!(datum.error > 0))
@@ -361,12 +387,45 @@ cleanup:
     return error_is_clean(err);
 }
 
+// mu or its rise after a hold of this duration, of the run's own holds: linear over the logarithm
+// of the time held. NaN: no holds as short or as long.
+static void find_after_hold(const Datum *datum, const char *report, double *value, double *error)
+{
+    double before[3] = {NAN, NAN, NAN};   // the longest of shorter ones: ln duration, value, error
+    double behind[3] = {NAN, NAN, NAN};
+    for (int32_t k = 0;; k++) {
+        double found[4];
+        static const char *const names[] = {"duration", "healing", "healing_error", "mu_before"};
+        for (int32_t n = 0; n < 4; n++) {
+            char path[STUDY_NAME_SIZE];
+            snprintf(path, sizeof path, "results.program.holds.%d.%s", k, names[n]);
+            if (!json_find_number(report, path, &found[n])) found[n] = n == 0 ? -1 : NAN;
+        }
+        if (found[0] < 0) break;
+        if (isnan(found[1])) continue;
+        double at = log(found[0] / datum->at);
+        if (strcmp(datum->name, PEAK) == 0) found[1] += found[3];
+        double *side = at <= DIGITS ? before : behind;
+        if (at > DIGITS ? !(at > behind[0]) : !(at < before[0]))
+            memcpy(side, (double[]){at, found[1], found[2]}, sizeof before);
+    }
+    if (fabs(before[0]) <= DIGITS) memcpy(behind, before, sizeof before);
+    double width = behind[0] - before[0], part = width > 0 ? -before[0] / width : 0;
+    *value = before[1] + part * (behind[1] - before[1]);
+    *error = fmax(before[2], behind[2]) / 2;
+}
+
 bool measurements_find(const Datum *datum, const char *report, const char *history, double *value,
                        double *error, Error *err)
 {
     *value = NAN;
     *error = 0;
     if (!report) return true;
+    if (strcmp(datum->along, HOLD) == 0) {
+        find_after_hold(datum, report, value, error);
+        if (isnan(*error)) *error = 0;
+        return true;
+    }
     if (*datum->along) return find_on_curve(datum, history, value, err);
     PointValue found = point_value(report, study_record_path(datum->name));
     *value = found.value;

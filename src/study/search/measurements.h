@@ -7,6 +7,10 @@
 //     series/rod_displacement  a series of history.h5, without an error: where it first comes to
 //     series/mu                this value another is read, with an error: a curve, a row a point
 //
+//     hold                     slide-hold-slide: how long the rod was held,
+//     mu, healing              the peak of mu when it goes on, or its rise over mu before, with an
+//                              error; read off the holds of the run's own program
+//
 // An empty cell: nothing was measured there. Called by fit.
 #ifndef AMONTONS_STUDY_SEARCH_MEASUREMENTS_H
 #define AMONTONS_STUDY_SEARCH_MEASUREMENTS_H

@@ -42,6 +42,18 @@ TEST(test_conversions)
         {9, "s/s", "1", 9},
         {2, "min", "time", 120},
         {6, "m/min", "velocity", 0.1},
+        {36, "km/h", "velocity", 10},
+        {2, "h", "time", 7200},
+        {3, "\xB5m", "length", 3e-6},   // Latin-1
+        {5, "kHz", "frequency", 5000},
+        {5, "rad/s", "frequency", 5},
+        {5, "1/s", "frequency", 5},
+        {2, "bar", "stress", 2e5},
+        {4e6, "N/m", "force/length", 4e6},
+        {6, "kN", "force", 6000},
+        {4, "-", "1", 4},
+        {4, "1", "1", 4},
+        {4, "%", "1", 0.04},
     };
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
         double value = cases[k].given;
@@ -56,7 +68,7 @@ TEST(test_refusals)
     static const char *const cases[][2] = {
         {"", "length"},     {"foo", "length"},       {"Mm/s", "length"},     {"m/s/s", "velocity"},
         {"m0", "length"},   {"m99", "length"},       {"m^", "velocity"},     {"/s", "1"},
-        {"m/", "length"},   {"m s", "velocity"},     {"km/h", "velocity"},   {"pa", "stress"},
+        {"m/", "length"},   {"m s", "velocity"},     {"1/", "velocity"},     {"pa", "stress"},
         {"Pa", "length"},   {"kk", "length"},        {"k", "length"},        {"m!", "length"},
         {"m m0", "length"}, {"kg/m/m/m", "density"}, {"\xC2\xB5", "length"}, {"m", "1"},
         {"m..", "length"},  {"mm2", "length"},       {"m^-", "length"},
@@ -69,11 +81,31 @@ TEST(test_refusals)
     }
 }
 
+TEST(what_to_divide_by)
+{
+    static const struct {
+        const char *unit, *dimension, *by;   // by NULL: nothing that is known
+        bool times;
+    } cases[] = {{"kN", "stress", "area", false},    {"N/m", "stress", "length", false},
+                 {"kPa", "force", "area", true},     {"mm", "velocity", "time", false},
+                 {"MPa", "viscosity", "time", true}, {"kg", "stress", NULL, false},
+                 {"quux", "stress", NULL, false}};
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+        bool times = false;
+        const char *by = unit_quotient(cases[k].unit, cases[k].dimension, &times);
+        if (!cases[k].by != !by) fail_msg("%s: %s", cases[k].unit, by ? by : "none");
+        if (!by) continue;
+        assert_string_equal(by, cases[k].by);
+        assert_true(times == cases[k].times);
+    }
+}
+
 // What an error offers must be accepted.
 TEST(test_examples_are_units)
 {
-    static const char *const dimensions[] = {"length", "time",    "velocity",
-                                             "stress", "density", "viscosity"};
+    static const char *const dimensions[] = {"length",  "time",      "velocity", "stress",
+                                             "density", "viscosity", "force",    "force/length",
+                                             "area",    "frequency"};
     for (size_t k = 0; k < sizeof dimensions / sizeof dimensions[0]; k++) {
         char text[100];
         assert_true(strlen(unit_examples(dimensions[k])) < sizeof text);

@@ -88,10 +88,48 @@ static void check_refused(int32_t count, const double *velocity, const double *m
 
 TEST(test_refusals)
 {
-    const double up[] = {0, 1, 2}, back[] = {0, 2, 1}, late[] = {1, 2, 3};
+    const double up[] = {0, 1, 2}, back[] = {0, 2, 1};
     const double fine[] = {0.4, 0.2, 0.3};
-    check_refused(1, up, fine, 1, "velocity", "2 to 64");
-    check_refused(3, late, fine, 3, "velocity", "begins with 1");
+    check_refused(1, up, fine, 1, "velocity", "2 to 255");
     check_refused(3, back, fine, 3, "velocity", "1 stands after 2");
     check_refused(3, up, fine, 2, "mu", "has 2 numbers, friction.velocity has 3");
+}
+
+// mu = 0.3 - 0.02 ln(v/v_0) is a line over ln v: over five decades it is met to rounding, which
+// cubics over v do not come near.
+TEST(test_over_decades)
+{
+    enum { COUNT = 6 };
+    double velocity[COUNT], mu[COUNT];
+    for (int32_t k = 0; k < COUNT; k++) {
+        velocity[k] = 1e-6 * pow(10, k);
+        mu[k] = 0.3 - 0.02 * log(velocity[k] / 1e-6);
+    }
+    FrictionLaw law = own_log_table(COUNT, velocity, mu, 0);
+    for (double v = 1e-6; v < 0.1; v *= 1.3) {
+        assert_near("mu", friction_coefficient(NODE_OF(&law), v), 0.3 - 0.02 * log(v / 1e-6),
+                    1e-14);
+        assert_near("slope", friction_slope(NODE_OF(&law), v) * v, -0.02, 1e-12);
+    }
+    assert_near("at rest", friction_coefficient(NODE_OF(&law), 0), 0.3, 0);
+    assert_near("slower", friction_coefficient(NODE_OF(&law), 5e-7), 0.3, 0);
+    assert_near("faster", friction_coefficient(NODE_OF(&law), 3), mu[COUNT - 1], 1e-15);
+    assert_near("lowest", law.mu_kinetic, mu[COUNT - 1], 1e-15);
+}
+
+// A table that begins above v = 0: at rest mu_static, else the first value.
+TEST(test_at_rest)
+{
+    const double velocity[] = {1e-4, 1e-3, 1e-2}, mu[] = {0.4, 0.3, 0.2};
+    FrictionLaw by_log = own_log_table(3, velocity, mu, 0.5),
+                plain = own_table(3, velocity, mu, true);
+    assert_near("mu_static", friction_coefficient(NODE_OF(&by_log), 0), 0.5, 0);
+    assert_near("half way", friction_coefficient(NODE_OF(&by_log), 0.5e-4), 0.45, 1e-15);
+    assert_near("first", friction_coefficient(NODE_OF(&plain), 0), 0.4, 0);
+    assert_near("first", friction_coefficient(NODE_OF(&plain), 0.5e-4), 0.4, 1e-15);
+    assert_near("slope", friction_slope(NODE_OF(&by_log), 0.5e-4), -0.1 / 1e-4, 1e-9);
+    const double from_rest[] = {0, 1e-3, 1e-2};
+    FrictionLaw rests = own_log_table(3, from_rest, mu, 0);
+    assert_near("at 0", friction_coefficient(NODE_OF(&rests), 0), 0.4, 0);
+    assert_near("below the first", friction_coefficient(NODE_OF(&rests), 0.5e-3), 0.35, 1e-15);
 }

@@ -24,6 +24,9 @@
     X("moment_error", "errors.moment", true, "balance of moments, relative")                       \
     X("reduction_error", "errors.reduction", true, "reduced bulk against the full one")            \
     X("mu_max", "results.mu_max", true, "largest mu of the whole run")                             \
+    X("F_N", "results.F_N", false, "normal force of the whole block")                              \
+    X("F_T_M", "results.F_T_M", false, "force of the rod at mu_M, of the whole block")             \
+    X("F_T_hold", "results.F_T_hold", false, "that at mu_hold")                                    \
     X("mu_hold", "results.mu_hold", true, "holding coefficient")                                   \
     X("mu_hold_error", "results.mu_hold_error", false, "its error")                                \
     X("mu_drops", "results.drops.mean", false, "mean of the load drops")                           \

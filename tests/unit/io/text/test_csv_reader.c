@@ -170,12 +170,32 @@ TEST(units_behind_names)
     static const struct {
         const char *name, *asked, *unit;   // unit NULL: another name
     } heads[] = {
-        {"U", "U", ""},          {"U (mm)", "U", "mm"},         {"F_T [kN]", "F_T", "kN"},
-        {"t/s", "t", "s"},       {"t in s", "t", "s"},          {"U mm", "U", "mm"},
-        {"x_mm", "x", "mm"},     {"v/(m/s)", "v", "m/s"},       {"v (m/s)", "v", "m/s"},
-        {"v mm/s", "v", "mm/s"}, {"U (parsec)", "U", "parsec"}, {"F_T/F_N", "F_T", NULL},
-        {"U/L", "U", NULL},      {"x_error", "x", NULL},        {"F_N", "F", "N"},
-        {"load", "l", NULL},     {"t[ min ]", "t", "min"},
+        {"U", "U", ""},
+        {"U (mm)", "U", "mm"},
+        {"F_T [kN]", "F_T", "kN"},
+        {"t/s", "t", "s"},
+        {"t in s", "t", "s"},
+        {"U mm", "U", "mm"},
+        {"x_mm", "x", "mm"},
+        {"v/(m/s)", "v", "m/s"},
+        {"v (m/s)", "v", "m/s"},
+        {"v mm/s", "v", "mm/s"},
+        {"U (parsec)", "U", "parsec"},
+        {"F_T/F_N", "F_T", NULL},
+        {"U/L", "U", NULL},
+        {"x_error", "x", NULL},
+        {"F_N", "F", "N"},
+        {"load", "l", NULL},
+        {"t[ min ]", "t", "min"},
+        {"mu (-)", "mu", "-"},
+        {"mu [1]", "mu", "1"},
+        {"mu/1", "mu", "1"},
+        {"slip (%)", "slip", "%"},
+        {"x_1", "x", NULL},
+        {"x 1", "x", NULL},
+        {"f (Hz)", "f", "Hz"},
+        {"w rad/s", "w", "rad/s"},
+        {"t/h", "t", "h"},
     };
     for (size_t k = 0; k < sizeof heads / sizeof *heads; ++k) {
         char text[80];
@@ -192,6 +212,53 @@ TEST(units_behind_names)
             fail_msg("%s: %.*s", heads[k].name, unit.length, unit.text);
         csv_destroy(&table);
     }
+}
+
+TEST(columns_of_errors)
+{
+    static const struct {
+        const char *head;
+        int32_t of, error;   // error -1: none
+        const char *unit;
+    } heads[] = {{"U (mm);mu;mu_error", 1, 2, ""},
+                 {"U (mm);mu;mu_error", 0, -1, ""},
+                 {"U (mm);U error (um);mu", 0, 1, "um"},
+                 {"sigma_mu;mu;x", 1, 0, ""},
+                 {"mu;std;x", 0, 1, ""},
+                 {"mu (-);+- (%);x", 0, 1, "%"},
+                 {"x;mu;\xC2\xB1", 1, 2, ""},
+                 {"error;x;mu", 2, -1, ""},
+                 {"mu;stdev;x", 0, -1, ""}};
+    for (size_t k = 0; k < sizeof heads / sizeof *heads; ++k) {
+        char text[80];
+        Error err = {0};
+        CsvTable table = {0};
+        CsvUnit unit;
+        int32_t column = 0;
+        snprintf(text, sizeof text, "%s\n1;2;3\n", heads[k].head);
+        if (!read_text(text, &table, &err)) fail_msg("%s", err.message);
+        csv_find_error(&table, heads[k].of, &column, &unit);
+        if (column != heads[k].error) fail_msg("%s: %d", heads[k].head, column);
+        assert_int_equal(unit.length, strlen(heads[k].unit));
+        assert_memory_equal(unit.text, heads[k].unit, strlen(heads[k].unit));
+        csv_destroy(&table);
+    }
+}
+
+// A dash stands where a quantity has no unit; a row of ones is one of values.
+TEST(units_in_a_row)
+{
+    Error err = {0};
+    CsvTable table = {0};
+    CsvUnit unit;
+    assert_true(read_text("v;mu\nmm/s;-\n1;0,3\n", &table, &err));
+    assert_int_equal(table.rows, 1);
+    unit = csv_unit_of_row(&table, 0);
+    assert_true(unit.length == 4 && strncmp(unit.text, "mm/s", 4) == 0);
+    csv_destroy(&table);
+    assert_true(read_text("v,mu\n1,1\n2,1\n", &table, &err));
+    assert_int_equal(table.rows, 2);
+    csv_destroy(&table);
 }
 
 TEST(one_quantity_stands_once)

@@ -70,6 +70,16 @@ TEST(units_and_quotients)
     assert_float_equal(measured.value[0], 0.2, 1e-15);
     assert_float_equal(measured.at[0], 1e-3, 1e-15);
     measured_destroy(&measured);
+    // The load of the result is 500 N/m times 8 mm.
+    view.number[NUMBER_LOAD] = 500;
+    view.number[NUMBER_THICKNESS] = 8e-3;
+    assert_true(take("U (mm);F_T (mN);F_T error (N)\n1;800;0,04\n", MEASURED_MU, &measured, &err));
+    assert_float_equal(measured.value[0], 0.2, 1e-15);
+    assert_float_equal(measured.error[0], 0.01, 1e-15);
+    measured_destroy(&measured);
+    view.number[NUMBER_THICKNESS] = NAN;
+    assert_false(take("U (mm),F_T (mN)\n1,800\n", MEASURED_MU, &measured, &err));
+    error_clear(&err);
     assert_true(take("F_N (kN);F_T (N);U/mm\n2;400;1,0\n", MEASURED_MU, &measured, &err));
     assert_float_equal(measured.value[0], 0.2, 1e-15);   // semicolons, decimal commas, N over kN
     assert_float_equal(measured.at[0], 1e-3, 1e-15);

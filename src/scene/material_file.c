@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "scene/material_file.h"
+
+#include "base/memory.h"
+#include "io/text/csv_reader.h"
+#include "scene/keys.h"
+#include "scene/materials.h"
+
+#include <complex.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+_Static_assert((int)RELAXATION_TERMS_MAX <= (int)SCENE_BRANCHES_MAX, "a branch for each term");
+
+static const double TWO_PI = 6.283185307179586;
+
+// Names of the columns as people and instruments write them.
+typedef enum MaterialColumn {
+    FREQUENCY,
+    ANGULAR,
+    TIME,
+    YOUNG,
+    YOUNG_LOSS,
+    SHEAR,
+    SHEAR_LOSS,
+    TANGENT,
+    TEMPERATURE,
+    COLUMNS
+} MaterialColumn;
+static const char *const NAMES[COLUMNS][8] = {
+    [FREQUENCY] = {"f", "freq", "Freq", "frequency", "Frequency", NULL},
+    [ANGULAR] = {"omega", "w", "\xCF\x89", NULL},
+    [TIME] = {"t", "time", "Time", NULL},
+    [YOUNG] = {"E'", "E", "E_storage", "storage", "storage modulus", "E1", NULL},
+    [YOUNG_LOSS] = {"E''", "E\"", "E_loss", "loss", "loss modulus", "E2", NULL},
+    [SHEAR] = {"G'", "G", "G_storage", "G1", NULL},
+    [SHEAR_LOSS] = {"G''", "G\"", "G_loss", "G2", NULL},
+    [TANGENT] = {"tan_delta", "tan delta", "tan(delta)", "tan d", "tand", "tan \xCE\xB4", NULL},
+    [TEMPERATURE] = {"T", "temperature", "Temp", "temp", NULL}};
+static const char *const DIMENSIONS[COLUMNS] = {
+    "frequency", "frequency", "time", "stress", "stress", "stress", "stress", "1", NULL};
+static const char WANTED[] = "wanted: f, E' and E'' (or tan_delta; G' and G''; omega), or t and E, "
+                             "as in `f (Hz), E' (MPa), E'' (MPa)`";
+
+typedef struct MaterialTable {
+    CsvTable csv;
+    int32_t column[COLUMNS];   // -1: there is none
+    double factor[COLUMNS];   // to the scene's units
+    MaterialColumn at, storage, loss;   // that are used; COLUMNS: none
+} MaterialTable;
+
+static bool find_columns(MaterialTable *table, SceneUnits units, Error *err)
+{
+    const CsvTable *csv = &table->csv;
+    CsvUnit unit[COLUMNS];
+    for (int32_t k = 0; k < COLUMNS; k++)
+        if (!csv_find_any(csv, NAMES[k], &table->column[k], &unit[k], err)) return false;
+    const int32_t *has = table->column;
+    bool over_time = has[TIME] >= 0;
+    table->at = over_time ? TIME : has[ANGULAR] >= 0 ? ANGULAR : FREQUENCY;
+    table->storage = has[SHEAR] >= 0 ? SHEAR : YOUNG;
+    table->loss = over_time ? COLUMNS
+                  : has[TANGENT] >= 0 && has[table->storage + 1] < 0
+                      ? TANGENT
+                      : (MaterialColumn)(table->storage + 1);
+    bool both = has[YOUNG] >= 0 && has[SHEAR] >= 0;
+    if (both)
+        return csv_refuse(csv, -1, has[SHEAR], err, "stands beside %s: one of them is enough",
+                          csv_name(csv, has[YOUNG]));
+    if (has[table->at] < 0 || has[table->storage] < 0 ||
+        (table->loss < COLUMNS && has[table->loss] < 0))
+        return REFUSE(err, "%s:%d: columns are missing; %s", csv->path, csv->line[0], WANTED);
+    for (int32_t k = 0; k < COLUMNS; k++) {
+        table->factor[k] = 1;
+        if (has[k] < 0 || unit[k].length == 0 || !DIMENSIONS[k]) continue;
+        if (units == UNITS_NORMALISED && strcmp(DIMENSIONS[k], "1") != 0)
+            return csv_refuse(
+                csv, -1, has[k], err,
+                "has a unit; a normalised scene has plain numbers (units need `units: "
+                "si`)");
+        if (!csv_to_si(csv, has[k], unit[k], DIMENSIONS[k], &table->factor[k], err)) return false;
+    }
+    if (table->at == TIME) return true;
+    // Hz and 1/s are of a frequency but where it is called omega; rad/s are of an angular one.
+    char text[CSV_UNIT_SIZE];
+    snprintf(text, sizeof text, "%.*s", unit[table->at].length, unit[table->at].text);
+    bool cycles = table->at == FREQUENCY ? !strstr(text, "rad") : strstr(text, "Hz") != NULL;
+    if (cycles) table->factor[table->at] *= TWO_PI;
+    return true;
+}
+
+static bool read_value(const MaterialTable *table, int32_t row, MaterialColumn k, double *value,
+                       Error *err)
+{
+    if (!csv_read_number(&table->csv, row, table->column[k], value, err)) return false;
+    *value *= table->factor[k];
+    return (*value > 0 && isfinite(*value)) ||
+           csv_refuse(&table->csv, row, table->column[k], err,
+                      "`%.40s`: a number above 0 is needed",
+                      csv_cell(&table->csv, row, table->column[k]));
+}
+
+bool material_data_read(const char *path, SceneUnits units, const double *wlf, double shift,
+                        MaterialData *data, Error *err)
+{
+    MaterialTable table = {0};
+    double *at = NULL, *storage = NULL, *loss = NULL;
+    *data = (MaterialData){0};
+    TRY(csv_read(path, &table.csv, err));
+    TRY(find_columns(&table, units, err));
+    int32_t rows = table.csv.rows;
+    if (rows < 2 || rows > RELAXATION_POINTS_MAX)
+        FAIL(err, ERROR_INPUT, "%s has %d rows; allowed: 2 to %d", path, rows,
+             RELAXATION_POINTS_MAX);
+    TRY(at = NEW_ARRAY(double, rows, err));
+    TRY(storage = NEW_ARRAY(double, rows, err));
+    TRY(loss = NEW_ARRAY(double, rows, err));
+    for (int32_t row = 0; row < rows; row++) {
+        double longer = shift;
+        TRY(read_value(&table, row, table.at, &at[row], err));
+        TRY(read_value(&table, row, table.storage, &storage[row], err));
+        if (table.loss < COLUMNS) TRY(read_value(&table, row, table.loss, &loss[row], err));
+        if (table.loss == TANGENT) loss[row] *= storage[row];
+        if (wlf) {
+            double own = wlf[2];
+            if (table.column[TEMPERATURE] >= 0)
+                TRY(csv_read_number(&table.csv, row, table.column[TEMPERATURE], &own, err));
+            longer *= wlf_shift(wlf[0], wlf[1], wlf[2], wlf[3]) /
+                      wlf_shift(wlf[0], wlf[1], wlf[2], own);
+            if (!(longer > 0 && isfinite(longer)))
+                FAIL(err, ERROR_INPUT, "%s:%d: no shift from %g to %g degrees: c2 is %g", path,
+                     table.csv.line[row + 1], own, wlf[3], wlf[1]);
+        }
+        at[row] *= table.loss < COLUMNS ? 1 / longer : longer;
+    }
+    data->shear = table.storage == SHEAR;
+    data->data = (RelaxationData){.count = rows,
+                                  .over_time = table.loss == COLUMNS,
+                                  .at = at,
+                                  .storage = storage,
+                                  .loss = table.loss < COLUMNS ? loss : NULL};
+    if (data->data.over_time) memory_free(loss);
+    at = storage = loss = NULL;
+cleanup:
+    memory_free_all(at, storage, loss);
+    csv_destroy(&table.csv);
+    return error_is_clean(err);
+}
+
+void material_data_destroy(MaterialData *data)
+{
+    memory_free_all((void *)data->data.at, (void *)data->data.storage, (void *)data->data.loss);
+    *data = (MaterialData){0};
+}
+
+// Shear moduli of data in Young's modulus: with K constant G = 3 K E / (9 K - E), complex; with
+// Poisson's ratio constant G = E / (2 (1 + nu)).
+static bool to_shear(const MaterialData *data, double poisson, bool bulk_relaxes, double young,
+                     double *storage, double *loss, Error *err)
+{
+    double over_K = 3 * (1 - 2 * poisson) / young;
+    for (int32_t i = 0; i < data->data.count; i++) {
+        double complex E = data->data.storage[i] + I * (data->data.loss ? data->data.loss[i] : 0);
+        double complex G = bulk_relaxes ? E / (2 * (1 + poisson)) : 3 * E / (9 - E * over_K);
+        if (!(9 - creal(E) * over_K > 0))
+            return REFUSE(err,
+                          "a modulus of %g is more than an elastic volume allows for, with poisson "
+                          "= %g of a long-time modulus of %g: poisson nearer to 0.5, or bulk: "
+                          "relaxes",
+                          creal(E), poisson, young);
+        storage[i] = creal(G);
+        loss[i] = cimag(G);
+    }
+    return true;
+}
+
+// Young's modulus of a shear modulus.
+static double complex to_young(const MaterialFit *fit, double complex G)
+{
+    double complex K = fit->bulk_relaxes ? fit->bulk * G / fit->shear.rest : fit->bulk;
+    return isinf(fit->bulk) ? 3 * G : 9 * K * G / (3 * K + G);
+}
+
+void material_fit_at(const MaterialFit *fit, const MaterialData *data, double at, double value[2])
+{
+    double storage, loss = 0;
+    if (data->data.over_time)
+        storage = relaxation_at(&fit->shear, at);
+    else
+        relaxation_moduli(&fit->shear, at, &storage, &loss);
+    double complex modulus = storage + I * loss;
+    if (!data->shear) modulus = to_young(fit, modulus);
+    value[0] = creal(modulus);
+    value[1] = cimag(modulus);
+}
+
+double material_fit_viscosity(const MaterialFit *fit, const MaterialData *data)
+{
+    double fastest = 0, storage, loss;
+    if (data->data.over_time) return 0;
+    for (int32_t i = 0; i < data->data.count; i++) fastest = fmax(fastest, data->data.at[i]);
+    relaxation_moduli(&fit->shear, fastest, &storage, &loss);
+    return 2 * 0.1 * loss / fastest;
+}
+
+// Takes the part of a viscosity off the losses in shear.
+static bool take_viscosity(const RelaxationData *data, double viscosity, double *loss, Error *err)
+{
+    for (int32_t i = 0; i < data->count; i++) {
+        loss[i] -= data->at[i] * viscosity;
+        if (!(loss[i] > 0))
+            return REFUSE(err, "eta1 alone, %g, damps more than was measured at %g Hz",
+                          2 * viscosity, data->at[i] / TWO_PI);
+    }
+    return true;
+}
+
+bool material_fit(const MaterialData *data, double poisson, bool bulk_relaxes, double eta1,
+                  MaterialFit *fit, Error *err)
+{
+    bool has_viscosity = isnan(eta1);
+    RelaxationData own = data->data;
+    double *moduli = NULL;
+    *fit = (MaterialFit){.bulk_relaxes = bulk_relaxes};
+    TRY(relaxation_fit(&own, has_viscosity, &fit->shear, err));
+    if (!(fit->shear.rest > 0))
+        FAIL(err, ERROR_INPUT,
+             "the fit leaves no long-time modulus, as of a liquid: data at lower frequencies or "
+             "longer times are needed");
+    TRY(moduli = NEW_ARRAY(double, 2 * (int64_t)own.count, err));
+    double *loss = moduli + own.count;
+    for (int32_t i = 0; i < own.count; i++) {
+        moduli[i] = own.storage[i];
+        loss[i] = own.loss ? own.loss[i] : 0;
+    }
+    if (!data->shear)
+        TRY(to_shear(data, poisson, bulk_relaxes, fit->shear.rest, moduli, loss, err));
+    if (own.loss && !has_viscosity) TRY(take_viscosity(&own, eta1 / 2, loss, err));
+    own.storage = moduli;
+    own.loss = own.loss ? loss : NULL;
+    TRY(relaxation_fit(&own, has_viscosity, &fit->shear, err));
+    if (!has_viscosity) fit->shear.viscosity = eta1 / 2;
+    double K_over_G = 2 * (1 + poisson) / (3 * (1 - 2 * poisson));
+    fit->bulk = K_over_G * fit->shear.rest;
+    fit->young = 2 * (1 + poisson) * fit->shear.rest;
+    fit->eta1 = 2 * fit->shear.viscosity;
+    for (int32_t k = 0; k < fit->shear.count; k++) {
+        double modulus = fit->shear.modulus[k];
+        fit->relaxation.branch[fit->relaxation.count++] =
+            (SceneBranch){fit->shear.time[k], modulus, bulk_relaxes ? K_over_G * modulus : 0};
+    }
+    double sum = 0, rows = 0;
+    for (int32_t i = 0; i < data->data.count; i++) {
+        double found[2];
+        material_fit_at(fit, data, data->data.at[i], found);
+        for (int32_t d = 0; d < (data->data.loss ? 2 : 1); d++, rows++) {
+            double off = fabs(found[d] / (d ? data->data.loss : data->data.storage)[i] - 1);
+            sum += off * off;
+            fit->worst = fmax(fit->worst, off);
+        }
+    }
+    fit->misfit = sqrt(sum / rows);
+cleanup:
+    memory_free(moduli);
+    return error_is_clean(err);
+}
+
+bool scene_material_file(const Scene *scene, const SceneMaterial *region, MaterialData *data,
+                         MaterialFit *fit, const char **key, Error *err)
+{
+    const SceneNumbers *wlf = &scene->material.wlf;
+    const char *path = region ? region->from : scene->material.from;
+    int32_t eta1 = scene_key_index("material.eta1");
+    bool found = region ? region->eta_from_file : scene->material.eta_from_file;
+    bool has_eta = !found && (region ? region->given[MATERIAL_ETA1] : scene->given[eta1]);
+    double own_eta = region ? region->number[MATERIAL_ETA1] : scene->material.eta1;
+    double poisson = region ? scene_material_number(scene, region, MATERIAL_POISSON)
+                            : scene->material.poisson;
+    *data = (MaterialData){0};
+    *key = "material.wlf";
+    if (wlf->count != 0 && wlf->count != 4)
+        return REFUSE(err, "%d numbers; wanted: [c1, c2, T_ref, T]", wlf->count);
+    *key = region ? "materials" : "material.from";
+    return material_data_read(path, scene->units, wlf->count > 0 ? wlf->value : NULL,
+                              scene->material.shift, data, err) &&
+           material_fit(data, poisson, scene->material.bulk == BULK_RELAXES,
+                        has_eta ? own_eta : (double)NAN, fit, err);
+}
+
+static const char BESIDE[] = "gives young and relaxation: leave these out beside it";
+
+static bool complete_region(const Scene *scene, SceneMaterial *region, const char **key, Error *err)
+{
+    MaterialData data;
+    MaterialFit fit;
+    bool has_eta = region->given[MATERIAL_ETA1];
+    *key = "materials";
+    if (region->given[MATERIAL_YOUNG] || region->given[MATERIAL_YOUNG_SHORT] ||
+        region->has_relaxation)
+        return REFUSE(err, "%s: `from` %s", region->group, BESIDE);
+    bool done = scene_material_file(scene, region, &data, &fit, key, err);
+    material_data_destroy(&data);
+    if (!done) return false;
+    const double number[] = {
+        [MATERIAL_YOUNG] = fit.young, [MATERIAL_ETA1] = fit.eta1, [MATERIAL_ETA2] = 0};
+    static const int32_t list[] = {MATERIAL_YOUNG, MATERIAL_ETA1, MATERIAL_ETA2};
+    for (int32_t i = 0; i < 3; i++) {
+        int32_t k = list[i];
+        if (!region->given[k]) region->number[k] = number[k];
+        region->given[k] = true;
+    }
+    region->eta_from_file = !has_eta;
+    region->relaxation = fit.relaxation;
+    region->has_relaxation = true;
+    region->has_from = false;
+    return true;
+}
+
+static bool is_given(const Scene *scene, const char *key)
+{
+    return scene->given[scene_key_index(key)];
+}
+
+// What was found is written into results in the place of the file: they can be computed again
+// without it.
+bool scene_material_files(Scene *scene, const char **key, Error *err)
+{
+    for (int32_t k = 0; k < scene->materials.count; k++)
+        if (scene->materials.region[k].has_from &&
+            !complete_region(scene, &scene->materials.region[k], key, err))
+            return false;
+    if (!is_given(scene, "material.from")) return true;
+    *key = "material.from";
+    if (is_given(scene, "material.young") || is_given(scene, "material.young_short") ||
+        is_given(scene, "material.relaxation"))
+        return REFUSE(err, "%s", BESIDE);
+    MaterialData data;
+    MaterialFit fit;
+    bool done = scene_material_file(scene, NULL, &data, &fit, key, err);
+    material_data_destroy(&data);
+    if (!done) return false;
+    scene->material.young = fit.young;
+    scene->material.eta_from_file = !is_given(scene, "material.eta1");
+    if (scene->material.eta_from_file) scene->material.eta1 = fit.eta1;
+    if (!is_given(scene, "material.eta2")) scene->material.eta2 = 0;
+    scene->material.relaxation = fit.relaxation;
+    static const char *const keys[] = {"material.young", "material.eta1", "material.eta2",
+                                       "material.relaxation"};
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
+        scene->given[scene_key_index(keys[i])] = true;
+    scene->given[scene_key_index("material.from")] = false;
+    return true;
+}

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Formulas in a scene file: in whatever order they stand, beside --set and in many scenes of one
+// file.
+#include "scene/scene.h"
+
+#include "cases.h"
+#include "scene_of_text.h"
+#include "unit/scene/scene_texts.h"
+
+#include <stdlib.h>
+
+static const char FORMULAS[] = "mesh: {file: block.geo, set: {length: 2, height: = 0.25 * "
+                               "mesh.set.length, nx: = 3 + 1}}\n"
+                               "rod: {velocity: = time.until.U / 10, height: = 0.5 * "
+                               "mesh.set.height}\n"
+                               "time: {until: {U: = 6 * load.pressure}}\n"
+                               "material: {poisson: 0.3, eta1: = 2 * material.young}\n"
+                               "materials: {layer: {young: = material.young / 100, eta1: 3}}\n";
+
+static void write_scene(const char *path, const char *formulas)
+{
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fprintf(file, "%s%s\n%s\n", formulas, scene_lines[4], scene_lines[5]);
+    assert_int_equal(fclose(file), 0);
+}
+
+static double parameter(const Scene *scene, const char *name)
+{
+    for (int32_t k = 0; k < scene->mesh.parameter_count; k++)
+        if (strcmp(scene->mesh.parameters[k].name, name) == 0)
+            return scene->mesh.parameters[k].value;
+    return NAN;
+}
+
+TEST(formulas_of_a_file)
+{
+    Error err = {0};
+    Scene *scene = calloc(1, sizeof *scene);
+    assert_non_null(scene);
+    write_scene("formulas.yaml", FORMULAS);
+    if (!scene_read("formulas.yaml", NULL, 0, false, scene, &err)) fail_msg("%s", err.message);
+    assert_true(parameter(scene, "height") == 0.5);
+    assert_true(parameter(scene, "nx") == 4);
+    assert_near("number", scene->time.until_U, 0.06, 1e-15);
+    assert_near("number", scene->rod.velocity, 0.006, 1e-15);
+    assert_true(scene->rod.height == 0.25);
+    assert_true(scene->material.eta1 == 2);
+    assert_int_equal(scene->materials.count, 1);
+    assert_true(scene->materials.region[0].given[MATERIAL_YOUNG]);
+    assert_near("number", scene->materials.region[0].number[MATERIAL_YOUNG], 0.01, 1e-15);
+    unlink("formulas.yaml");
+    free(scene);
+}
+
+// What is set changes what a formula gives, or replaces the formula.
+TEST(settings_beside_formulas)
+{
+    static const char *const settings[] = {"load.pressure=0.02", "mesh.set.height=1",
+                                           "rod.velocity== 2 * load.pressure"};
+    Error err = {0};
+    Scene *scene = calloc(1, sizeof *scene);
+    assert_non_null(scene);
+    write_scene("formulas.yaml", FORMULAS);
+    if (!scene_read("formulas.yaml", settings, 3, false, scene, &err)) fail_msg("%s", err.message);
+    assert_near("number", scene->time.until_U, 0.12, 1e-15);
+    assert_true(scene->rod.height == 0.5);
+    assert_near("number", scene->rod.velocity, 0.04, 1e-15);
+    static const char *const whole[] = {"mesh.set={nx: 7}", "time.until={t: 3}",
+                                        "rod={velocity: 1}"};
+    if (!scene_read("formulas.yaml", whole, 3, false, scene, &err)) fail_msg("%s", err.message);
+    assert_true(isnan(parameter(scene, "height")) && parameter(scene, "nx") == 7);
+    assert_true(scene->time.until_U == 0 && scene->rod.velocity == 1);
+    unlink("formulas.yaml");
+    free(scene);
+}
+
+TEST(formulas_of_many_scenes)
+{
+    Error err = {0};
+    SceneSource *source = NULL;
+    YamlDocument *value = NULL;
+    Scene *scene = calloc(1, sizeof *scene);
+    assert_non_null(scene);
+    write_scene("formulas.yaml", FORMULAS);
+    assert_true(scene_source_open("formulas.yaml", false, &source, &err));
+    for (int32_t k = 1; k < 4; k++) {
+        char text[20];
+        snprintf(text, sizeof text, "%g", 0.01 * k);
+        assert_true(yaml_scalar("value", text, &value, &err));
+        SceneSetting setting = {"load.pressure", value, YAML_ROOT};
+        if (!scene_source_begin(source, &setting, 1, scene, &err)) fail_msg("%s", err.message);
+        assert_near("number", scene->time.until_U, 0.06 * k, 1e-14);
+        setting.key = "material.young";
+        assert_true(scene_source_add(source, &setting, scene, &err));
+        assert_near("number", scene->material.eta1, 0.02 * k, 1e-14);
+        yaml_destroy(value);
+    }
+    scene_source_close(source);
+    unlink("formulas.yaml");
+    free(scene);
+}
+
+TEST(wrong_formulas)
+{
+    static const struct {
+        const char *line, *words;
+    } wrong[] = {
+        {"rod: {velocity: = 2 * load.presure}", "s.yaml:7:17: rod.velocity: "},
+        {"rod: {velocity: = 2 * rod.velocity}", "s.yaml:7:17: rod.velocity: a formula over itself"},
+        {"rod: {velocity: = rod.height, height: = rod.velocity}", "a formula over itself, or over"},
+        {"rod: {velocity: = -load.pressure}", "s.yaml:7: value of `= -load.pressure`"},
+        {"rod: {velocity: '= load.pressure'}", "s.yaml:7:17: rod.velocity: found `= load"},
+    };
+    Scene *scene = calloc(1, sizeof *scene);
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
+        char text[SCENE_TEXT_MAX];
+        Error err = {0};
+        scene_text_with(7, wrong[k].line, text);
+        assert_false(scene_of_text("s.yaml", text, scene, &err));
+        assert_int_equal(err.code, ERROR_INPUT);
+        if (!strstr(err.message, wrong[k].words)) fail_msg("%s", err.message);
+    }
+    free(scene);
+}
