@@ -45,16 +45,17 @@ static inline MeshFile base_file(MeshFile block, MeshFile base, double along)
     both.node_number = NEW_ARRAY(int64_t, both.node_count, &err);
     both.element_number = NEW_ARRAY(int64_t, both.element_count, &err);
     both.kind = NEW_ARRAY(uint8_t, both.element_count, &err);
-    both.first_node = base_join(block.first_node, elements + 1, base.first_node + 1,
-                                base.element_count, filled);
+    both.first_node =
+        base_join(block.first_node, elements + 1, base.first_node + 1, base.element_count, filled);
     both.element_nodes = base_join(block.element_nodes, filled, base.element_nodes, more, first);
     both.groups = NEW_ARRAY(MeshGroup, both.group_count, &err);
     for (int32_t i = 0; i < base.node_count; i++)
         if (base.position[dim * i + dim - 1] > high) high = base.position[dim * i + dim - 1];
     memcpy(both.position, block.position, (size_t)(dim * first) * sizeof(double));
     for (int32_t k = 0; k < dim * base.node_count; k++)
-        both.position[dim * first + k] =
-            base.position[k] + (k % dim == 0 ? along : k % dim == dim - 1 ? -high : 0);
+        both.position[dim * first + k] = base.position[k] + (k % dim == 0         ? along
+                                                             : k % dim == dim - 1 ? -high
+                                                                                  : 0);
     for (int32_t i = 0; i < both.node_count; i++) both.node_number[i] = i + 1;
     for (int32_t e = 0; e < both.element_count; e++) {
         both.element_number[e] = e + 1;

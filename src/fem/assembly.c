@@ -13,7 +13,8 @@
 #include <string.h>
 
 // Nodes whose unknowns move a group of elements, each once: its own, and those of the floor that
-// its contact nodes move with. nodes: NULL: they are counted only, not told apart. Returns how many.
+// its contact nodes move with. nodes: NULL: they are counted only, not told apart. Returns their
+// number.
 static int32_t list_movers(const Mesh *mesh, const ElementGroup *group, int32_t *nodes)
 {
     const Floor *floor = &mesh->floor;
@@ -77,8 +78,8 @@ static bool mover_at(const Floor *floor, int32_t node, int32_t k, Mover *mover)
 // Adds T' (K, C) T of a block of two nodes, T the shares, to values on the bulk's pattern
 // (stiffness NULL: to none). The unknowns of a node stand side by side in every row, and the rows
 // of a node are alike, so one look-up serves a whole block.
-static void add_block(const ElementMatrices *matrices, int32_t a, int32_t b, Mover row, Mover column,
-                      const Bulk *bulk, double *stiffness, double *damping)
+static void add_block(const ElementMatrices *matrices, int32_t a, int32_t b, Mover row,
+                      Mover column, const Bulk *bulk, double *stiffness, double *damping)
 {
     int32_t dim = bulk->dim, first = node_dof(dim, row.node, 0);
     int32_t length = bulk->pattern.start[first + 1] - bulk->pattern.start[first];

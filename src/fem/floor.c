@@ -4,8 +4,8 @@
 //     M_ab = int N_a N_b dA,   D_a = int N_a dA,   B_af = int N_a N_f dA
 //
 // are added up at the same points of the same pieces, so that psi_a = D_a sum_b (M^-1)_ab N_b is
-// dual to rounding and matching meshes give the identity. Places are those on a grid of 2^-30 of the
-// block's length, so that P has the same bits in any unit.
+// dual to rounding and matching meshes give the identity. Places are those on a grid of 2^-30 of
+// the block's length, so that P has the same bits in any unit.
 #include "fem/floor.h"
 
 #include "algebra/dense.h"
@@ -242,8 +242,8 @@ static void set_points(const Shadow *corner, int32_t count, int32_t dim, PiecePo
                 int32_t at = points->count++;
                 for (int32_t d = 0; d < SHADOW_DIM; d++)
                     points->at[at][d] = (1 - out) * triangle[0][d] +
-                                        out * ((1 - along) * triangle[1][d] +
-                                               along * triangle[2][d]);
+                                        out *
+                                            ((1 - along) * triangle[1][d] + along * triangle[2][d]);
                 points->weight[at] = 0.25 * GAUSS_WEIGHT[k] * GAUSS_WEIGHT[l] * out * twice;
             }
     }
@@ -277,12 +277,13 @@ static bool refuse_cover(const Mesh *mesh, const char *pad, FaceNodes face, doub
                          const char *floor, Error *err)
 {
     char at[PLACE_TEXT_SIZE];
-    return REFUSE(err,
-                  "%s: contact group '%s' near %s lies over group '%s' of the base with %.3g of its "
-                  "%s: the floor must reach over all of the contact, once (draw the base longer, "
-                  "and name its upper side alone)",
-                  mesh->path, pad, mesh_place_text(mesh, face.node[0], at), floor, cover,
-                  mesh->dim == 2 ? "length" : "area");
+    return REFUSE(
+        err,
+        "%s: contact group '%s' near %s lies over group '%s' of the base with %.3g of "
+        "its %s: the floor must reach over all of the contact, once (draw the base longer, "
+        "and name its upper side alone)",
+        mesh->path, pad, mesh_place_text(mesh, face.node[0], at), floor, cover,
+        mesh->dim == 2 ? "length" : "area");
 }
 
 // Adds the rows of one face of the contact.
@@ -424,16 +425,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-double floor_height(const Mesh *mesh, int32_t node)
-{
-    const Floor *floor = &mesh->floor;
-    int32_t row = floor_row(floor, node);
-    double height = 0;
-    for (int32_t k = row < 0 ? 0 : floor->start[row]; row >= 0 && k < floor->start[row + 1]; k++)
-        height += floor->share[k] * mesh_height(mesh, floor->node[k]);
-    return height;
-}
-
 // The block stands on the base, nowhere in it.
 static bool check_gaps(const Mesh *mesh, const MeshContact *contact, Error *err)
 {
@@ -441,7 +432,8 @@ static bool check_gaps(const Mesh *mesh, const MeshContact *contact, Error *err)
     double least = INFINITY;
     for (int32_t k = 0; k < contact->node_count; k++) {
         if (floor_row(&mesh->floor, contact->nodes[k]) < 0) continue;
-        double gap = mesh_height(mesh, contact->nodes[k]) - floor_height(mesh, contact->nodes[k]);
+        double gap = mesh_height(mesh, contact->nodes[k]) -
+                     mesh_floor_height(mesh, contact->nodes[k]);
         if (gap < least) {
             least = gap;
             lowest = contact->nodes[k];
@@ -449,8 +441,8 @@ static bool check_gaps(const Mesh *mesh, const MeshContact *contact, Error *err)
     }
     if (lowest < 0 || fabs(least) <= GAP_ROUNDING * (mesh->x_max - mesh->x_min)) return true;
     return REFUSE(err,
-                  "%s: contact node %lld at x = %g, the lowest, is %g %s the floor of the base: draw "
-                  "the block so that it stands on the base",
+                  "%s: contact node %lld at x = %g, the lowest, is %g %s the floor of the base: "
+                  "draw the block so that it stands on the base",
                   mesh->path, (long long)mesh->node_number[lowest], mesh_place(mesh, lowest)[0],
                   fabs(least), least < 0 ? "below" : "above");
 }

@@ -30,9 +30,6 @@ static inline int32_t floor_row(const Floor *floor, int32_t node)
     return floor->row ? floor->row[node] : -1;
 }
 
-// z of the floor under a contact node, length; 0: it is rigid.
-double floor_height(const Mesh *mesh, int32_t node);
-
 // Jumps to displacements: u_c = w + P u_f, in place. field: [dim * nodes], or velocities.
 void floor_displace(const Mesh *mesh, double *field);
 // The same backwards.

@@ -130,9 +130,9 @@ typedef struct Materials {
 } Materials;
 
 Materials materials_of(const Material *material);   // a block of one
-// Sets the mean of the block, without its base: by area of density, Poisson's ratio and viscosities;
-// of E that of regions one above the other, 1/E = mean of 1/E. Of several regions' branches it has a
-// single one, which makes its short-time E such a mean, too.
+// Sets the mean of the block, without its base: by area of density, Poisson's ratio and
+// viscosities; of E that of regions one above the other, 1/E = mean of 1/E. Of several regions'
+// branches it has a single one, which makes its short-time E such a mean, too.
 void materials_find_mean(Materials *materials);
 
 // Region k has elements, or there is only one material.

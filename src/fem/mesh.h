@@ -185,8 +185,10 @@ bool mesh_stand_on_floor(const char (*names)[GROUP_NAME_SIZE], int32_t name_coun
 enum { MOVE_TEXT_SIZE = 160 };
 const char *mesh_move_text(const Mesh *mesh, char text[MOVE_TEXT_SIZE]);
 
-// How high a contact node stands over the floor, or over z = 0 where that is rigid or not known yet;
-// exactly 0 where only rounding is left.
+// z of the floor under a contact node, length; 0 where it is rigid, or not found yet (fem/floor).
+double mesh_floor_height(const Mesh *mesh, int32_t node);
+
+// How high a contact node stands over the floor; exactly 0 where only rounding is left.
 double mesh_gap(const Mesh *mesh, int32_t node);
 void mesh_contact_destroy(MeshContact *contact);
 

@@ -311,8 +311,7 @@ static bool mark_base(const MeshParts *parts, const char *floor, Mesh *mesh, Err
         }
     }
     if (left == 1 && (mesh->is_base = NEW_ARRAY(uint8_t, mesh->node_count, err)))
-        for (int32_t i = 0; i < mesh->node_count; i++)
-            mesh->is_base[i] = in_base[parts->part[i]];
+        for (int32_t i = 0; i < mesh->node_count; i++) mesh->is_base[i] = in_base[parts->part[i]];
     memory_free(in_base);
     return error_is_clean(err);
 }

@@ -7,7 +7,6 @@
 
 #include "base/memory.h"
 #include "base/system.h"
-#include "fem/floor.h"
 #include "fem/mesh_faces.h"
 #include "fem/mesh_pieces.h"
 #include "io/mesh/shape_functions.h"
@@ -29,7 +28,7 @@ static double extent(const Mesh *mesh)
 
 double mesh_gap(const Mesh *mesh, int32_t node)
 {
-    double gap = mesh_height(mesh, node) - floor_height(mesh, node);
+    double gap = mesh_height(mesh, node) - mesh_floor_height(mesh, node);
     return gap > PLACE_TOLERANCE * extent(mesh) ? gap : 0;
 }
 

@@ -97,3 +97,13 @@ const char *mesh_move_text(const Mesh *mesh, char text[MOVE_TEXT_SIZE])
                  place_text(mesh->dim, move->shift, by));
     return text;
 }
+
+double mesh_floor_height(const Mesh *mesh, int32_t node)
+{
+    const Floor *floor = &mesh->floor;
+    int32_t row = floor->row ? floor->row[node] : -1;
+    double height = 0;
+    for (int32_t k = row < 0 ? 0 : floor->start[row]; row >= 0 && k < floor->start[row + 1]; k++)
+        height += floor->share[k] * mesh_height(mesh, floor->node[k]);
+    return height;
+}

@@ -187,8 +187,8 @@ bool model_lay_bulk(Model *model, Error *err)
     return scene_blame(scene, "materials", done, err);
 }
 
-// An unknown of a contact node over a base is its jump, which is 0 where the floor under the node is
-// held, too. Else the node is left to its neighbours, as a rod leaves it to the floor.
+// An unknown of a contact node over a base is its jump, which is 0 where the floor under the node
+// is held, too. Else the node is left to its neighbours, as a rod leaves it to the floor.
 static bool may_hold(const Model *model, int32_t dof)
 {
     const Mesh *mesh = &model->mesh;

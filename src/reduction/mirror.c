@@ -90,8 +90,8 @@ static bool is_alike(const Finder *find)
             while (at < end && pattern->index[at] != image[row]) at++;
             if (at == end) return false;
             double sign = sign_of(find, last, row) * sign_of(find, last, j);
-            double beside =
-                bulk->mass_beside ? bulk->mass_beside[k] - sign * bulk->mass_beside[at] : 0;
+            double beside = bulk->mass_beside ? bulk->mass_beside[k] - sign * bulk->mass_beside[at]
+                                              : 0;
             if (!(fabs(beside) <= ALIKE * bulk->mass[j])) return false;
             for (int32_t which = 0; which < 2 + bulk->spectrum.matrix_count; which++) {
                 const double *values = values_of(bulk, which), *root = find->root[which];

@@ -20,8 +20,8 @@ static bool join(ReducedBulk *reduced, Error *err)
     return reduced->load != NULL;
 }
 
-// Lists rigid motions of the block as unknowns on the border, over a base that stands still; a rigid
-// motion is a static one, so that all else follows.
+// Lists rigid motions of the block as unknowns on the border, over a base that stands still; a
+// rigid motion is a static one, so that all else follows.
 static bool list_rigid_motions(const Bulk *bulk, const int32_t *border, const ReductionDef *def,
                                ReducedBulk *reduced, Error *err)
 {

@@ -96,7 +96,8 @@ static void write_model(JsonWriter *json, const Model *model, int64_t relaxation
     json_end(json);
 }
 
-// A block on a base: how unlike they are, and how far the block went; nothing where the floor is rigid.
+// A block on a base: how unlike they are, and how far the block went. Nothing where the floor is
+// rigid.
 static void write_base(JsonWriter *json, const Simulation *simulation)
 {
     const Model *model = &simulation->model;
@@ -106,11 +107,11 @@ static void write_base(JsonWriter *json, const Simulation *simulation)
     Dundurs dundurs = materials_dundurs(block, base);
     json_begin_object(json, "base");
     json_boolean(json, "matches", model->mesh.floor.matches);
-    json_numbers_of(json, {"slip_over_contact", base_slip(model, &simulation->control.now)},
-                    {"dundurs_alpha", dundurs.alpha}, {"dundurs_beta", dundurs.beta},
-                    {"shear_impedance_over_block",
-                     base->density * material_speeds(base).shear /
-                         (block->density * material_speeds(block).shear)});
+    json_numbers_of(
+        json, {"slip_over_contact", base_slip(model, &simulation->control.now)},
+        {"dundurs_alpha", dundurs.alpha}, {"dundurs_beta", dundurs.beta},
+        {"shear_impedance_over_block", base->density * material_speeds(base).shear /
+                                           (block->density * material_speeds(block).shear)});
     json_end(json);
 }
 

@@ -67,8 +67,8 @@ static const SceneKey keys[] = {
         "that its lowest contact node stands on the substrate."),
     WORDS(KEY_NAMES, groups.body, "[]",
           "The physical surfaces (volumes) that are computed; none named: all that the mesh has. "
-          "What else is in the mesh is left out: with the block's alone the floor is rigid, whatever "
-          "base the mesh has."),
+          "What else is in the mesh is left out: with the block's alone the floor is rigid, "
+          "whatever base the mesh has."),
     WORDS(KEY_NAME, groups.floor, "floor",
           "The physical group that is the upper side of a base, a second body under the block: the "
           "floor then deforms with it (load.supports must hold the base)."),

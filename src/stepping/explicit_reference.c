@@ -245,8 +245,8 @@ static void end_memory(const ExplicitReference *scheme, int32_t i, State *state)
     for (int32_t k = 0; k < node->law->states; k++) theta[k] = 2 * middle[k] - theta[k];
 }
 
-// Contact node i; returns the power it dissipates. Places and velocities are those against the floor
-// until the last lines.
+// Contact node i; returns the power it dissipates. Places and velocities are those against the
+// floor until the last lines.
 static double resolve_contact(ExplicitReference *scheme, int32_t i, State *state)
 {
     const Interface *interface = scheme->def.interface;

@@ -66,8 +66,8 @@ typedef struct ExplicitReference {
 bool explicit_reference_create(const ExplicitDef *def, ExplicitReference *scheme, Error *err);
 void explicit_reference_destroy(ExplicitReference *scheme);
 
-// Begins at `state` (u, v and a at one time; of the full mesh), which is as before afterwards, but for
-// rounding over a base.
+// Begins at `state` (u, v and a at one time; of the full mesh), which is as before afterwards, but
+// for rounding over a base.
 void explicit_reference_start(ExplicitReference *scheme, State *state);
 
 // `steps` steps, and `state` at their end: u there, everything else of the last step (v', slip

@@ -148,7 +148,7 @@ class Result(unittest.TestCase):
         with h5py.File(self.result / "history.h5") as history:
             held = set(history.attrs)
         self.assertLessEqual(held, named)
-        self.assertLessEqual(named - held, {"mu_macroscopic", "critical_length", "warnings", "format", "rod_breadth", "states", "state_unit"})
+        self.assertLessEqual(named - held, {"mu_macroscopic", "critical_length", "warnings", "format", "rod_breadth", "states", "state_unit", "thickness"})
 
     def test_table_of_fields(self):
         rows = re.findall(r"^\| `(\.vt[up])` \| ([^|]+) \|", RESULTS, re.M)

@@ -97,8 +97,8 @@ TEST(test_matching_meshes_are_the_identity)
     }
 }
 
-// Rows add up to 1 and reproduce linear fields; the forces of a uniform pressure on the contact come
-// down as those of a uniform pressure on the floor.
+// Rows add up to 1 and reproduce linear fields; the forces of a uniform pressure on the contact
+// come down as those of a uniform pressure on the floor.
 TEST(test_other_meshes_pass_what_is_constant)
 {
     Error err = {0};
@@ -296,9 +296,9 @@ TEST(test_uniform_stress_passes)
     }
 }
 
-// Two bodies that are mirror images, sheared oppositely by their far sides, stuck to each other: the
-// pressure between them does not change, for any Poisson's ratio (Dundurs' beta is 0). Inertia in
-// the place of supports: it is a mirror image, too.
+// Two bodies that are mirror images, sheared oppositely by their far sides, stuck to each other:
+// the pressure between them does not change, for any Poisson's ratio (Dundurs' beta is 0).
+// Inertia in the place of supports: it is a mirror image, too.
 TEST(test_mirror_images_keep_their_pressure)
 {
     Error err = {0};
@@ -320,7 +320,7 @@ TEST(test_mirror_images_keep_their_pressure)
     for (int32_t k = 0; k < n * n; k++) a[k] += beside[k];
     for (int32_t k = 0; k < n; k++) a[k * n + k] += bulk.mass[k];
     assert_true(mesh_boundary(&mesh, "contact", &side, &err));
-    // The response to the shear while all of the contact stays at rest, and what it then pulls with.
+    // The response to the shear while all of the contact stays at rest, and its pull then.
     memcpy(held, a, (size_t)(n * n) * sizeof *held);
     memcpy(moved, bulk.load, (size_t)n * sizeof *moved);
     for (int32_t k = 0; k < side.node_count; k++)
