@@ -15,11 +15,13 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/ioctl.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/ptrace.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 static bool fails_in(bool (*read)(void *, FILE *, Error *), Error *err)
@@ -183,29 +185,29 @@ static bool work_until_stopped(void *context, FILE *reply, Error *err)
     return false;
 }
 
-static void *tell_without_a_signal(void *unused)
-{
-    usleep(200000);
-    stopped = 1;
-    return unused;
-}
-
 // A stop that interrupts no call, as it came before the parent had begun to wait.
 TEST(test_stop_before_it_waits)
 {
     Error err = {0};
     ChildReply reply = {0};
+    volatile sig_atomic_t *told =
+        mmap(NULL, sizeof *told, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    assert_true(told != MAP_FAILED);
     ChildWork work = {
-        .path = "p", .reader = "r", .seconds = 7, .read = work_until_stopped, .stop = &stopped};
-    pthread_t teller;
+        .path = "p", .reader = "r", .seconds = 7, .read = work_until_stopped, .stop = told};
     signal(SIGTERM, note_stop);
     alarm(30);   // ends a parent that waits for ever
-    stopped = 0;
-    assert_int_equal(pthread_create(&teller, NULL, tell_without_a_signal, NULL), 0);
+    pid_t teller = fork();
+    if (teller == 0) {
+        usleep(200000);
+        *told = 1;
+        _exit(0);
+    }
     assert_false(child_read(&work, &reply, &err));
     alarm(0);
     signal(SIGTERM, SIG_DFL);
-    pthread_join(teller, NULL);
+    waitpid(teller, NULL, 0);
+    munmap((void *)told, sizeof *told);
     assert_int_equal(err.code, ERROR_INTERRUPT);
 }
 
