@@ -4,6 +4,8 @@
 #include "io/mesh/mesh_pick.h"
 #include "model/memory.h"
 
+#include <string.h>
+
 // Bytes that a node takes at least, with one factorised matrix; a run needs several times as much.
 static const double NODE_BYTES = 4e3;
 
@@ -49,6 +51,16 @@ static bool place_mesh(const Scene *scene, Mesh *mesh, Error *err)
                        mesh_stand_on_floor(contact->name, contact->count, mesh, err), err);
 }
 
+// NULL: the name is one of the block's own boundaries, so that no part of the mesh is a base.
+static const char *floor_name(const Scene *scene)
+{
+    const char *floor = scene->groups.floor;
+    bool taken = strcmp(floor, scene->groups.top) == 0 || strcmp(floor, scene->groups.rod) == 0;
+    for (int32_t k = 0; k < scene->groups.contact.count; k++)
+        taken = taken || strcmp(floor, scene->groups.contact.name[k]) == 0;
+    return taken ? NULL : floor;
+}
+
 bool scene_mesh_read(const Scene *scene, const ChildWatch *watch, Mesh *mesh, MeshOrigin *origin,
                      Error *err)
 {
@@ -65,7 +77,7 @@ bool scene_mesh_read(const Scene *scene, const ChildWatch *watch, Mesh *mesh, Me
         done = mesh_file_pick(path, body->name, body->count, &file, err);
         TRY(scene_blame(scene, "groups.body", done, err));
     }
-    TRY(mesh_build_on_base(&file, path, scene->groups.floor, mesh, err));
+    TRY(mesh_build_on_base(&file, path, floor_name(scene), mesh, err));
     TRY(place_mesh(scene, mesh, err));
 cleanup:
     mesh_file_destroy(&file);

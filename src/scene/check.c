@@ -223,7 +223,8 @@ static bool check_groups(const Check *check)
 {
     const Scene *scene = check->scene;
     const char *top = scene->groups.top, *rod = scene->groups.rod;
-    const char *floor = scene->groups.floor;
+    // A block's own boundary may have the name that a base's floor has where nothing is given.
+    const char *floor = is_given(check, "groups.floor") ? scene->groups.floor : "";
     if (strcmp(top, rod) == 0) return blame(check, "groups.rod", "`%s` is groups.top as well", rod);
     if (strcmp(floor, top) == 0 || strcmp(floor, rod) == 0)
         return blame(check, "groups.floor", "`%s` is groups.%s as well", floor,

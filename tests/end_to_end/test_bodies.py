@@ -136,7 +136,7 @@ class Bodies(OwnCache):
                                (["groups.floor=bottom"], "draw the block so that it stands on the base"),
                                (["groups.floor=nothing"], "call its upper side 'floor'"),
                                (["groups.floor=top"], "`top` is groups.top as well"),
-                               (["groups.contact=floor"], "`floor` is groups.floor as well"),
+                               (["groups.contact=floor", "groups.floor=floor"], "`floor` is groups.floor as well"),
                                (["mesh.set.ratio=0.75", "time.scheme=explicit"], "nodes lie under those of the contact")):
             told = self.call("run", *settings, status=2, flags=("-q", "--overwrite", "-o", "refused"))
             self.assertIn(said, told)
@@ -146,6 +146,13 @@ class Bodies(OwnCache):
         alone = self.compute("alone", "groups.body=body", "load.supports=[]")
         rigid = self.compute("rigid_too", *RIGID)
         self.assertAlmostEqual(alone["results"]["mu_M"], rigid["results"]["mu_M"], delta=1e-4)
+
+    def test_contact_called_floor(self):
+        """A block whose own contact has the name that a base's floor has where nothing is given."""
+        geo = (SOURCE / "meshes/block.geo").read_text().replace('Physical Curve("contact")', 'Physical Curve("floor")')
+        (self.folder / "named.geo").write_text(geo)
+        report = self.compute("named", f"mesh.file={self.folder}/named.geo", "groups.contact=floor", "load.supports=[]")
+        self.assertNotIn("base", report)
 
 
 if __name__ == "__main__":
