@@ -12,25 +12,21 @@
 #include <math.h>
 #include <string.h>
 
-// Nodes whose unknowns move a group of elements, each once: its own, and those of the floor that
-// its contact nodes move with. nodes: NULL: they are counted only, not told apart. Returns their
-// number.
+// Lists the nodes whose unknowns move a group of elements, each once: its own, and those of the
+// floor that its contact nodes move with. Returns their number.
 static int32_t list_movers(const Mesh *mesh, const ElementGroup *group, int32_t *nodes)
 {
     const Floor *floor = &mesh->floor;
-    int32_t count = group->node_count;
-    if (nodes) memcpy(nodes, group->node, (size_t)count * sizeof *nodes);
-    for (int32_t a = 0; a < group->node_count; a++) {
-        int32_t row = floor_row(floor, group->node[a]);
-        for (int32_t k = row < 0 ? 0 : floor->start[row]; row >= 0 && k < floor->start[row + 1];
+    int32_t own = group->node_count, count = own;
+    memcpy(nodes, group->node, (size_t)own * sizeof *nodes);
+    for (int32_t a = 0; a < own; a++)
+        for (int32_t k = floor_start(floor, group->node[a]); k < floor_end(floor, group->node[a]);
              k++) {
-            int32_t known = group->node_count;
-            while (nodes && known < count && nodes[known] != floor->node[k]) known++;
-            if (nodes && known < count) continue;
-            if (nodes) nodes[count] = floor->node[k];
-            count++;
+            int32_t known = own;
+            while (known < count && nodes[known] != floor->node[k]) known++;
+            nodes[known] = floor->node[k];
+            if (known == count) count++;
         }
-    }
     return count;
 }
 
@@ -39,11 +35,12 @@ static int32_t list_movers(const Mesh *mesh, const ElementGroup *group, int32_t 
 static bool build_pattern(const Mesh *mesh, SparsePattern *pattern, Error *err)
 {
     int32_t *start = NEW_ARRAY(int32_t, (int64_t)mesh->element_count + 1, err), count = 0;
-    int32_t *nodes = NULL, room = 0;
+    int32_t corners = mesh->first_node[mesh->element_count], room = corners, *nodes = NULL;
     ElementGroup group;
     if (!start) goto cleanup;
-    for (int32_t e = 0; e < mesh->element_count; e++)
-        if (element_group_at(mesh, e, &group)) room += list_movers(mesh, &group, NULL);
+    for (int32_t a = 0; a < corners; a++)
+        room += floor_end(&mesh->floor, mesh->element_nodes[a]) -
+                floor_start(&mesh->floor, mesh->element_nodes[a]);
     TRY((nodes = NEW_ARRAY(int32_t, room, err)));
     for (int32_t e = 0; e < mesh->element_count; e++) {
         if (!element_group_at(mesh, e, &group)) continue;
@@ -66,12 +63,9 @@ typedef struct Mover {
 // Number k of them; false: there are no more.
 static bool mover_at(const Floor *floor, int32_t node, int32_t k, Mover *mover)
 {
-    int32_t row = floor_row(floor, node);
-    *mover = (Mover){node, 1};
-    if (k == 0) return true;
-    if (row < 0 || floor->start[row] + k > floor->start[row + 1]) return false;
-    int32_t at = floor->start[row] + k - 1;
-    *mover = (Mover){floor->node[at], floor->share[at]};
+    int32_t at = floor_start(floor, node) + k - 1;
+    if (k > 0 && at >= floor_end(floor, node)) return false;
+    *mover = k == 0 ? (Mover){node, 1} : (Mover){floor->node[at], floor->share[at]};
     return true;
 }
 
@@ -187,7 +181,7 @@ bool bulk_assemble(const Mesh *mesh, const Material *materials, Bulk *bulk, Erro
     bulk->stiffness = NEW_ARRAY(double, entries, err);
     bulk->damping = NEW_ARRAY(double, entries, err);
     bulk->mass = NEW_ARRAY(double, bulk->dof_count, err);
-    if (mesh->floor.row) bulk->mass_beside = NEW_ARRAY(double, entries, err);
+    if (mesh->floor.start) bulk->mass_beside = NEW_ARRAY(double, entries, err);
     for (int32_t e = 0; error_is_clean(err) && e < mesh->element_count; e++) {
         if (!element_group_at(mesh, e, &group)) continue;
         element_group_matrices(mesh, materials, &group, &matrices);

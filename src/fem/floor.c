@@ -57,7 +57,7 @@ typedef struct FacePair {
 } FacePair;
 
 typedef struct FloorEntry {
-    int32_t row, node;
+    int32_t contact, node;   // of the contact, of the floor
     double value;
 } FloorEntry;
 
@@ -67,8 +67,7 @@ typedef struct Mortar {
     ShadowFace *floor;   // [floor_count] by ascending low[0]; owned
     int32_t floor_count;
     double widest;   // along x of a face of the floor
-    int32_t *row;   // [nodes] row of a contact node, -1
-    double *total;   // [rows] int psi_i dA; owned
+    double *total;   // [nodes] int psi_i dA of contact nodes; owned
     FacePair *pairs;   // of the face at hand; owned
     int32_t pair_count, pair_room;
     FloorEntry *entries;   // owned
@@ -82,7 +81,7 @@ static void mortar_destroy(Mortar *mortar)
 
 void floor_destroy(Floor *floor)
 {
-    memory_free_all(floor->row, floor->start, floor->node, floor->share);
+    memory_free_all(floor->start, floor->node, floor->share);
     *floor = (Floor){0};
 }
 
@@ -142,8 +141,8 @@ static double size_of(const Shadow *corner, int32_t count, int32_t dim)
     return dim == 1 ? corner[1][0] - corner[0][0] : double_area(corner, count) / 2;
 }
 
-// What two faces have in common: an interval, or a convex polygon (Sutherland and Hodgman, Comm.
-// ACM 17, 1974). Returns the number of corners, 0: nothing.
+// Intersects two faces: an interval, or a convex polygon (Sutherland and Hodgman, Comm. ACM 17,
+// 1974). Returns the number of corners, 0: nothing.
 static int32_t overlap(const ShadowFace *one, const ShadowFace *other, int32_t dim, Shadow *corner)
 {
     Shadow edge[FACE_CORNERS_MAX], before[POLYGON_MAX];
@@ -330,8 +329,7 @@ static bool add_face(Mortar *mortar, const char *pad, FaceNodes face, const char
                      mortar->mesh->path, pad);
     if (dim == 2 && face.kind == ELEMENT_T6) share_corners(share);
     for (int32_t a = 0; a < nodes; a++) {
-        int32_t row = mortar->row[face.node[a]];
-        mortar->total[row] += share[a];
+        mortar->total[face.node[a]] += share[a];
         for (int32_t p = 0; share[a] != 0 && p < mortar->pair_count; p++) {
             const FacePair *pair = &mortar->pairs[p];
             FaceNodes under = mortar->floor[pair->floor_face].face;
@@ -342,7 +340,8 @@ static bool add_face(Mortar *mortar, const char *pad, FaceNodes face, const char
                 if (!memory_grow(&mortar->entries, mortar->entry_count, &mortar->entry_room,
                                  sizeof *mortar->entries, err))
                     return false;
-                mortar->entries[mortar->entry_count++] = (FloorEntry){row, under.node[f], value};
+                mortar->entries[mortar->entry_count++] =
+                    (FloorEntry){face.node[a], under.node[f], value};
             }
         }
     }
@@ -354,7 +353,7 @@ static bool add_face(Mortar *mortar, const char *pad, FaceNodes face, const char
 static int compare_entries(const void *a, const void *b)
 {
     const FloorEntry *one = a, *other = b;
-    if (one->row != other->row) return one->row < other->row ? -1 : 1;
+    if (one->contact != other->contact) return one->contact < other->contact ? -1 : 1;
     if (one->node != other->node) return one->node < other->node ? -1 : 1;
     return (one->value > other->value) - (one->value < other->value);
 }
@@ -385,43 +384,34 @@ static bool list_floor(const MeshBoundary *boundary, Mortar *mortar, Error *err)
     return true;
 }
 
-// Sums entries of one place, over the row's total; leaves out rows without weight and shares of
-// rounding.
+// Sums entries of one place, over the total of their row; leaves out rows without weight and shares
+// of rounding.
 static bool fill_rows(Mortar *mortar, Floor *floor, Error *err)
 {
-    int32_t rows = 0, filled = 0, *number = NULL;
+    int32_t nodes = mortar->mesh->node_count, count = mortar->entry_count, filled = 0, k = 0;
+    const FloorEntry *entry = mortar->entries;
     double largest = 0;
-    TRY((number = NEW_ARRAY(int32_t, floor->row_count, err)));
-    TRY((floor->start = NEW_ARRAY(int32_t, (int64_t)floor->row_count + 1, err)));
-    TRY((floor->node = NEW_ARRAY(int32_t, mortar->entry_count, err)));
-    TRY((floor->share = NEW_ARRAY(double, mortar->entry_count, err)));
-    qsort(mortar->entries, (size_t)mortar->entry_count, sizeof *mortar->entries, compare_entries);
-    for (int32_t row = 0; row < floor->row_count; row++)
-        largest = fmax(largest, mortar->total[row]);
+    TRY((floor->start = NEW_ARRAY(int32_t, (int64_t)nodes + 1, err)));
+    TRY((floor->node = NEW_ARRAY(int32_t, count, err)));
+    TRY((floor->share = NEW_ARRAY(double, count, err)));
+    if (count > 0) qsort(mortar->entries, (size_t)count, sizeof *entry, compare_entries);
+    for (int32_t i = 0; i < nodes; i++) largest = fmax(largest, mortar->total[i]);
     floor->matches = true;
-    for (int32_t row = 0, k = 0; row < floor->row_count; row++) {
-        bool weightless = mortar->total[row] < SHARE_ROUNDING * largest;
-        number[row] = weightless ? -1 : rows;
-        while (k < mortar->entry_count && mortar->entries[k].row == row) {
-            int32_t node = mortar->entries[k].node;
+    for (int32_t i = 0; i < nodes; i++) {
+        bool weightless = mortar->total[i] < SHARE_ROUNDING * largest;
+        while (k < count && entry[k].contact == i) {
+            int32_t node = entry[k].node;
             double share = 0;
-            for (; k < mortar->entry_count && mortar->entries[k].row == row &&
-                   mortar->entries[k].node == node;
-                 k++)
-                share += mortar->entries[k].value / mortar->total[row];
+            for (; k < count && entry[k].contact == i && entry[k].node == node; k++)
+                share += entry[k].value / mortar->total[i];
             if (weightless || fabs(share) < SHARE_ROUNDING) continue;
             floor->node[filled] = node;
             floor->share[filled++] = fabs(share - 1) < SHARE_ROUNDING ? 1 : share;
         }
-        if (weightless) continue;
-        floor->matches = floor->matches && filled == floor->start[rows] + 1;
-        floor->start[++rows] = filled;
+        floor->start[i + 1] = filled;
+        floor->matches = floor->matches && filled <= floor->start[i] + 1;
     }
-    for (int32_t i = 0; i < mortar->mesh->node_count; i++)
-        if (floor->row[i] >= 0) floor->row[i] = number[floor->row[i]];
-    floor->row_count = rows;
 cleanup:
-    memory_free(number);
     return error_is_clean(err);
 }
 
@@ -431,12 +421,12 @@ static bool check_gaps(const Mesh *mesh, const MeshContact *contact, Error *err)
     int32_t lowest = -1;
     double least = INFINITY;
     for (int32_t k = 0; k < contact->node_count; k++) {
-        if (floor_row(&mesh->floor, contact->nodes[k]) < 0) continue;
-        double gap = mesh_height(mesh, contact->nodes[k]) -
-                     mesh_floor_height(mesh, contact->nodes[k]);
+        int32_t node = contact->nodes[k];
+        if (floor_start(&mesh->floor, node) == floor_end(&mesh->floor, node)) continue;
+        double gap = mesh_height(mesh, node) - mesh_floor_height(mesh, node);
         if (gap < least) {
             least = gap;
-            lowest = contact->nodes[k];
+            lowest = node;
         }
     }
     if (lowest < 0 || fabs(least) <= GAP_ROUNDING * (mesh->x_max - mesh->x_min)) return true;
@@ -457,12 +447,7 @@ bool floor_find(const char (*names)[GROUP_NAME_SIZE], int32_t name_count, const 
     TRY(mesh_contact(mesh, names, name_count, &contact, err));
     TRY(mesh_boundary(mesh, floor, &boundary, err));
     TRY(list_floor(&boundary, &mortar, err));
-    TRY((mesh->floor.row = NEW_ARRAY(int32_t, mesh->node_count, err)));
-    TRY((mortar.total = NEW_ARRAY(double, contact.node_count, err)));
-    for (int32_t i = 0; i < mesh->node_count; i++) mesh->floor.row[i] = -1;
-    for (int32_t k = 0; k < contact.node_count; k++) mesh->floor.row[contact.nodes[k]] = k;
-    mesh->floor.row_count = contact.node_count;
-    mortar.row = mesh->floor.row;
+    TRY((mortar.total = NEW_ARRAY(double, mesh->node_count, err)));
     for (int32_t c = 0; c < contact.pad_count; c++)
         for (int32_t k = 0; k < contact.pads[c].face_count; k++)
             TRY(add_face(&mortar, contact.pads[c].name, mesh_boundary_face(&contact.pads[c], k),
@@ -482,10 +467,8 @@ cleanup:
 static void add_rows(const Mesh *mesh, double sign, bool forces, double *field)
 {
     const Floor *floor = &mesh->floor;
-    for (int32_t i = 0; floor->row && i < mesh->node_count; i++) {
-        int32_t row = floor->row[i];
-        for (int32_t k = row < 0 ? 0 : floor->start[row]; row >= 0 && k < floor->start[row + 1];
-             k++)
+    for (int32_t i = 0; floor->start && i < mesh->node_count; i++)
+        for (int32_t k = floor->start[i]; k < floor->start[i + 1]; k++)
             for (int32_t d = 0; d < mesh->dim; d++) {
                 double *contact = &field[node_dof(mesh->dim, i, d)];
                 double *under = &field[node_dof(mesh->dim, floor->node[k], d)];
@@ -494,7 +477,6 @@ static void add_rows(const Mesh *mesh, double sign, bool forces, double *field)
                 else
                     *contact += sign * floor->share[k] * *under;
             }
-    }
 }
 
 void floor_displace(const Mesh *mesh, double *field)

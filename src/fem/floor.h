@@ -24,12 +24,6 @@ bool floor_find(const char (*names)[GROUP_NAME_SIZE], int32_t name_count, const 
                 Mesh *mesh, Error *err);
 void floor_destroy(Floor *floor);
 
-// The row of a node in P; -1: it is no contact node, or the floor is rigid.
-static inline int32_t floor_row(const Floor *floor, int32_t node)
-{
-    return floor->row ? floor->row[node] : -1;
-}
-
 // Jumps to displacements: u_c = w + P u_f, in place. field: [dim * nodes], or velocities.
 void floor_displace(const Mesh *mesh, double *field);
 // The same backwards.

@@ -20,15 +20,23 @@ typedef struct MeshMove {
 } MeshMove;
 
 // Where a second body, the base, is the floor (fem/floor): the mean displacement of the floor under
-// each contact node is a row of P. Without a base `row` is NULL.
+// each contact node is a row of P. Of a rigid floor `start` is NULL.
 typedef struct Floor {
-    int32_t row_count;   // contact nodes
-    int32_t *row;   // [node_count of the mesh] which row a contact node has, -1: none; owned
-    int32_t *start;   // [row_count + 1] offsets into node and share; owned
-    int32_t *node;   // [start[row_count]] nodes of the floor, ascending in a row; owned
-    double *share;   // [start[row_count]] of P; each row adds up to 1; owned
+    int32_t *start;   // [node_count of the mesh + 1] where a node's row begins; owned
+    int32_t *node;   // [start[node_count]] nodes of the floor, ascending in a row; owned
+    double *share;   // [start[node_count]] of P; each row adds up to 1; owned
     bool matches;   // each row is one node
 } Floor;
+
+// A node's row of P: empty unless it is a contact node over a base.
+static inline int32_t floor_start(const Floor *floor, int32_t node)
+{
+    return floor->start ? floor->start[node] : 0;
+}
+static inline int32_t floor_end(const Floor *floor, int32_t node)
+{
+    return floor->start ? floor->start[node + 1] : 0;
+}
 
 // A checked mesh: every element counter-clockwise, with a positive Jacobian determinant at its
 // nodes and quadrature points; every node on an element; no node twice in one element; no face on

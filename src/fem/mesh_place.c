@@ -101,9 +101,8 @@ const char *mesh_move_text(const Mesh *mesh, char text[MOVE_TEXT_SIZE])
 double mesh_floor_height(const Mesh *mesh, int32_t node)
 {
     const Floor *floor = &mesh->floor;
-    int32_t row = floor->row ? floor->row[node] : -1;
     double height = 0;
-    for (int32_t k = row < 0 ? 0 : floor->start[row]; row >= 0 && k < floor->start[row + 1]; k++)
+    for (int32_t k = floor_start(floor, node); k < floor_end(floor, node); k++)
         height += floor->share[k] * mesh_height(mesh, floor->node[k]);
     return height;
 }

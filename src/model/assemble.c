@@ -193,8 +193,8 @@ static bool may_hold(const Model *model, int32_t dof)
 {
     const Mesh *mesh = &model->mesh;
     const Floor *floor = &mesh->floor;
-    int32_t row = floor_row(floor, dof_node(mesh->dim, dof));
-    for (int32_t k = row < 0 ? 0 : floor->start[row]; row >= 0 && k < floor->start[row + 1]; k++)
+    int32_t node = dof_node(mesh->dim, dof);
+    for (int32_t k = floor_start(floor, node); k < floor_end(floor, node); k++)
         if (!model->bulk.held[node_dof(mesh->dim, floor->node[k], dof_axis(mesh->dim, dof))])
             return false;
     return true;

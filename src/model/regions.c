@@ -188,8 +188,8 @@ bool model_place_regions(Model *model, double low, double high, Error *err)
     model->contact_region = find_region(mesh, on_pad, NULL);
     if (model->contact_region < 0) model->contact_region = 0;
     if (mesh->is_base) {
-        TRY((on_floor = mark_nodes(mesh, mesh->floor.node, mesh->floor.start[mesh->floor.row_count],
-                                   err)));
+        TRY((on_floor =
+                 mark_nodes(mesh, mesh->floor.node, mesh->floor.start[mesh->node_count], err)));
         model->floor_region = find_region(mesh, on_floor, NULL);
         if (model->floor_region < 0) model->floor_region = 0;
     }

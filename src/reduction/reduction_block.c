@@ -160,11 +160,10 @@ void reduction_block_hash(const ReductionBlock *block, const Mesh *mesh, const i
     hash_bytes(hash, bulk->held, unknowns);
     hash_bytes(hash, dofs, (size_t)dof_count * sizeof *dofs);
     const Floor *floor = &mesh->floor;
-    if (!floor->row) return;
-    int32_t rows = floor->row_count;
-    hash_bytes(hash, mesh->is_base, (size_t)mesh->node_count);
-    hash_bytes(hash, floor->row, (size_t)mesh->node_count * sizeof *floor->row);
-    hash_bytes(hash, floor->start, (size_t)(rows + 1) * sizeof *floor->start);
-    hash_bytes(hash, floor->node, (size_t)floor->start[rows] * sizeof *floor->node);
-    hash_bytes(hash, floor->share, (size_t)floor->start[rows] * sizeof *floor->share);
+    if (!floor->start) return;
+    size_t nodes = (size_t)mesh->node_count, entries = (size_t)floor->start[mesh->node_count];
+    hash_bytes(hash, mesh->is_base, nodes);
+    hash_bytes(hash, floor->start, (nodes + 1) * sizeof *floor->start);
+    hash_bytes(hash, floor->node, entries * sizeof *floor->node);
+    hash_bytes(hash, floor->share, entries * sizeof *floor->share);
 }

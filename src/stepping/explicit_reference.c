@@ -54,9 +54,9 @@ static void to_jumps(const Mesh *mesh, State *state)
 // The floor node under a contact node, -1: the floor is rigid.
 static int32_t node_under(const ExplicitReference *scheme, int32_t node)
 {
-    const Mesh *mesh = scheme->def.mesh;
-    int32_t row = mesh ? floor_row(&mesh->floor, node) : -1;
-    return row < 0 ? -1 : mesh->floor.node[mesh->floor.start[row]];
+    const Floor *floor = scheme->def.mesh ? &scheme->def.mesh->floor : &(const Floor){0};
+    int32_t row = floor_start(floor, node);
+    return row < floor_end(floor, node) ? floor->node[row] : -1;
 }
 
 // By how much velocity a unit force in a step changes component d of a floor node; 0: it is held.

@@ -96,9 +96,9 @@ bool __wrap_floor_find(const char (*names)[GROUP_NAME_SIZE], int32_t count, cons
                        Mesh *mesh, Error *err)
 {
     if (!__real_floor_find(names, count, floor, mesh, err)) return false;
-    int32_t *node = mesh->floor.node, last = mesh->floor.row_count - 1;
-    if (mistake_made() == MISTAKE_FLOOR_BESIDE && mesh->floor.matches)
-        memmove(node, node + 1, (size_t)last * sizeof *node);
+    int32_t *node = mesh->floor.node, *start = mesh->floor.start;
+    if (mistake_made() == MISTAKE_FLOOR_BESIDE && start && mesh->floor.matches)
+        memmove(node, node + 1, (size_t)(start[mesh->node_count] - 1) * sizeof *node);
     return true;
 }
 
