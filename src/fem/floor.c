@@ -18,7 +18,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double GRID = 0x1p30;
 // Shares below this, and what misses from 1, are rounding.
 static const double SHARE_ROUNDING = 1e-9;
 // Part of a face of the contact that may lie over no face of the floor: rounding of coordinates.
@@ -31,7 +30,6 @@ static const double UPRIGHT = 1e-9;
 enum {
     SHADOW_DIM = DIM_MAX - 1,
     POLYGON_MAX = 2 * FACE_CORNERS_MAX,   // corners of what two convex faces have in common
-    NEWTON_STEPS = 20,
     GAUSS_POINTS = 5   // exact to degree 9 along a line
 };
 
@@ -46,7 +44,7 @@ typedef double Shadow[SHADOW_DIM];
 // A face seen from above.
 typedef struct ShadowFace {
     FaceNodes face;
-    Shadow place[FACE_NODES_MAX];   // of its nodes
+    MeshPlace place[FACE_NODES_MAX];   // of its nodes, the last number 0
     Shadow low, high;   // box of its corners
 } ShadowFace;
 
@@ -87,12 +85,6 @@ void floor_destroy(Floor *floor)
 
 // --- places -------------------------------------------------------------------------------------
 
-static double on_grid(const Mesh *mesh, int32_t node, int32_t axis)
-{
-    double length = mesh->x_max - mesh->x_min, start = axis == 0 ? mesh->x_min : 0;
-    return round((mesh_place(mesh, node)[axis] - start) / length * GRID) / GRID;
-}
-
 static ShadowFace shadow_of(const Mesh *mesh, FaceNodes face)
 {
     ShadowFace shadow = {.face = face};
@@ -100,7 +92,7 @@ static ShadowFace shadow_of(const Mesh *mesh, FaceNodes face)
         shadow.low[d] = INFINITY;
         shadow.high[d] = -INFINITY;
         for (int32_t a = 0; a < element_node_count(face.kind); a++)
-            shadow.place[a][d] = on_grid(mesh, face.node[a], d);
+            shadow.place[a][d] = mesh_grid_place(mesh, face.node[a], d);
         for (int32_t a = 0; a < element_corner_count(face.kind); a++) {
             shadow.low[d] = fmin(shadow.low[d], shadow.place[a][d]);
             shadow.high[d] = fmax(shadow.high[d], shadow.place[a][d]);
@@ -124,7 +116,7 @@ static double double_area(const Shadow *corner, int32_t count)
 static int32_t corners_of(const ShadowFace *shadow, int32_t dim, Shadow *corner)
 {
     int32_t count = element_corner_count(shadow->face.kind);
-    memcpy(corner, shadow->place, (size_t)count * sizeof *corner);
+    for (int32_t a = 0; a < count; a++) memcpy(corner[a], shadow->place[a], sizeof *corner);
     bool turned = dim == 1 ? corner[0][0] > corner[1][0] : double_area(corner, count) < 0;
     for (int32_t a = 0; turned && a < count / 2; a++)
         for (int32_t d = 0; d < SHADOW_DIM; d++) {
@@ -177,39 +169,12 @@ static int32_t overlap(const ShadowFace *one, const ShadowFace *other, int32_t d
     return count;
 }
 
-// Newton's method for the reference coordinates of a place under a face, and its shape functions
-// there. It ends at the place that is nearest where there is none.
-static ShapeValues shape_under(const ShadowFace *shadow, int32_t dim, const double *at)
+// Shape functions of a face where it lies over, or under, a place.
+static ShapeValues shape_under(const ShadowFace *shadow, const double *at)
 {
-    ElementKind kind = shadow->face.kind;
-    int32_t count = element_node_count(kind);
-    double point[DIM_MAX] = {0};
-    ShapeValues shape;
-    for (int32_t a = 0; a < count; a++)
-        for (int32_t d = 0; d < dim; d++) point[d] += shape_node(kind, a)[d] / count;
-    for (int32_t step = 0;; step++) {
-        double away[SHADOW_DIM] = {0}, slope[SHADOW_DIM][SHADOW_DIM] = {{0}}, moved = 0;
-        shape = shape_at(kind, point);
-        for (int32_t d = 0; d < dim; d++) {
-            away[d] = at[d];
-            for (int32_t a = 0; a < count; a++) {
-                away[d] -= shape.value[a] * shadow->place[a][d];
-                for (int32_t e = 0; e < dim; e++)
-                    slope[d][e] += shape.slope[a][e] * shadow->place[a][d];
-            }
-        }
-        double way[SHADOW_DIM] = {away[0] / slope[0][0], 0};
-        if (dim == 2) {
-            double determinant = slope[0][0] * slope[1][1] - slope[0][1] * slope[1][0];
-            way[0] = (slope[1][1] * away[0] - slope[0][1] * away[1]) / determinant;
-            way[1] = (slope[0][0] * away[1] - slope[1][0] * away[0]) / determinant;
-        }
-        for (int32_t d = 0; d < dim; d++) {
-            point[d] += way[d];
-            moved = fmax(moved, fabs(way[d]));
-        }
-        if (!(moved > 1e-15) || step == NEWTON_STEPS) return shape;
-    }
+    MeshPlace point;
+    shape_locate(shadow->face.kind, (const MeshPlace *)shadow->place, at, point);
+    return shape_at(shadow->face.kind, point);
 }
 
 // --- integrals ----------------------------------------------------------------------------------
@@ -307,8 +272,8 @@ static bool add_face(Mortar *mortar, const char *pad, FaceNodes face, const char
         *pair = (FacePair){.floor_face = k};
         set_points(corner, corners, dim, &points);
         for (int32_t q = 0; q < points.count; q++) {
-            ShapeValues upper = shape_under(&own, dim, points.at[q]);
-            ShapeValues lower = shape_under(under, dim, points.at[q]);
+            ShapeValues upper = shape_under(&own, points.at[q]);
+            ShapeValues lower = shape_under(under, points.at[q]);
             double weight = points.weight[q];
             covered += weight;
             for (int32_t a = 0; a < nodes; a++) {

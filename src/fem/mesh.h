@@ -99,6 +99,11 @@ static inline double mesh_height(const Mesh *mesh, int32_t node)
 void mesh_places(const Mesh *mesh, const int32_t *nodes, int32_t count, MeshPlace *place);
 void mesh_offsets(const Mesh *mesh, const int32_t *nodes, int32_t count, MeshPlace *offset);
 
+// A number of order 1 on a grid of 2^-30, so that shapes drawn in other units have the same bits.
+double put_on_grid(double value);
+// A coordinate on it: over the block's length, along x from its trailing end.
+double mesh_grid_place(const Mesh *mesh, int32_t node, int32_t axis);
+
 // Sets the block's extent, without the base. A node on no element would change it, but is an error.
 void mesh_find_extent(Mesh *mesh);
 

@@ -16,7 +16,6 @@ static const double OUTSIDE = 1e-5;
 static const double REFERENCE_TOLERANCE = 1e-9;
 // Box of an element with bent sides, over that of its nodes.
 static const double BENT_BOX = 0.25;
-enum { INVERSE_STEPS = 20 };
 
 typedef struct ProbePoint {
     MeshPlace place;
@@ -74,34 +73,6 @@ static bool is_within(ElementKind kind, const double *at)
     return true;
 }
 
-// Newton's method for the reference coordinates of a place. As the functions reproduce these,
-// d xi/d x is the sum of the nodes' reference coordinates times their functions' gradients.
-static bool element_holds(ElementKind kind, const MeshPlace *position, const double *place)
-{
-    int32_t dim = element_dim(kind), count = element_node_count(kind);
-    MeshPlace at = {0};
-    for (int32_t a = 0; a < count; a++)
-        for (int32_t d = 0; d < dim; d++) at[d] += shape_node(kind, a)[d] / count;
-    for (int32_t step = 0; step < INVERSE_STEPS; step++) {
-        MeshPlace gradient[ELEMENT_NODES_MAX], away = {0};
-        ShapeValues shape = shape_at(kind, at);
-        double moved = 0;
-        if (!(shape_gradients(kind, &shape, position, gradient) > 0)) return false;
-        for (int32_t d = 0; d < dim; d++) {
-            away[d] = place[d];
-            for (int32_t a = 0; a < count; a++) away[d] -= shape.value[a] * position[a][d];
-        }
-        for (int32_t a = 0; a < count; a++) {
-            double along = 0;
-            for (int32_t d = 0; d < dim; d++) along += gradient[a][d] * away[d];
-            for (int32_t d = 0; d < dim; d++) at[d] += shape_node(kind, a)[d] * along;
-            moved = fmax(moved, fabs(along));
-        }
-        if (moved < REFERENCE_TOLERANCE / 10) return is_within(kind, at);
-    }
-    return false;
-}
-
 // The first point with x >= low.
 static int32_t first_from(const ProbePoint *points, int32_t count, double low)
 {
@@ -142,7 +113,10 @@ static const ProbePoint *point_inside(const Mesh *mesh, int32_t e, const ProbePo
         bool in_box = true;
         for (int32_t d = 1; d < mesh->dim; d++)
             in_box = in_box && point->place[d] >= low[d] && point->place[d] <= high[d];
-        if (in_box && element_holds(kind, (const MeshPlace *)position, point->place)) return point;
+        MeshPlace at;
+        if (in_box && shape_locate(kind, (const MeshPlace *)position, point->place, at) &&
+            is_within(kind, at))
+            return point;
     }
     return NULL;
 }

@@ -6,6 +6,24 @@
 #include <stdio.h>
 #include <string.h>
 
+// Numbers of order 1 are rounded to this grid: far finer than an element, far coarser than
+// rounding. Its steps are powers of 2, so that no length that one draws is half a step, which
+// rounding could push either way.
+static const double GRID = 0x1p30;
+
+// Scenes whose numbers differ by rounding get the same. Should this fail for a node (within 1e-16
+// of a half step) a basis is built twice, and both are right.
+double put_on_grid(double value)
+{
+    return round(value * GRID) / GRID + 0.0;   // never -0
+}
+
+double mesh_grid_place(const Mesh *mesh, int32_t node, int32_t axis)
+{
+    double start = axis == 0 ? mesh->x_min : 0;
+    return put_on_grid((mesh_place(mesh, node)[axis] - start) / (mesh->x_max - mesh->x_min));
+}
+
 void mesh_places(const Mesh *mesh, const int32_t *nodes, int32_t count, MeshPlace *place)
 {
     for (int32_t a = 0; a < count; a++)

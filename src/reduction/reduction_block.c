@@ -6,19 +6,7 @@
 
 #include <math.h>
 
-// Numbers of order 1 are rounded to this grid: far finer than an element, far coarser than
-// rounding. Its steps are powers of 2, so that no length that one draws is half a step, which
-// rounding could push either way.
-static const double GRID = 0x1p30;
-
-// Scenes whose numbers differ by rounding get the same. Should this fail for a node (within 1e-16
-// of a half step) a basis is built twice, and both are right.
-static double put_on_grid(double value)
-{
-    return round(value * GRID) / GRID + 0.0;   // never -0
-}
-
-// Likewise by 30 bits: a region may be softer than the mean by any factor.
+// Rounds to 30 bits: a region may be softer than the mean by any factor.
 static double keep_bits(double value)
 {
     int power;
@@ -89,14 +77,12 @@ static void raise_base(const Mesh *mesh, double height, double *position)
 bool reduction_block_create(const Mesh *mesh, const Bulk *bulk, const Materials *materials,
                             double load_size, ReductionBlock *block, Error *err)
 {
-    double length = mesh->x_max - mesh->x_min;
     *block = (ReductionBlock){.materials = normalise(materials)};
     int64_t numbers = (int64_t)mesh->dim * mesh->node_count;
     if (!(block->position = NEW_ARRAY(double, numbers, err))) return false;
-    for (int64_t k = 0; k < numbers; k++) {
-        double start = k % mesh->dim == 0 ? mesh->x_min : 0;
-        block->position[k] = put_on_grid((mesh->position[k] - start) / length);
-    }
+    for (int32_t i = 0; i < mesh->node_count; i++)
+        for (int32_t d = 0; d < mesh->dim; d++)
+            block->position[node_dof(mesh->dim, i, d)] = mesh_grid_place(mesh, i, d);
     // A mesher's two sides differ by a part of a step, and may be rounded to neighbouring ones.
     bool done = true;
     raise_base(mesh, -BASE_APART, block->position);

@@ -320,7 +320,9 @@ static double find_cofactors(int32_t dim, const double j[DIM_MAX][DIM_MAX],
         for (int32_t k = 0; k < dim; k++) {
             int32_t r1 = (row + 1) % dim, r2 = (row + 2) % dim, k1 = (k + 1) % dim,
                     k2 = (k + 2) % dim;
-            if (dim == 2)
+            if (dim == 1)
+                c[row][k] = 1;
+            else if (dim == 2)
                 c[row][k] = row == k ? j[r1][k1] : -j[r1][k1];
             else
                 c[row][k] = j[r1][k1] * j[r2][k2] - j[r1][k2] * j[r2][k1];
@@ -351,6 +353,38 @@ double shape_gradients(ElementKind kind, const ShapeValues *shape, const MeshPla
             gradient[a][d] = sum / determinant;
         }
     return determinant;
+}
+
+// As the functions reproduce reference coordinates, d xi/d x is the sum of the nodes' reference
+// coordinates times their functions' gradients.
+bool shape_locate(ElementKind kind, const MeshPlace *position, const double *place, MeshPlace at)
+{
+    enum { STEPS = 20 };
+    static const double LEFT = 1e-10;   // of the step that is the last: the next is rounding
+    int32_t dim = element_dim(kind), count = element_node_count(kind);
+    double sense = 0;   // of the nodes' order, as seen where it begins
+    memset(at, 0, sizeof(MeshPlace));
+    for (int32_t a = 0; a < count; a++)
+        for (int32_t d = 0; d < dim; d++) at[d] += shape_node(kind, a)[d] / count;
+    for (int32_t step = 0; step < STEPS; step++) {
+        MeshPlace gradient[ELEMENT_NODES_MAX], away = {0};
+        ShapeValues shape = shape_at(kind, at);
+        double moved = 0, determinant = shape_gradients(kind, &shape, position, gradient);
+        if (step == 0) sense = determinant;
+        if (!(determinant * sense > 0)) return false;
+        for (int32_t d = 0; d < dim; d++) {
+            away[d] = place[d];
+            for (int32_t a = 0; a < count; a++) away[d] -= shape.value[a] * position[a][d];
+        }
+        for (int32_t a = 0; a < count; a++) {
+            double along = 0;
+            for (int32_t d = 0; d < dim; d++) along += gradient[a][d] * away[d];
+            for (int32_t d = 0; d < dim; d++) at[d] += shape_node(kind, a)[d] * along;
+            moved = fmax(moved, fabs(along));
+        }
+        if (moved < LEFT) return true;
+    }
+    return false;
 }
 
 // The last column of cofactors of a Jacobian whose last column is the normal.

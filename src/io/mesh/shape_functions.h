@@ -48,6 +48,10 @@ double shape_jacobian(ElementKind kind, const ShapeValues *shape, const MeshPlac
 double shape_gradients(ElementKind kind, const ShapeValues *shape, const MeshPlace *position,
                        MeshPlace *gradient);
 
+// Newton's method for the reference coordinates of a place. false: it does not converge, and `at`
+// is where it ended.
+bool shape_locate(ElementKind kind, const MeshPlace *position, const double *place, MeshPlace at);
+
 // Normal of a face, which is an element in a space of one dimension more: n |J| with the unit
 // normal n. It points to the left of a line, and to the side from which a face's nodes run
 // counter-clockwise.
