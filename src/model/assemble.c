@@ -100,10 +100,11 @@ static bool supports_block(const Model *model)
     MeshBoundary boundary;
     Error ignored = {0};
     for (int32_t k = 0; k < model->scene->load.support_count; k++)
-        if (!mesh_boundary(&model->mesh, model->scene->load.supports[k].group, &boundary,
-                           &ignored) ||
-            !mesh_in_base(&model->mesh, boundary.nodes[0]))
+        if (!mesh_boundary(&model->mesh, model->scene->load.supports[k].group, &boundary, &ignored))
             return true;
+        else
+            for (int32_t i = 0; i < boundary.node_count; i++)
+                if (!mesh_in_base(&model->mesh, boundary.nodes[i])) return true;
     return false;
 }
 
@@ -112,7 +113,8 @@ static bool set_load(Model *model, Error *err)
 {
     const Scene *scene = model->scene;
     double load = model->unit_load.resultant * load_reference(model);
-    bool held = supports_block(model) || scene->start.velocity_z < 0;
+    model->block_is_held = supports_block(model);
+    bool held = model->block_is_held || scene->start.velocity_z < 0;
     if (!(load > 0) && held) load = free_scale(model, load);
     if (!(load > 0))
         return REFUSE(
@@ -233,7 +235,7 @@ static bool check_base(const Model *model, Error *err)
                   model->scene->path, dim > 2 ? "y: true, " : "");
 }
 
-// What of the base is held is known before the block is looked at.
+// The base first: whether the block may be held at the contact goes by it.
 bool model_hold_supports(Model *model, Error *err)
 {
     const Scene *scene = model->scene;
@@ -248,7 +250,6 @@ bool model_hold_supports(Model *model, Error *err)
             for (int32_t i = 0; i < boundary.node_count; i++) {
                 int32_t node = boundary.nodes[i];
                 if (mesh_in_base(mesh, node) != (pass == 0)) continue;
-                model->block_is_held = model->block_is_held || pass == 1;
                 for (int32_t d = 0; d < mesh->dim; d++) {
                     int32_t dof = node_dof(mesh->dim, node, d);
                     if (along[d] && may_hold(model, dof)) bulk_hold(dof, &model->bulk);
