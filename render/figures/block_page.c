@@ -220,12 +220,6 @@ static void draw_load(const Page *page, const BlockPage *map, const Block *block
     }
 }
 
-// Whether a node is of the body that the rod pushes: a base lies below z = 0.
-static bool is_pushed(const double *place, double low, double high)
-{
-    return low + high < 0 ? place[1] < 0 : place[1] > 0;
-}
-
 // Where a height of the trailing face is drawn: between the nodes of it below and above.
 static double drawn_height(const Block *block, double height, double face, double slack)
 {
@@ -233,7 +227,7 @@ static double drawn_height(const Block *block, double height, double face, doubl
     double below[2] = {-INFINITY, 0}, above[2] = {INFINITY, 0};   // height, and where it is drawn
     for (int32_t i = 0; i < frame->node_count; ++i) {
         const double *was = frame->position + 3 * i;
-        if (was[0] > face + slack || !is_pushed(was, height, height)) continue;
+        if (was[0] > face + slack || !rod_mark_pushes(height, height, was[1])) continue;
         const double at[2] = {was[1], block->place[i][1]};
         if (at[0] <= height + slack && at[0] > below[0]) memcpy(below, at, sizeof at);
         if (at[0] >= height - slack && at[0] < above[0]) memcpy(above, at, sizeof at);
@@ -249,7 +243,7 @@ static RodMark rod_find(const Block *block, double low, double high, double shar
     const FieldFrame *frame = &block->frame;
     double face = INFINITY, slack = FACE_SLACK * (high - low);
     for (int32_t i = 0; i < frame->node_count; ++i)
-        if (is_pushed(frame->position + 3 * i, low, high))
+        if (rod_mark_pushes(low, high, frame->position[3 * i + 1]))
             face = fmin(face, frame->position[3 * i]);
     RodMark rod = {INFINITY, drawn_height(block, low, face, slack),
                    drawn_height(block, high, face, slack), share};

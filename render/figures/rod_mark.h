@@ -13,6 +13,12 @@ typedef struct RodMark {
     double low, high;   // the strip's z; NaN: nothing is drawn
     double share;   // of the usual size: 1
 } RodMark;
+// Whether a node at height z is of the body that a rod pushes between these heights: a base lies
+// below z = 0.
+static inline bool rod_mark_pushes(double low, double high, double z)
+{
+    return low + high < 0 ? z < 0 : z > 0;
+}
 void rod_mark_draw(const Page *page, const Axes *axes, const RodMark *rod);
 
 // A line from `from` to `to` with a head there, `size` pixels long.

@@ -292,8 +292,7 @@ static void draw_rod(const MeshPage *map)
     double face = INFINITY;
     for (int32_t node = 0; node < mesh->node_count; ++node) {
         const double *place = mesh->position + 2 * (int64_t)node;
-        bool pushed = mesh->rod_low < 0 ? place[1] < 0 : place[1] > 0;   // a base lies below z = 0
-        if (pushed) face = fmin(face, place[0]);
+        if (rod_mark_pushes(mesh->rod_low, mesh->rod_high, place[1])) face = fmin(face, place[0]);
     }
     RodMark rod = {face, mesh->rod_low, mesh->rod_high, 1};
     rod_mark_draw(map->page, &map->axes, &rod);
