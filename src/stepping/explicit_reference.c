@@ -29,26 +29,28 @@ void explicit_reference_destroy(ExplicitReference *scheme)
     *scheme = (ExplicitReference){0};
 }
 
-// The state in displacements of nodes, in the place of jumps; and back, with all forces.
-static void to_nodes(const Mesh *mesh, State *state)
+// Puts motions and branches of a state into unknowns of nodes in the place of jumps, or back, by
+// the two functions of fem/floor.
+static void change_unknowns(const Mesh *mesh, void (*motion)(const Mesh *, double *),
+                            void (*force)(const Mesh *, double *), State *state)
 {
     if (!mesh) return;
-    floor_displace(mesh, state->displacement);
-    floor_displace(mesh, state->velocity);
+    motion(mesh, state->displacement);
+    motion(mesh, state->velocity);
     for (int32_t k = 0; k < state->branch_count; k++) {
-        floor_displace(mesh, state->stretch + (int64_t)k * state->dof_count);
-        floor_scatter(mesh, state->pull + (int64_t)k * state->dof_count);
+        motion(mesh, state->stretch + (int64_t)k * state->dof_count);
+        force(mesh, state->pull + (int64_t)k * state->dof_count);
     }
 }
+
+static void to_nodes(const Mesh *mesh, State *state)
+{
+    change_unknowns(mesh, floor_displace, floor_scatter, state);
+}
+
 static void to_jumps(const Mesh *mesh, State *state)
 {
-    if (!mesh) return;
-    floor_find_jumps(mesh, state->displacement);
-    floor_find_jumps(mesh, state->velocity);
-    for (int32_t k = 0; k < state->branch_count; k++) {
-        floor_find_jumps(mesh, state->stretch + (int64_t)k * state->dof_count);
-        floor_gather(mesh, state->pull + (int64_t)k * state->dof_count);
-    }
+    change_unknowns(mesh, floor_find_jumps, floor_gather, state);
 }
 
 // The floor node under a contact node, -1: the floor is rigid.
