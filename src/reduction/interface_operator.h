@@ -48,7 +48,7 @@ bool bulk_operator_reduce(const ReducedBulk *reduced, double length, double mass
                           BulkOperator *system, Error *err);
 void bulk_operator_destroy(BulkOperator *system);
 
-// Of the materials' branches.
+// The spectrum of the materials' branches.
 const Spectrum *bulk_operator_spectrum(const BulkOperator *system);
 
 // y = K x, C x, M x or S_j x; [dof_count]

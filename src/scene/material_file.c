@@ -322,7 +322,7 @@ static bool is_given(const Scene *scene, const char *key)
     return scene->given[scene_key_index(key)];
 }
 
-// What was found is written into results in the place of the file: they can be computed again
+// Results hold the moduli that were found, in the place of the file: they can be computed again
 // without it.
 bool scene_material_files(Scene *scene, const char **key, Error *err)
 {

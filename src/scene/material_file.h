@@ -23,7 +23,7 @@ bool material_data_read(const char *path, SceneUnits units, const double *wlf, d
                         MaterialData *data, Error *err);
 void material_data_destroy(MaterialData *data);   // zeroed is fine
 
-// What a fit says of a material.
+// Result of the fit of one material.
 typedef struct MaterialFit {
     RelaxationFit shear;   // shear modulus
     double bulk;   // modulus of the long-time response, stress; INFINITY: it keeps its volume
@@ -43,7 +43,7 @@ bool material_fit(const MaterialData *data, double poisson, bool bulk_relaxes, d
 // The eta1 that adds a tenth to the loss at the highest frequency; 0: of a relaxation curve.
 double material_fit_viscosity(const MaterialFit *fit, const MaterialData *data);
 
-// What was measured, by the fit: storage and loss modulus at an angular frequency, or the modulus
+// Values of the fit: storage and loss modulus at an angular frequency, or the modulus
 // at a time and 0.
 void material_fit_at(const MaterialFit *fit, const MaterialData *data, double at, double value[2]);
 

@@ -24,7 +24,7 @@ void branches_destroy(Branches *branches)
     *branches = (Branches){0};
 }
 
-// Of branch k in stage i.
+// Offset of the rates of branch k in stage i.
 static int64_t rate_at(const Branches *branches, int32_t i, int32_t k)
 {
     return ((int64_t)i * branches->spectrum->count + k) * branches->system->dof_count;

@@ -80,7 +80,7 @@ void explicit_sweep_destroy(ExplicitSweep *sweep)
     *sweep = (ExplicitSweep){0};
 }
 
-// What acts on a node beside K and C, in the place of K u.
+// Begins the sums in the place of K u with the forces that neither K nor C makes.
 static void begin_forces(ExplicitSweep *sweep)
 {
     int32_t dim = sweep->bulk->dim;

@@ -47,7 +47,7 @@ static void find_slopes(FrictionTable *table)
     }
 }
 
-// What is measured seldom begins at rest: then mu there is mu_static where that is given, else the
+// A measured table seldom begins at rest: then mu there is mu_static where that is given, else the
 // first value.
 static bool make(const FrictionSource *source, FrictionLaw *law, const char **key, Error *err)
 {

@@ -30,7 +30,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// What mu is at rest under a table that begins above v = 0.
+// Writes mu at rest under a table that begins above v = 0.
 static void write_rest(const Scene *scene, FILE *out)
 {
     const FrictionTable *table = &scene->friction.table;
