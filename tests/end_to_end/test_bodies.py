@@ -13,6 +13,7 @@ import numpy
 
 from cache_fixture import OwnCache
 from validation_fixture import Report
+from vtu_fixture import read_vtu
 
 SOURCE = Path(os.environ["AMONTONS_SOURCE"])
 PROGRAM = Path(os.environ["AMONTONS_BIN"], "amontons")
@@ -108,14 +109,8 @@ class Bodies(OwnCache):
         """What ParaView reads moves with the floor: the contact's nodes stay on it, pressed as they are."""
         self.compute("fields", "output.fields={every_U: 0.004}", "time.until={U: 0.004}")
         names = sorted((self.folder / "fields/fields").glob("bulk*.vtu"))
-        from vtkmodules.util.numpy_support import vtk_to_numpy
-        from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
-        reader = vtkXMLUnstructuredGridReader()
-        reader.SetFileName(str(names[-1]))
-        reader.Update()
-        grid = reader.GetOutput()
-        points = vtk_to_numpy(grid.GetPoints().GetData())
-        moved = vtk_to_numpy(grid.GetPointData().GetArray("displacement"))
+        points, arrays = read_vtu(names[-1])
+        moved = arrays["displacement"]
         self.assertAlmostEqual(points[:, 1].min(), -0.5)
         level = numpy.abs(points[:, 1]) < 1e-9
         pairs = [(k, j) for k in numpy.flatnonzero(level) for j in numpy.flatnonzero(level)

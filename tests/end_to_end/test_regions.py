@@ -14,14 +14,13 @@ import h5py
 import numpy
 
 from cache_fixture import OwnCache
+from vtu_fixture import read_vtu
 
 SOURCE = Path(os.environ["AMONTONS_SOURCE"])
 PROGRAM = Path(os.environ["AMONTONS_BIN"], "amontons")
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(SOURCE / "validation/exact"))
 import layers                                                       # noqa: E402
-from vtkmodules.util.numpy_support import vtk_to_numpy              # noqa: E402
-from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader        # noqa: E402
 
 SCENE = f"""units: normalised
 mesh: {{file: {SOURCE}/meshes/layers.geo, set: {{nx: 8, nz: 3, nz_layer: 2}}}}
@@ -33,17 +32,6 @@ load: {{pressure: 0.003}}
 rod: {{velocity: 2e-5}}
 time: {{until: {{U: 0.006}}}}
 """
-
-
-def read_vtu(path):
-    """Positions, and arrays at the points by name."""
-    reader = vtkXMLUnstructuredGridReader()
-    reader.SetFileName(str(path))
-    reader.Update()
-    grid, data = reader.GetOutput(), reader.GetOutput().GetPointData()
-    return (vtk_to_numpy(grid.GetPoints().GetData()).astype(float),
-            {data.GetArrayName(k): vtk_to_numpy(data.GetArray(k)).astype(float)
-             for k in range(data.GetNumberOfArrays())})
 
 
 def mu_at(arrays, U):

@@ -14,8 +14,7 @@ import h5py
 import numpy
 
 from cache_fixture import OwnCache
-from vtkmodules.util.numpy_support import vtk_to_numpy              # noqa: E402
-from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader        # noqa: E402
+from vtu_fixture import read_vtu
 
 SOURCE = Path(os.environ["AMONTONS_SOURCE"])
 PROGRAM = Path(os.environ["AMONTONS_BIN"], "amontons")
@@ -69,16 +68,6 @@ def step_response(t, modulus):
     first = numpy.exp(2 * count / 5) / 2 / (2 * count / (5 * t)) / modulus(2 * count / (5 * t) + 0j)
     rest = numpy.exp(s * t) * weight / s / modulus(s)
     return (2 / (5 * t) * (first + rest.sum(axis=0))).real
-
-
-def read_vtu(path):
-    reader = vtkXMLUnstructuredGridReader()
-    reader.SetFileName(str(path))
-    reader.Update()
-    grid, data = reader.GetOutput(), reader.GetOutput().GetPointData()
-    return (vtk_to_numpy(grid.GetPoints().GetData()).astype(float),
-            {data.GetArrayName(k): vtk_to_numpy(data.GetArray(k)).astype(float)
-             for k in range(data.GetNumberOfArrays())})
 
 
 class Relaxation(OwnCache):

@@ -3,61 +3,17 @@
 // equations with their stretches as unknowns, the ledger, and the two limits of a relaxation time.
 #include "stepping/sdirk.h"
 
-#include "block_rig.h"
 #include "plane.h"
+#include "stepper.h"
 
 enum { BRANCHES = 2 };
 static const Branch BRANCH[BRANCHES] = {{.time = 0.15, .shear = 0.5, .bulk = 0.4},
                                         {.time = 2, .shear = 0.3}};
 
-typedef struct Stepper {
-    BlockRig rig;
-    DtLevels dt_levels;
-    Sdirk scheme;
-    State now, next;
-} Stepper;
-
-static void stepper_build(const RigDef *def, TableauKind kind, double step_max, Stepper *stepper)
-{
-    Error err = {0};
-    rig_build(def, &stepper->rig);
-    BlockRig *rig = &stepper->rig;
-    dt_levels_init(&rig->system, step_max, step_max * 1e-4, &stepper->dt_levels);
-    assert_true(sdirk_create(&rig->block, kind, &stepper->dt_levels, &stepper->scheme, &err));
-    assert_true(state_create(&rig->system, &rig->interface, &stepper->now, &err));
-    assert_true(state_create(&rig->system, &rig->interface, &stepper->next, &err));
-}
-
-static void stepper_destroy(Stepper *stepper)
-{
-    state_destroy(&stepper->now);
-    state_destroy(&stepper->next);
-    sdirk_destroy(&stepper->scheme);
-    dt_levels_destroy(&stepper->dt_levels);
-    rig_destroy(&stepper->rig);
-}
-
-static StepOutcome do_step(Stepper *stepper, int32_t k)
-{
-    Error err = {0};
-    StepOutcome outcome;
-    if (!sdirk_step(&stepper->scheme, k, &stepper->now, &stepper->next, &outcome, &err))
-        fail_msg("%s", err.message);
-    assert_true(outcome.solved);
-    State swapped = stepper->now;
-    stepper->now = stepper->next;
-    stepper->next = swapped;
-    return outcome;
-}
-
 // A frictionless block of plane strain, loaded askew at t = 0, with branches and little viscosity.
-static RigDef smooth_def(void)
+static RigDef branched_def(void)
 {
-    RigDef def = rig_def();
-    def.law = (FrictionLaw){.kind = FRICTION_COULOMB, .mu_static = 0};
-    def.rod_width = 0;
-    def.block.nx = 3;
-    def.traction[0] = 0.0004;
+    RigDef def = smooth_def();
     def.material.plane_strain = true;
     def.material.eta1 = def.material.eta2 = 0.1;
     def.material.branch_count = BRANCHES;
@@ -173,7 +129,7 @@ TEST(test_order)
         TableauKind kind;
         double order, within;
     } cases[] = {{TABLEAU_EULER, 1, 0.1}, {TABLEAU_SDIRK2, 2, 0.1}, {TABLEAU_SDIRK3, 3, 0.35}};
-    RigDef def = smooth_def();
+    RigDef def = branched_def();
     Stepper stepper;
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
         double errors[2][2 + BRANCHES];
@@ -207,7 +163,7 @@ TEST(test_order)
 // of the energy.
 TEST(test_energy_order)
 {
-    RigDef def = smooth_def();
+    RigDef def = branched_def();
     Stepper stepper;
     double missing[3];
     def.material.eta1 = def.material.eta2 = 0;

@@ -3,65 +3,8 @@
 // estimate against its own local error, and the balances of momentum and energy.
 #include "stepping/sdirk.h"
 
-#include "block_rig.h"
 #include "plane.h"
-
-typedef struct Stepper {
-    BlockRig rig;
-    DtLevels dt_levels;
-    Sdirk scheme;
-    State now, next;
-} Stepper;
-
-static void stepper_build_as(const RigDef *def, TableauKind kind, double step_max, Stepper *stepper)
-{
-    Error err = {0};
-    rig_build(def, &stepper->rig);
-    BlockRig *rig = &stepper->rig;
-    dt_levels_init(&rig->system, step_max, step_max * 1e-4, &stepper->dt_levels);
-    assert_true(sdirk_create(&rig->block, kind, &stepper->dt_levels, &stepper->scheme, &err));
-    assert_true(state_create(&rig->system, &rig->interface, &stepper->now, &err));
-    assert_true(state_create(&rig->system, &rig->interface, &stepper->next, &err));
-}
-
-static void stepper_build(const RigDef *def, double step_max, Stepper *stepper)
-{
-    stepper_build_as(def, TABLEAU_SDIRK2, step_max, stepper);
-}
-
-static void stepper_destroy(Stepper *stepper)
-{
-    state_destroy(&stepper->now);
-    state_destroy(&stepper->next);
-    sdirk_destroy(&stepper->scheme);
-    dt_levels_destroy(&stepper->dt_levels);
-    rig_destroy(&stepper->rig);
-}
-
-static StepOutcome do_step(Stepper *stepper, int32_t k)
-{
-    Error err = {0};
-    StepOutcome outcome;
-    if (!sdirk_step(&stepper->scheme, k, &stepper->now, &stepper->next, &outcome, &err))
-        fail_msg("%s", err.message);
-    assert_true(outcome.solved);
-    State swapped = stepper->now;
-    stepper->now = stepper->next;
-    stepper->next = swapped;
-    return outcome;
-}
-
-// A frictionless block on its plane, loaded askew at t = 0 so that it bends, spreads and drifts,
-// but nowhere lifts off: smooth and linear.
-static RigDef smooth_def(void)
-{
-    RigDef def = rig_def();
-    def.law = (FrictionLaw){.kind = FRICTION_COULOMB, .mu_static = 0};
-    def.rod_width = 0;
-    def.block.nx = 3;
-    def.traction[0] = 0.0004;
-    return def;
-}
+#include "stepper.h"
 
 // M a = f - C v - K u with the contact normals held at 0.
 typedef struct Reference {
@@ -154,7 +97,7 @@ TEST(test_order)
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
         double errors[3][2];
         for (int32_t k = 0; k < 3; k++) {
-            stepper_build_as(&def, cases[c].kind, 0.1, &stepper);
+            stepper_build(&def, cases[c].kind, 0.1, &stepper);
             Reference ref = reference_create(&stepper.rig);
             reference_run(&ref, 1, 1000);
             for (int32_t s = 0; s < 10 << k; s++) {
@@ -195,7 +138,7 @@ TEST(test_order_with_slip)
         int32_t slipping = 0, n = 0;
         for (int32_t k = 6; k >= 0; k -= 2) {   // 6: 640 steps, its own reference
             Stepper stepper;
-            stepper_build_as(&def, kinds[c], 0.1, &stepper);
+            stepper_build(&def, kinds[c], 0.1, &stepper);
             n = stepper.now.dof_count;
             for (int32_t s = 0; s < 10 << k; s++) do_step(&stepper, k);
             for (int32_t i = 0; i < stepper.now.contact_count; i++)
@@ -227,7 +170,7 @@ TEST(test_estimate)
     for (int32_t order = 1; order <= 3; order++) {
         double before = 0;
         for (int32_t k = 0; k < 3; k++) {
-            stepper_build_as(&def, kinds[order - 1], 0.02, &stepper);
+            stepper_build(&def, kinds[order - 1], 0.02, &stepper);
             for (int32_t s = 0; s < 400; s++) do_step(&stepper, 6);
             Reference ref = reference_create(&stepper.rig);
             memcpy(ref.u, stepper.now.displacement, (size_t)ref.n * sizeof(double));
@@ -251,7 +194,7 @@ TEST(test_energy_order)
     Stepper stepper;
     double missing[3];
     for (int32_t k = 0; k < 3; k++) {
-        stepper_build(&def, 0.1, &stepper);
+        stepper_build(&def, TABLEAU_SDIRK2, 0.1, &stepper);
         for (int32_t s = 0; s < 400; s++) do_step(&stepper, 6);   // past the jump of the load
         EnergyLedger ledger = energy_open(&stepper.now);
         assert_near("nothing yet", energy_imbalance(&ledger), 0, 0);
@@ -275,7 +218,7 @@ TEST(test_energy_order)
 static void check_momentum(const RigDef *def, int32_t seen[4])
 {
     Stepper stepper;
-    stepper_build(def, 0.05, &stepper);
+    stepper_build(def, TABLEAU_SDIRK2, 0.05, &stepper);
     const BlockRig *rig = &stepper.rig;
     for (int32_t s = 0; s < 200; s++) {
         double step = dt_level_step(&stepper.dt_levels, s % 3);
@@ -335,7 +278,7 @@ TEST(test_sliding_block)
     def.block.nz = 1;
     def.traction[0] = 0.3 * 0.003;
     Stepper stepper;
-    stepper_build(&def, 0.02, &stepper);
+    stepper_build(&def, TABLEAU_SDIRK2, 0.02, &stepper);
     for (int32_t s = 0; s < 1000; s++) do_step(&stepper, 0);
     double momentum[2] = {0}, duration = 0;
     for (int32_t round = 0; round < 2; round++) {
@@ -363,7 +306,7 @@ TEST(test_enormous_step)
     RigDef def = smooth_def();
     def.traction[0] = 0;
     Stepper stepper;
-    stepper_build(&def, 1e5, &stepper);
+    stepper_build(&def, TABLEAU_SDIRK2, 1e5, &stepper);
     for (int32_t s = 0; s < 2; s++) do_step(&stepper, 0);
     const Mesh *mesh = &stepper.rig.mesh;
     for (int32_t node = 0; node < mesh->node_count; node++) {
@@ -384,7 +327,7 @@ TEST(test_bonded_rod)
     def.rod_kind = ROD_IS_BONDED;
     def.rod_velocity = 1e-3;
     Stepper stepper;
-    stepper_build(&def, 0.05, &stepper);
+    stepper_build(&def, TABLEAU_SDIRK2, 0.05, &stepper);
     stepper.rig.rod.origin[0] = 0;
     int32_t dof = stepper.rig.interface.dofs[interface_rod(&stepper.rig.interface, 0)];
     double rod_work = 0, force = 0;
@@ -411,7 +354,7 @@ TEST(test_unsolved_is_an_outcome)
     RigDef def = rig_def();
     Stepper stepper;
     StepOutcome outcome;
-    stepper_build(&def, 0.1, &stepper);
+    stepper_build(&def, TABLEAU_SDIRK2, 0.1, &stepper);
     stepper.now.momentum[0] = NAN;
     assert_true(sdirk_step(&stepper.scheme, 0, &stepper.now, &stepper.next, &outcome, &err));
     assert_false(outcome.solved);
