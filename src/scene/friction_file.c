@@ -31,13 +31,9 @@ static bool find_columns(const CsvTable *csv, SceneUnits units, int32_t column[3
         return REFUSE(err, "%s:%d: there is no column of the %s; %s", csv->path, csv->line[0],
                       column[0] < 0 ? "slip rate v" : "coefficient mu", WANTED);
     csv_find_error(csv, column[1], &column[2], &unit[2]);
-    if (unit[0].length > 0 && units == UNITS_NORMALISED)
-        return csv_refuse(csv, -1, column[0], err,
-                          "has a unit; a normalised scene has plain numbers (units need `units: "
-                          "si`)");
     for (int32_t k = 0; k < 3; k++)
-        if (column[k] >= 0 && unit[k].length > 0 &&
-            !csv_to_si(csv, column[k], unit[k], k == 0 ? "velocity" : "1", &factor[k], err))
+        if (column[k] >= 0 && !csv_to_scene(csv, column[k], unit[k], k == 0 ? "velocity" : "1",
+                                            units == UNITS_SI, &factor[k], err))
             return false;
     return true;
 }

@@ -73,13 +73,10 @@ static bool find_columns(MaterialTable *table, SceneUnits units, Error *err)
         return REFUSE(err, "%s:%d: columns are missing; %s", csv->path, csv->line[0], WANTED);
     for (int32_t k = 0; k < COLUMNS; k++) {
         table->factor[k] = 1;
-        if (has[k] < 0 || unit[k].length == 0 || !DIMENSIONS[k]) continue;
-        if (units == UNITS_NORMALISED && strcmp(DIMENSIONS[k], "1") != 0)
-            return csv_refuse(
-                csv, -1, has[k], err,
-                "has a unit; a normalised scene has plain numbers (units need `units: "
-                "si`)");
-        if (!csv_to_si(csv, has[k], unit[k], DIMENSIONS[k], &table->factor[k], err)) return false;
+        if (has[k] >= 0 && DIMENSIONS[k] &&
+            !csv_to_scene(csv, has[k], unit[k], DIMENSIONS[k], units == UNITS_SI, &table->factor[k],
+                          err))
+            return false;
     }
     if (table->at == TIME) return true;
     // Hz and 1/s are of a frequency but where it is called omega; rad/s are of an angular one.

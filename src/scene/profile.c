@@ -76,12 +76,8 @@ static bool read_heads(const CsvTable *csv, SceneUnits units, int32_t place[COLU
             return csv_refuse(csv, -1, k, err, "cannot stand there: there are %d columns; %s",
                               csv->columns, HEADS);
         place[name] = k;
-        if (unit.length == 0) continue;
-        if (units == UNITS_NORMALISED)
-            return csv_refuse(csv, -1, k, err,
-                              "has a unit; a normalised scene has plain numbers (units need "
-                              "`units: si`)");
-        if (!csv_to_si(csv, k, unit, "length", &scale[name], err)) return false;
+        if (!csv_to_scene(csv, k, unit, "length", units == UNITS_SI, &scale[name], err))
+            return false;
     }
     if (csv->columns == 1)
         return REFUSE(err, "%s:%d: one column; %s", csv->path, csv->line[0], HEADS);

@@ -628,3 +628,15 @@ bool csv_to_si(const CsvTable *table, int32_t column, CsvUnit unit, const char *
                       dimension ? " of " : "", dimension ? dimension : "",
                       dimension ? "; allowed: " : "", dimension ? unit_examples(dimension) : "");
 }
+
+bool csv_to_scene(const CsvTable *table, int32_t column, CsvUnit unit, const char *dimension,
+                  bool in_units, double *factor, Error *err)
+{
+    *factor = 1;
+    if (unit.length == 0) return true;
+    if (!in_units && strcmp(dimension, "1") != 0)
+        return csv_refuse(table, -1, column, err,
+                          "has a unit; a normalised scene has plain numbers (units need `units: "
+                          "si`)");
+    return csv_to_si(table, column, unit, dimension, factor, err);
+}

@@ -77,6 +77,11 @@ void csv_find_error(const CsvTable *table, int32_t of, int32_t *column, CsvUnit 
 bool csv_to_si(const CsvTable *table, int32_t column, CsvUnit unit, const char *dimension,
                double *factor, Error *err);
 
+// The same for a scene: 1 where the column has no unit. in_units: false: the scene has plain
+// numbers, and a unit of a dimension other than "1" is ERROR_INPUT.
+bool csv_to_scene(const CsvTable *table, int32_t column, CsvUnit unit, const char *dimension,
+                  bool in_units, double *factor, Error *err);
+
 void csv_destroy(CsvTable *table);   // zeroed is fine
 
 #endif
