@@ -11,7 +11,9 @@
 //       contact_1 contact_2 contact_3
 //
 // Physical groups: body (the surface of block and pads), contact_1 ... contact_n by ascending x,
-// top, rod (the trailing face of the block, without its pad) and leading (curves).
+// top, rod (the trailing face of the block, without its pad) and leading (curves). With base_height
+// the pads stand on a base that deforms, as in base.geo: base (surface), floor (its upper side),
+// bottom, base_rear and base_front (curves).
 //
 //   In a scene:   mesh: {file: pads.geo, set: {n: 4, fill: 0.5, pad_height: 0.1}}
 //   By hand:      gmsh -2 pads.geo -setnumber n 4
@@ -48,7 +50,11 @@ DefineConstant[
                             // this, for a study of the mesh
     shape = "quad",         // "quad" or "triangle"
     order = 1,              // 1: Q4, T3; 2: Q9, T6
-    incomplete = 0          // 1: order 2 gives Q8 in place of Q9
+    incomplete = 0,         // 1: order 2 gives Q8 in place of Q9
+    base_height = 0,        // of a base below the pads; 0: none, the floor is rigid
+    behind = 0.5,           // how far the base reaches behind the block
+    before = 0.5,           // and before it
+    ratio = 1               // cells of the floor to a cell of a pad; 2: half as long
 ];
 
 // --- what is allowed ----------------------------------------------------------------------------
@@ -135,6 +141,12 @@ If (StrCmp(layout, "auto") != 0 && StrCmp(layout, "regular") != 0 && StrCmp(layo
 EndIf
 If (fillet > 0 && StrCmp(layout, "regular") == 0)
     Error("a fillet needs the layout free or auto, found regular with fillet = %g", fillet);
+    Abort;
+EndIf
+If (base_height < 0 || behind < 0 || before < 0 || ratio <= 0)
+    Error(StrCat("base_height (0: a rigid floor), behind and before must be from 0 on and ratio ",
+                 "above 0, found %g, %g, %g and %g"),
+          base_height, behind, before, ratio);
     Abort;
 EndIf
 
@@ -432,6 +444,57 @@ If (is_free)
     Mesh.RecombinationAlgorithm = 3;     // no triangle is left over
 EndIf
 
+// --- the base -----------------------------------------------------------------------------------
+// As far as the block reaches its cells are as long as those of the pads; from the floor down their
+// heights grow as those of the block do upwards.
+below[] = {};
+If (base_height > 0)
+    small = fine / ratio;
+    large = coarse < base_height / 2 ? coarse : base_height / 2;
+    down = Ceil(base_height / small - 1e-6);
+    growth = 1;
+    If (large > 1.001 * small)
+        down = 1 + Ceil(Log(large / small) / Log((base_height - small) / (base_height - large)) - 1e-6);
+        growth = down > 1 ? (large / small) ^ (1 / (down - 1)) : 1;
+    EndIf
+    places[] = {-behind, 0, length, length + before};
+    floors[] = {};
+    bottoms[] = {};
+    sides[] = {};
+    upper = newp;
+    For k In {0 : 3}
+        Point(upper + 2 * k) = {places[k], 0, 0};
+        Point(upper + 2 * k + 1) = {places[k], -base_height, 0};
+        side = newl;
+        Line(side) = {upper + 2 * k, upper + 2 * k + 1};
+        Transfinite Curve{side} = down + 1 Using Progression growth;
+        sides[] += side;
+    EndFor
+    first = behind > 0 ? 0 : 1;
+    last = before > 0 ? 2 : 1;
+    For k In {first : last}
+        edge = newl;
+        Line(edge) = {upper + 2 * k, upper + 2 * k + 2};
+        foundation = newl;
+        Line(foundation) = {upper + 2 * k + 1, upper + 2 * k + 3};
+        wide = places[k + 1] - places[k];
+        Transfinite Curve{edge, foundation} = Ceil(wide / small - 1e-6) + 1;
+        outline = newll;
+        Curve Loop(outline) = {-edge, sides[k], foundation, -sides[k + 1]};
+        area = news;
+        Plane Surface(area) = {outline};
+        Transfinite Surface{area};
+        below[] += area;
+        floors[] += edge;
+        bottoms[] += foundation;
+    EndFor
+    Physical Surface("base") = below[];
+    Physical Curve("floor") = floors[];
+    Physical Curve("bottom") = bottoms[];
+    Physical Curve("base_rear") = {sides[first]};
+    Physical Curve("base_front") = {sides[last + 1]};
+EndIf
+
 Physical Surface("body") = surfaces[];
 If (#feet[] > 0)        // rows and columns: the pads are a surface of their own
     Physical Surface("body") -= feet[];
@@ -439,7 +502,7 @@ If (#feet[] > 0)        // rows and columns: the pads are a surface of their own
 EndIf
 Physical Curve("top") = tops[];
 If (StrCmp(shape, "quad") == 0)
-    Recombine Surface{surfaces[]};
+    Recombine Surface{surfaces[], below[]};
 EndIf
 Mesh.ElementOrder = order;
 Mesh.SecondOrderIncomplete = incomplete;

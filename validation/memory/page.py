@@ -7,6 +7,7 @@ import statistics
 import subprocess
 
 import cases
+from ten_cases import section
 from laws import (CELLS_ASKED, COST_CELLS, COST_LAWS, FAST, HERE, LAWS, MAIN, P, REST, REST_CELLS, RESTS, V, length_of, rested,
                   steady)
 from measured_run import PROGRAM, markdown_table
@@ -149,7 +150,7 @@ def measured(kept, asked):
     by["length"] = sorted(by["length"] + standard, key=lambda row: (row["L"], list(LAWS).index(row["law"])))
     by["velocity"] = sorted(by["velocity"] + standard, key=lambda row: (row["V"], list(LAWS).index(row["law"])))
     first, rests = rest_table(kept)
-    found = {"rest cells": ", ".join(map(str, REST_CELLS)), "match table": match_table(), "rest table": rests, "cost table": cost_table(kept), "promise": cases.section(asked)}
+    found = {"rest cells": ", ".join(map(str, REST_CELLS)), "match table": match_table(), "rest table": rests, "cost table": cost_table(kept), "promise": section(asked)}
     for study, key in (("pressure", "P"), ("length", "L"), ("velocity", "V"), ("variants", "P")):
         found[f"{study} table"] = table_of(by[study], key, kept)
     for law in MAIN:
@@ -188,6 +189,6 @@ def text(kept, asked):
 
 def write(folder):
     kept = Kept(folder / "question.jsonl")
-    page, by, first = text(kept, cases.known(Kept(folder / "cases.jsonl")))
+    page, by, first = text(kept, cases.CASES.known(Kept(folder / "cases.jsonl")))
     (folder / "laws.md").write_text(page, encoding="utf-8")
     figures(by, first, folder)
