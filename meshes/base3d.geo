@@ -21,6 +21,8 @@ DefineConstant[
     ratio = 1,              // cells of the floor to a cell of the contact; 1: their nodes match
     shape = "hex",          // "hex" or "tet"
     order = 1,              // 1: HEX8, TET4; 2: HEX27, TET10
+    grade_x = 1,            // length of the middle cell of the contact over that of its end cells, about
+    grade_y = 1,            // the same along y
     grade_z = 1,            // height of a cell far from the contact over that of one at it
     refine = 1              // so many times as many cells along each side, for a study of the mesh
 ];
@@ -47,8 +49,9 @@ If (order != 1 && order != 2)
     Error("order must be 1 or 2, found %g", order);
     Abort;
 EndIf
-If (grade_z <= 0 || grade_z > 1e6)
-    Error("grade_z must be above 0 (1: even) and at most 1e6, found %g", grade_z);
+If (grade_x <= 0 || grade_y <= 0 || grade_z <= 0 || grade_x > 1e6 || grade_y > 1e6 || grade_z > 1e6)
+    Error("grade_x, grade_y and grade_z must be above 0 (1: even) and at most 1e6, found %g, %g, %g",
+          grade_x, grade_y, grade_z);
     Abort;
 EndIf
 If (StrCmp(shape, "hex") != 0 && StrCmp(shape, "tet") != 0)
@@ -102,6 +105,7 @@ For body In {1 : 2}
     I = #x~{body}[] - 1;   // boxes along x, and along y
     J = #y~{body}[] - 1;
     all = 10000 * body;
+    under = body == 2 && margin > 0 ? 1 : 0;   // the boxes that the block covers
     growth = cells_z~{body} > 1 ? grade_z ^ (1 / (cells_z~{body} - 1)) : 1;
     For k In {0 : 1}
         For j In {0 : J}
@@ -115,14 +119,15 @@ For body In {1 : 2}
             For i In {0 : I - 1}
                 n = all + 100 * k + 10 * j + i;
                 Line(n) = {n, n + 1};
-                Transfinite Curve {n} = cells_x~{body}[i] + 1;
+                Transfinite Curve {n} = cells_x~{body}[i] + 1 Using Bump (i == under ? 1 / grade_x : 1);
             EndFor
         EndFor
         For j In {0 : J - 1}
             For i In {0 : I}
                 n = all + 100 * k + 10 * j + i;
                 Line(3000 + n) = {n, n + 10};
-                Transfinite Curve {3000 + n} = cells_y~{body}[j] + 1;
+                Transfinite Curve {3000 + n} = cells_y~{body}[j] + 1
+                                               Using Bump (j == under ? 1 / grade_y : 1);
             EndFor
         EndFor
     EndFor
