@@ -445,8 +445,8 @@ If (is_free)
 EndIf
 
 // --- the base -----------------------------------------------------------------------------------
-// As far as the block reaches its cells are as long as those of the pads; from the floor down their
-// heights grow as those of the block do upwards.
+// Below pads and gaps in columns as theirs, with cells as theirs; from the floor down heights grow
+// as those of the block do upwards.
 below[] = {};
 If (base_height > 0)
     small = fine / ratio;
@@ -457,12 +457,20 @@ If (base_height > 0)
         down = 1 + Ceil(Log(large / small) / Log((base_height - small) / (base_height - large)) - 1e-6);
         growth = down > 1 ? (large / small) ^ (1 / (down - 1)) : 1;
     EndIf
-    places[] = {-behind, 0, length, length + before};
+    places[] = {};
+    If (behind > 0)
+        places[] += {-behind};
+    EndIf
+    first = #places[];                             // the column below the block's own first
+    places[] += xs[];
+    If (before > 0)
+        places[] += {length + before};
+    EndIf
     floors[] = {};
     bottoms[] = {};
     sides[] = {};
     upper = newp;
-    For k In {0 : 3}
+    For k In {0 : #places[] - 1}
         Point(upper + 2 * k) = {places[k], 0, 0};
         Point(upper + 2 * k + 1) = {places[k], -base_height, 0};
         side = newl;
@@ -470,15 +478,18 @@ If (base_height > 0)
         Transfinite Curve{side} = down + 1 Using Progression growth;
         sides[] += side;
     EndFor
-    first = behind > 0 ? 0 : 1;
-    last = before > 0 ? 2 : 1;
-    For k In {first : last}
+    For k In {0 : #places[] - 2}
         edge = newl;
         Line(edge) = {upper + 2 * k, upper + 2 * k + 2};
         foundation = newl;
         Line(foundation) = {upper + 2 * k + 1, upper + 2 * k + 3};
+        column = k - first;                        // of the block
+        is_below = column >= 0 && column < columns;
+        is_pad = is_below && solid[is_below ? column + 1 : 0];
         wide = places[k + 1] - places[k];
-        Transfinite Curve{edge, foundation} = Ceil(wide / small - 1e-6) + 1;
+        cells = size_contact > 0 || !is_below ? Ceil(wide / fine - 1e-6) : (is_pad ? cells_pad : cells_gap);
+        cells = ratio * cells < 1 ? 1 : Floor(ratio * cells + 0.5);
+        Transfinite Curve{edge, foundation} = cells + 1 Using Bump (is_pad ? 1 / grade : 1);
         outline = newll;
         Curve Loop(outline) = {-edge, sides[k], foundation, -sides[k + 1]};
         area = news;
@@ -491,8 +502,8 @@ If (base_height > 0)
     Physical Surface("base") = below[];
     Physical Curve("floor") = floors[];
     Physical Curve("bottom") = bottoms[];
-    Physical Curve("base_rear") = {sides[first]};
-    Physical Curve("base_front") = {sides[last + 1]};
+    Physical Curve("base_rear") = {sides[0]};
+    Physical Curve("base_front") = {sides[#sides[] - 1]};
 EndIf
 
 Physical Surface("body") = surfaces[];

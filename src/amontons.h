@@ -117,6 +117,7 @@ typedef struct RunSummary {
     double run_in_drift, run_in_drops_left;   // of mu a drop, relative; for so many more; NaN
     int32_t quasi_static, bounded, leading, slight;   // events by kind; slight: no precursors
     double normal_force;   // F_N of the whole block, force; NaN: in the plane without `thickness`
+    double base_slip;   // mean slip over a base that deforms, over the contact's length; NaN: rigid
     double critical_length;   // l_c / L seen in the dynamics; NaN: none
     // Length and number of cells that slipped where slow slip turned fast, of the load drop that
     // counts and has the fewest cells; NaN: none. slip_pad: the pad; empty: a contact in one piece.

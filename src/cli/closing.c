@@ -272,6 +272,10 @@ static void print_answers(const RunSummary *summary)
     say("  slidings        %d of the whole block\n", summary->leading);
     if (*summary->pads_order)
         say("  pads let go     %s: before the last of these slidings\n", summary->pads_order);
+    if (!isnan(summary->base_slip))
+        say("  base            deforms; the block slid over it by %.2g %% of the contact's "
+            "length\n",
+            100 * summary->base_slip);
     print_critical_length(summary);
     print_resolution(summary);
     print_program(summary);

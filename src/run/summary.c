@@ -10,6 +10,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "model/loads.h"
+#include "run/warnings.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -194,6 +195,7 @@ RunSummary summary_none(void)
                         .run_in_drift = NAN,
                         .run_in_drops_left = NAN,
                         .normal_force = NAN,
+                        .base_slip = NAN,
                         .critical_length = NAN,
                         .slip_length = NAN,
                         .slip_cells = NAN,
@@ -234,6 +236,7 @@ void summary_fill(const Simulation *simulation, const RunCounters *counters, con
                      .slight = kinds[EVENT_SLIGHT],
                      .normal_force = model->scales.load *
                                      scene_whole_force(&simulation->scene, model->interface.dim),
+                     .base_slip = NAN,
                      .critical_length = answers->critical_length / simulation->model.length,
                      .energy_error = simulation->errors.energy,
                      .moment_error = simulation->errors.moment,
@@ -245,6 +248,7 @@ void summary_fill(const Simulation *simulation, const RunCounters *counters, con
                      .warnings = simulation->warnings,
                      .field_files = simulation->fields.written,
                      .figures = simulation->figures};
+    if (model->mesh.is_base) summary->base_slip = base_slip(model, &simulation->control.now);
     if (answers->regime.run_in != RUN_IN_OVER)
         summary->run_in = run_in_name(answers->regime.run_in);
     mesh_move_text(&simulation->model.mesh, summary->mesh_moved);

@@ -5,7 +5,8 @@ anything was computed.
 A module that draws such cases gives them here, numbered: blocks and pads whose numbers are points of Halton sequences. A case
 without bulk sliding is passed over for the next one. Each is asked for at 3 % with `--to`. Its reference is the mean of two
 meshes, finer than what such a bar needs as a rule, at two pressures, 0.5 % below and above; its own error is the standard error
-of the meshes' means. Where that is above a third of the bar, four finer meshes are added. The digest of the list is kept before the first run in a file beside the module, and tests compare it."""
+of the meshes' means. Where that is above a third of the bar, finer meshes are added; pads may have meshes that are graded towards
+their edges, and of second order, as promise.py has them. A run that sees few slidings is made longer. The digest of the list is kept before the first run in a file beside the module, and tests compare it."""
 import argparse
 import hashlib
 import math
@@ -20,8 +21,10 @@ from promise import Kept, flow
 COUNT, DRAWN = 10, 20          # asked for; drawn, as some do not slide as a whole
 WANTED, WITHIN = 0.03, 90      # s
 WINDOW = (0.995, 1.005)
-REFERENCES = (80, 100)         # cells along the contact; a window and a mesh: four runs
-FINER = (112, 128, 144, 160)   # where the two do not decide
+# Meshes of a reference: (cells along the contact, order, grade). A window and a mesh: four runs.
+EVEN = ((80, 1, 1), (100, 1, 1))
+EVEN_FINER = ((112, 1, 1), (128, 1, 1), (144, 1, 1), (160, 1, 1))
+PEAKS_MIN = 6
 OWN_MAX = 1 / 3                # of a reference's own error, over the bar
 
 
@@ -35,17 +38,40 @@ class Case:
     is_block: bool         # else pads
 
 
-def mesh_of(one, cells):
+def mesh_of(one, cells, order=1, grade=1):
+    graded = {"order": order, "grade_contact": grade} if (order, grade) != (1, 1) else {}
     if one.is_block:
         return one.mesh | {"nx": cells, "nz": cells // 2}
-    return one.mesh | {"size_contact": 1 / cells, "size_bulk": 4 / cells}
+    return one.mesh | {"size_contact": 1 / cells, "size_bulk": 4 / cells} | graded
+
+
+def row_name(mesh, factor):
+    cells, order, grade = mesh
+    return f"reference {cells}" + f" order {order} grade {grade}" * ((order, grade) != (1, 1)) + f" at {factor}"
 
 
 class TenCases:
-    """The first COUNT of the drawn cases that slide as a whole. case: number -> Case; folder: where cases.jsonl is kept."""
+    """The first COUNT of the drawn cases that slide as a whole. case: number -> Case; graded: pads have graded meshes."""
 
-    def __init__(self, case):
+    def __init__(self, case, graded=False):
         self.cases = [case(number) for number in range(DRAWN)]
+        self.graded = graded
+
+    def meshes(self, one):
+        """Those of the reference, and the finer ones."""
+        if one.is_block or not self.graded:
+            return EVEN, EVEN_FINER
+        return promise.REFERENCES[False], promise.FINER[False]
+
+    def reference(self, one, kept, finer):
+        """(mean, its own error); None: no bulk sliding. finer: with those meshes, too."""
+        means, (usual, more) = [], self.meshes(one)
+        for mesh in usual + more * finer:
+            rows = [kept.obtain(one, row_name(mesh, factor), lambda m=mesh, f=factor: reference_run(one, m, f)) for factor in WINDOW]
+            if any(row["mu"] is None or row["is"] != "peaks" for row in rows):
+                return None
+            means.append(statistics.mean(row["mu"] for row in rows))
+        return statistics.mean(means), promise.standard_error(means)
 
     def listed(self):
         return "".join(f"{one.name}; {'; '.join(one.settings)}; {one.mesh}\n" for one in self.cases)
@@ -55,7 +81,9 @@ class TenCases:
 
     def known(self, kept):
         """(case, reference, its own error, answer) of what was computed before."""
-        return [(one, *reference(one, kept, finer_of(one, kept)), kept.rows[one.name, f"to {WANTED}"]) for one in self.cases
+        def has_finer(one):
+            return all((one.name, row_name(mesh, factor)) in kept.rows for mesh in self.meshes(one)[1] for factor in WINDOW)
+        return [(one, *self.reference(one, kept, has_finer(one)), kept.rows[one.name, f"to {WANTED}"]) for one in self.cases
                 if (one.name, f"to {WANTED}") in kept.rows]
 
     def judged(self, kept, limit):
@@ -64,12 +92,12 @@ class TenCases:
         for one in self.cases:
             if len(found) == limit:
                 break
-            truth = reference(one, kept)
+            truth = self.reference(one, kept, False)
             if not truth:
                 continue
             answer = kept.obtain(one, f"to {WANTED}", lambda c=one: ask(c))
             if answer["bar"] and truth[1] > OWN_MAX * answer["bar"]:
-                truth = reference(one, kept, FINER) or truth
+                truth = self.reference(one, kept, True) or truth
             found.append((one, *truth, answer))
         return found
 
@@ -90,26 +118,17 @@ class TenCases:
                         for _, mean, _, answer in found) else 1
 
 
-def reference_run(one, cells, factor):
-    ended = run(one.scene, [*promise.QUIET, *one.settings, flow(mesh_of(one, cells)), f"load.pressure={one.pressure * factor:.9g}"], 600)
+def reference_run(one, mesh, factor):
+    """A run that saw few slidings of the whole block goes on to four times the U of the last: its first ones are of
+    the start."""
+    settings = [*promise.QUIET, *one.settings, flow(mesh_of(one, *mesh)), f"load.pressure={one.pressure * factor:.9g}"]
+    ended = run(one.scene, settings, 600)
     results = ended.report.get("results", {})
+    if 0 < len(results.get("peaks", [])) < PEAKS_MIN:
+        way = 4 * results["peaks"][-1]["U"]
+        ended = run(one.scene, [*settings, f"time.until={{U: {way:g}}}"], 600)
+        results = ended.report.get("results", {})
     return {"mu": results.get("mu_M"), "is": results.get("mu_M_is"), "seconds": ended.seconds, "said": ended.said[-200:]}
-
-
-def finer_of(one, kept):
-    """Those of the finer meshes whose runs are there."""
-    return tuple(cells for cells in FINER if all((one.name, f"reference {cells} at {factor}") in kept.rows for factor in WINDOW))
-
-
-def reference(one, kept, finer=()):
-    """(mean, its own error); None: no bulk sliding."""
-    means = []
-    for cells in (*REFERENCES, *finer):
-        rows = [kept.obtain(one, f"reference {cells} at {factor}", lambda c=cells, f=factor: reference_run(one, c, f)) for factor in WINDOW]
-        if any(row["mu"] is None or row["is"] != "peaks" for row in rows):
-            return None
-        means.append(statistics.mean(row["mu"] for row in rows))
-    return statistics.mean(means), promise.standard_error(means)
 
 
 def ask(one):

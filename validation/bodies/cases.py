@@ -34,7 +34,7 @@ def case(number):
     return Case(name, HERE / "cases.yaml", ("mesh.file=../../meshes/pads.geo", *settings), pressure, feet | mesh, False)
 
 
-CASES = TenCases(case)
+CASES = TenCases(case, graded=True)
 
 if __name__ == "__main__":
     sys.exit(CASES.main(__doc__.splitlines()[0], HERE))

@@ -30,8 +30,9 @@ import numpy
 
 ROOT = Path(__file__).resolve().parents[2]
 FIG1, PADS = ROOT / "validation" / "paper" / "fig1.yaml", ROOT / "validation" / "pads" / "pads.yaml"
+BASE = ROOT / "validation" / "bodies" / "cases.yaml"
 SMALL = ["mesh.set.nx=16", "mesh.set.nz=16", "output.figures=[force]"]
-# What a state is made of differs: fields, the full mesh, nodes that open, the explicit scheme, a mesh that gmsh makes.
+# What a state is made of differs: fields, the full mesh, nodes that open, the explicit scheme, a mesh that gmsh makes, a floor that deforms.
 CASES = {
     "block, reduced": (FIG1, [*SMALL, "output.fields=none", "time.until.U=0.02"]),
     "block, fields": (FIG1, [*SMALL, "output.fields={every_U: 0.0005, at_events: true}"]),
@@ -43,6 +44,9 @@ CASES = {
     "four pads": (PADS, ["mesh.set.size_contact=0.025", "output.figures=[force]", "time.until.U=0.04"]),
     "block, SDIRK3, until periodic": (FIG1, [*SMALL, "output.fields=none", "time.scheme=sdirk3",
                                              "time.until={U: 0.06, periodic: true}"]),
+    "block on a base, nodes apart, fields": (BASE, ["mesh.set={nx: 16, nz: 8, ratio: 1.25}", "output.figures=[force]",
+                                                    "output.fields={every_U: 0.002}"]),
+    "block on a base, explicit": (BASE, ["mesh.set={nx: 8, nz: 4}", "time.scheme=explicit", "time.until.U=0.004"]),
 }
 SWEEP, RENDER = "sweep of three points", "render"
 STUDY = """scene: {scene}
