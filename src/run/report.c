@@ -103,13 +103,14 @@ static void write_base(JsonWriter *json, const Simulation *simulation)
     const Model *model = &simulation->model;
     const Material *block = &model->materials.list[model->contact_region];
     const Material *base = &model->materials.list[model->floor_region];
-    if (!model->mesh.is_base || !simulation->control.now.displacement) return;
+    double slip = base_slip(model, &simulation->control.now);
+    if (isnan(slip)) return;
     Dundurs dundurs = materials_dundurs(block, base);
     json_begin_object(json, "base");
     json_boolean(json, "matches", model->mesh.floor.matches);
     json_numbers_of(
-        json, {"slip_over_contact", base_slip(model, &simulation->control.now)},
-        {"dundurs_alpha", dundurs.alpha}, {"dundurs_beta", dundurs.beta},
+        json, {"slip_over_contact", slip}, {"dundurs_alpha", dundurs.alpha},
+        {"dundurs_beta", dundurs.beta},
         {"shear_impedance_over_block", base->density * material_speeds(base).shear /
                                            (block->density * material_speeds(block).shear)});
     json_end(json);

@@ -399,9 +399,8 @@ bool simulation_finish(Simulation *simulation, const Error *failure, RunSummary 
     warnings_of_slip(&simulation->scene, &simulation->model.interface, least,
                      &simulation->warnings);
     warnings_of_strain(&simulation->model, answers.mu_max, &simulation->warnings);
-    if (simulation->control.now.displacement)
-        warnings_of_base(base_slip(&simulation->model, &simulation->control.now),
-                         &simulation->warnings);
+    warnings_of_base(base_slip(&simulation->model, &simulation->control.now),
+                     &simulation->warnings);
     warnings_of_turning(&simulation->scene, &simulation->turning, &simulation->warnings);
     RunCounters counters = summary_count(simulation);
     if (simulation->history.file && !simulation->folder.aside &&

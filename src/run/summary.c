@@ -248,7 +248,7 @@ void summary_fill(const Simulation *simulation, const RunCounters *counters, con
                      .warnings = simulation->warnings,
                      .field_files = simulation->fields.written,
                      .figures = simulation->figures};
-    if (model->mesh.is_base) summary->base_slip = base_slip(model, &simulation->control.now);
+    summary->base_slip = base_slip(model, &simulation->control.now);
     if (answers->regime.run_in != RUN_IN_OVER)
         summary->run_in = run_in_name(answers->regime.run_in);
     mesh_move_text(&simulation->model.mesh, summary->mesh_moved);

@@ -173,7 +173,7 @@ double base_slip(const Model *model, const State *state)
     const Interface *interface = &model->interface;
     const double *x = interface->x;
     double slip = 0, weight = 0, low = INFINITY, high = -INFINITY;
-    if (!model->mesh.is_base || interface->contact_count == 0) return 0;
+    if (!model->mesh.is_base || !state->displacement) return NAN;
     for (int32_t i = 0; i < interface->contact_count; i++) {
         int32_t dof = model->system.interface_dofs[interface_tangent(interface, i)];
         slip += interface->weight[i] * fabs(state->displacement[dof]);
@@ -189,7 +189,7 @@ static const double BASE_SLIP_SMALL = 0.05;
 
 void warnings_of_base(double slip, RunWarnings *warnings)
 {
-    if (slip < BASE_SLIP_SMALL) return;
+    if (!(slip >= BASE_SLIP_SMALL)) return;   // NaN: no base
     warnings_add(warnings,
                  "the block went far over its base: %.2g %% of the contact's length; each contact "
                  "node stays with the piece of floor that it began on, so that ends and changes of "

@@ -52,7 +52,8 @@ void warnings_of_rod(const Scene *scene, const Interface *interface, double heig
 // small strains allow for: the one that they deform most.
 void warnings_of_strain(const Model *model, double mu, RunWarnings *warnings);
 
-// Mean slip over a base since t = 0 over the length of the contact; 0: the floor is rigid.
+// Mean slip over a base since t = 0 over the length of the contact; NaN: the floor is rigid, or no
+// step was begun.
 double base_slip(const Model *model, const State *state);
 // A block that went so far over its base that what lies under it is no longer what it was.
 void warnings_of_base(double slip, RunWarnings *warnings);
