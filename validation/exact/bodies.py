@@ -141,6 +141,48 @@ def spheres(study, stiffness):
     study.add(GROUP, "Cattaneo-Mindlin, like spheres", "stick radius c (second moment of shear)", c, ours, abs(ours / c - 1), 3e-2)
 
 
+def unlike_solution(study, stiffness, nu, nu_base, cells):
+    """Two unlike half-spaces, sheared, with a stretch of the length 2 a without friction (Comninou, J. Appl. Mech. 44, 1977): slip
+    is an ellipse, and pressure changes by beta tau t/sqrt(a^2 - t^2), t from the middle of the stretch. Slip into the direction
+    in which the softer body moves unloads the front end (Weertman, J. Geophys. Res. 85, 1980). All is linear as long as nothing
+    opens and the rest sticks: the state without shear is taken off. Yields (what, exact, computed) for |t| < 0.8 a; a ends half
+    a cell behind the last node that slips, which leaves an error of first order."""
+    tau, found = 2e-5, {}
+    mesh = f"{{length: 2, height: 1, base_height: 1, behind: 0, before: 0, nx: {cells}, nz: {cells // 4}, grade_x: 0.03, grade_z: 30}}"
+    for shear in (0, tau):
+        sides = "".join(f", {{group: {name}, x: 0, z: {sign * shear}}}" for name, sign in
+                        (("leading", 1), ("rod", -1), ("base_front", 1), ("base_rear", -1)))
+        found[shear] = Static(study, HERE / "bodies.yaml", "unlike", {
+            "mesh.set": mesh, "material": f"{{poisson: {nu}, plane: strain}}", "load.pressure": 1e-3,
+            "materials": f"{{base: {{young: {stiffness}, poisson: {nu_base}}}}}", "load.tractions": f"[{{group: top, x: {shear}, z: 0}}{sides}]",
+            "friction.along": "points(x, 0.919999, 1, 0.92, 0, 1.08, 0, 1.080001, 1)"}, slack=1e4)
+    sheared, rest = found[tau], found[0]
+    t = sheared.position[sheared.contact, 0] - 1
+    pressure = (sheared.reaction - rest.reaction)[sheared.contact, 1] / sheared.weight
+    slip = (sheared.jump - rest.jump)[:, 0]
+    a = t[abs(slip) > 1e-3 * abs(slip).max()].max() + np.diff(t).min() / 2
+    block, base = 1 / (2 * (1 + nu)), stiffness / (2 * (1 + nu_base))   # shear moduli
+    kappa, kappa_base = 3 - 4 * nu, 3 - 4 * nu_base
+    total = block * (kappa_base + 1) + base * (kappa + 1)
+    alpha = (base * (kappa + 1) - block * (kappa_base + 1)) / total
+    beta = (block * (kappa_base - 1) - base * (kappa - 1)) / total
+    compliance = (kappa + 1) * (1 - beta**2) / (2 * block * (1 + alpha))
+    inside = abs(t) < 0.8 * a
+    root = np.sqrt(a**2 - t[inside]**2)
+    yield "slip", compliance * tau * root, slip[inside]
+    yield f"change of pressure, Dundurs' beta {beta:.3f},", beta * tau * t[inside] / root, pressure[inside]
+
+
+def unlike(study, stiffness, nu, nu_base):
+    fine = 160
+    coarse = [] if study.quick else [relative(ours, exact) for _, exact, ours in unlike_solution(study, stiffness, nu, nu_base, fine // 2)]
+    for k, (what, exact, ours) in enumerate(unlike_solution(study, stiffness, nu, nu_base, fine)):
+        error = relative(ours, exact)
+        order = {"order": "1 expected", "seen": observed_order([2, 1], [coarse[k], error]), "least": 0.7} if coarse else {}
+        study.add(GROUP, f"unlike half-spaces, base {stiffness:g} times as stiff", f"{what} of a stretch without friction, largest",
+                  exact.max(), ours.max(), error, 3.5e-2, note="a cell is 4 % of a", **order)
+
+
 def explicit_steps(study):
     """The same scene by central differences on the same two meshes."""
     implicit = Run(study, HERE / "bodies_run.yaml", "implicit-two", {"time.tolerance": 1e-5})
@@ -170,5 +212,7 @@ def run(study):
         line_contact(study, nu, stiffness)
     for stiffness in () if study.quick else (1, 4):
         spheres(study, stiffness)
+    for stiffness, nu, nu_base in ((10, 0.3, 0.3),) if study.quick else ((10, 0.3, 0.3), (0.1, 0.3, 0.3), (4, 0.2, 0.4)):
+        unlike(study, stiffness, nu, nu_base)
     explicit_steps(study)
     controls(study)
