@@ -6,6 +6,7 @@
 #include "base/order.h"
 #include "io/text/csv_writer.h"
 #include "render/figures/color_scale.h"
+#include "render/view/zoom.h"
 
 #include <limits.h>
 #include <math.h>
@@ -54,10 +55,38 @@ static bool write_curve(const char *path, ResultView *view, MeasuredKind kind, E
         [MEASURED_FRONT] = {{"U", "m", curve.at, 1},
                             {"t", "s", view->t, 1},
                             {"x", "m", curve.value, 1}},
-        [MEASURED_LENGTH] = {{"F_T/F_N", NULL, curve.at, 1}, {"l/L", NULL, curve.value, over_L}},
         [MEASURED_SPEED] = {{"x/L", NULL, curve.at, over_L}, {"v/c_R", NULL, curve.value, over_c}}};
     int32_t count = columns[kind][2].name ? 3 : 2;
     return write_columns(path, columns[kind], count, curve.count, view->si, err);
+}
+
+// How long slip was, of each cycle that is shown, one behind the other.
+static bool write_lengths(const char *path, ResultView *view, Error *err)
+{
+    int32_t asked = view->cycle, slidings = zoom_slidings(view);
+    bool all = asked == VIEW_CYCLE_ALL && slidings > 0;
+    int64_t rows = 0;
+    double *mu = NEW_ARRAY(double, view->rows, err), *length = NEW_ARRAY(double, view->rows, err);
+    double *cycle = NEW_ARRAY(double, view->rows, err);
+    TRY(mu && length && cycle);
+    for (int32_t k = all ? 1 : asked; k <= (all ? slidings : asked); ++k) {
+        ViewCurve curve;
+        computed_choose_cycle(view, k);
+        TRY(computed_curve(view, MEASURED_LENGTH, &curve, err));
+        for (int64_t i = 0; i < curve.count && rows < view->rows; ++i, ++rows) {
+            mu[rows] = curve.at[i];
+            length[rows] = curve.value[i];
+            cycle[rows] = zoom_choose(view).cycle;
+        }
+    }
+    const DataColumn columns[] = {{"F_T/F_N", NULL, mu, 1},
+                                  {"l/L", NULL, length, 1 / view->number[NUMBER_LENGTH]},
+                                  {"cycle", NULL, cycle, 1}};
+    TRY(write_columns(path, columns, 3, rows, view->si, err));
+cleanup:
+    computed_choose_cycle(view, asked);
+    memory_free_all(mu, length, cycle);
+    return error_is_clean(err);
 }
 
 // Least, median and largest over the nodes, of the state that the view stands for.
@@ -154,7 +183,9 @@ bool figure_data_write(const char *folder, const char *name, ResultView *view, c
     if (!data_path(folder, name, "", path, err)) return false;
     if (strcmp(name, "state-map") == 0) return write_states(path, view, err);
     if (kind == MEASURED_KINDS) return true;
-    if (kind != MEASURED_AREA && !write_curve(path, view, kind, err)) return false;
+    if (kind == MEASURED_LENGTH && !write_lengths(path, view, err)) return false;
+    if (kind != MEASURED_AREA && kind != MEASURED_LENGTH && !write_curve(path, view, kind, err))
+        return false;
     if (!measured_read(compare, kind, view, &measured, err)) return false;
     if (measured.count > 0)
         done = data_path(folder, name, "-compared", path, err) &&

@@ -6,6 +6,7 @@
 #include "render/figure_data.h"
 #include "render/figures/picture.h"
 #include "render/picture_options.h"
+#include "render/view/zoom.h"
 
 #include <errno.h>
 #include <limits.h>
@@ -151,6 +152,7 @@ amontons_render(const char *folder, const PictureRequest *request, Error *err)
     TRY(result_view_open(folder, &view, err));
     TRY(check_compare(request, &view, err));
     if (request->style.line) TRY(result_view_choose_line(&view, request->style.line, err));
+    if (request->style.cycle) TRY(zoom_choose_cycle(&view, request->style.cycle, err));
     TRY(make_figures_folder(folder, err));
     for (int32_t k = 0; k < picture_count(request); ++k) {
         Picture picture;

@@ -63,8 +63,10 @@ bool amontons_render_mesh(const RenderMesh *mesh, const char *path, Error *err);
 // --- inside of a page (page/) --------------------------------------------------------------------
 
 // The three figures of a history as SVG, each in light and in dark, with what they show below them.
-typedef bool (*RenderFiguresFunction)(const char *folder, HtmlWriter *html, Error *err);
-bool amontons_render_figures(const char *folder, HtmlWriter *html, Error *err);
+// cycle: that those of one cycle show, as `--cycle` has it; NULL: as they choose.
+typedef bool (*RenderFiguresFunction)(const char *folder, const char *cycle, HtmlWriter *html,
+                                      Error *err);
+bool amontons_render_figures(const char *folder, const char *cycle, HtmlWriter *html, Error *err);
 
 // The same of a plot that a file describes; `caption` is ours, without markup.
 typedef bool (*RenderPlotHtmlFunction)(const char *plot, const char *caption, HtmlWriter *html,

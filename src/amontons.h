@@ -116,6 +116,13 @@ typedef struct RunSummary {
     const char *run_in;   // why run-in is not over (static storage); NULL: it is
     double run_in_drift, run_in_drops_left;   // of mu a drop, relative; for so many more; NaN
     int32_t quasi_static, bounded, leading, slight;   // events by kind; slight: no precursors
+    // First loading, up to the first sliding of the whole block (results.first): the largest mu and
+    // where it was, NaN: it did not slide; l_c / L; precursors before it. Beside it means over the
+    // later cycles that count: precursors in each, NaN: there is none; length of the longest / L.
+    double first_mu, first_U, first_critical_length, first_longest;
+    double first_mu_error, first_mu_known_to;
+    int32_t first_precursors;
+    double later_precursors, later_longest;
     double normal_force;   // F_N of the whole block, force; NaN: in the plane without `thickness`
     double base_slip;   // mean slip over a base that deforms, over the contact's length; NaN: rigid
     double critical_length;   // l_c / L seen in the dynamics; NaN: none

@@ -54,6 +54,13 @@ extern "C" {
     X(from, TEXT, 0, 0, "force slip-map state-map", "", "U=U",                                     \
       "Of force, slip-map, state-map: where they begin; or t=TIME")                                \
     X(to, TEXT, 0, 0, "force slip-map state-map", "", "U=U", "Where they end; or t=TIME")          \
+    X(cycle, TEXT, 0, 0,                                                                           \
+      "force slip-map contact-density state-map contact-plane precursors front-speed field "       \
+      "field-strip",                                                                               \
+      "", "first|last|N|all",                                                                      \
+      "Which cycle is shown, from one sliding to the next: first (the first loading), last, its "  \
+      "number, or all; by default one with precursors, and in a run of one or two slidings the "   \
+      "first")                                                                                     \
     X(pixels, WORD, 0, 0, "slip-map state-map", "largest mean", "WHAT",                            \
       "What of the slip rates in a pixel slip-map shows: the largest (the default) or the mean; "  \
       "of states state-map shows the smallest, or the largest where that is asked for")            \
@@ -75,8 +82,8 @@ typedef struct PictureStyle {
     bool overwrite;   // what is there goes; else it is refused, if no list has it
     double height;   // mm; 0: as the figure asks
     // As PICTURE_OPTIONS has them; NULL: the default.
-    const char *style, *title, *inset, *legend, *limits, *from, *to, *pixels, *line, *compare,
-        *warnings;
+    const char *style, *title, *inset, *legend, *limits, *from, *to, *cycle, *pixels, *line,
+        *compare, *warnings;
 } PictureStyle;
 
 // Sets an option of PICTURE_OPTIONS; `value` stays the caller's, who keeps it as long as the style.
@@ -124,10 +131,11 @@ bool amontons_render_sweep(const char *folder, const char *plot, const PictureSt
                            Error *err);
 
 // Writes one page about results (count folders) into `file`, an .html that needs nothing else: of a
-// run, of a sweep, or of several runs side by side. overwrite: what is there goes; else
-// it is refused, if the list of its folder (amontons.files) does not have it.
-bool amontons_report(const char *const *results, int32_t count, const char *file, bool overwrite,
-                     Error *err);
+// run, of a sweep, or of several runs side by side. cycle: of a run, which its figures show, as in
+// PICTURE_OPTIONS; NULL: as they choose. overwrite: what is there goes; else it is refused, if the
+// list of its folder (amontons.files) does not have it.
+bool amontons_report(const char *const *results, int32_t count, const char *file, const char *cycle,
+                     bool overwrite, Error *err);
 
 // Called after each frame of a film that is drawn, `frame` from 1.
 typedef void (*FrameCallback)(int32_t frame, int32_t frames, void *context);
@@ -140,7 +148,8 @@ typedef struct FilmRequest {
     int32_t rate;   // frames a second; 0: 30, of a GIF 20
     int32_t width, height;   // pixels, even; 0: 1920 and 1080, of a GIF 800 and 450
     const char *begin, *end;   // "U=0.0117" or "t=120"; NULL: those of the history
-    bool last_cycle;   // from the end of a bulk sliding to a little after the next, the last
+    const char *cycle;   // "first", "last" or its number: from the end of a bulk sliding to a
+        // little after the next; NULL, "all": the history
     const char *of;   // field of the block, as FieldChoice has it; without fields not asked
     double magnification;   // of the deformation; 0: chosen
     bool

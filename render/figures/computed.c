@@ -23,6 +23,14 @@ static void curve_add(ViewCurve *curve, double at, double value)
     curve->value[curve->count++] = value;
 }
 
+void computed_choose_cycle(ResultView *view, int32_t cycle)
+{
+    memory_free_all(view->precursors.at, view->precursors.value, view->front_speed.at,
+                    view->front_speed.value);
+    view->precursors = view->front_speed = (ViewCurve){0};
+    view->cycle = cycle;
+}
+
 // --- length over load ----------------------------------------------------------------------------
 
 // The rows of the cycle: from the shortest front behind the sliding before to the next one.

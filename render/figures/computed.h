@@ -18,6 +18,9 @@ typedef enum MeasuredKind {
 // The curve of a kind, whose arrays stay the view's; of MEASURED_AREA none (count 0).
 bool computed_curve(ResultView *view, MeasuredKind kind, ViewCurve *curve, Error *err);
 
+// Another cycle is shown from now on (render/view/zoom); curves of the one before are forgotten.
+void computed_choose_cycle(ResultView *view, int32_t cycle);
+
 // Where a precursor stands in the curve of MEASURED_LENGTH: the largest F_T/F_N of the cycle up to
 // its start, and how long slip from the trailing end was in it at most. false: it is in another
 // cycle, or slip did not come from the trailing end.

@@ -44,10 +44,12 @@ static double range_low(double density_min)
     return RANGE_LOW[k];
 }
 
-static void key_of_map(Page *page, const ResultView *view, const Measured *measured)
+static void key_of_map(Page *page, const ResultView *view, const Zoom *zoom,
+                       const Measured *measured)
 {
-    KeyEntry entries[3] = {{KEY_LINE, INK, "front of slip"}};
+    KeyEntry entries[4] = {{KEY_LINE, INK, "front of slip"}};
     int32_t count = 1 + map_page_key(view, NULL, entries + 1);
+    if (zoom->words[0]) entries[count++] = (KeyEntry){.words = zoom->words};
     key_draw(page, entries, measured_key(measured, KEY_RING, entries, count));
 }
 
@@ -92,7 +94,7 @@ bool figure_contact_density(const Page *whole, ResultView *view, Error *err)
     map.bar.neutral = seen.open ? "open" : NULL;
     map.bar.neutral_color = OPEN;
     TRY(measured_read(page.style.compare, MEASURED_AREA, view, &measured, err));
-    key_of_map(&page, view, &measured);
+    key_of_map(&page, view, &zoom, &measured);
     TRY(map_page_draw(&page, view, (double[]){zoom.U_low, zoom.U_high}, &map, err));
     map_page_draw_front(&page, view, &map);
     areas_draw(&page, &measured, &map);

@@ -29,18 +29,64 @@ static int32_t precursors_draw(const Page *page, ResultView *view, const Axes *a
     return count;
 }
 
-static void key_of(Page *page, ResultView *view, const Measured *measured)
+static void key_of(Page *page, ResultView *view, int32_t precursors, const Measured *measured)
 {
-    KeyEntry entries[3] = {{KEY_LINE, FIGURE_CURVE, "farthest slip so far"},
+    KeyEntry entries[4] = {{KEY_LINE, FIGURE_CURVE, "farthest slip so far"},
                            {KEY_DISC, INK, "rapid precursor"}};
-    int32_t count = 1 + (precursors_draw(NULL, view, NULL) > 0);
+    int32_t count = 1 + (precursors > 0);
+    Zoom zoom = zoom_choose(view);
+    if (zoom.words[0]) entries[count++] = (KeyEntry){.words = zoom.words};
     key_draw(page, entries, measured_key(measured, KEY_DISC, entries, count));
 }
 
-static Axes axes_layout(const Page *page, const ResultView *view, const ViewCurve *curve,
+// The cycles that are shown, from *first to *last.
+static void find_cycles(const ResultView *view, int32_t *first, int32_t *last)
+{
+    int32_t slidings = zoom_slidings(view);
+    bool all = view->cycle == VIEW_CYCLE_ALL && slidings > 0;
+    *first = all ? 1 : view->cycle;
+    *last = all ? slidings : view->cycle;
+}
+
+// The largest load ratio of the cycles, and how many rapid precursors they have.
+static bool find_extent(ResultView *view, double *top, int32_t *precursors, Error *err)
+{
+    int32_t asked = view->cycle, first = 0, last = 0;
+    ViewCurve curve;
+    *top = 0;
+    *precursors = 0;
+    find_cycles(view, &first, &last);
+    for (int32_t k = first; k <= last; ++k) {
+        computed_choose_cycle(view, k);
+        if (!computed_curve(view, MEASURED_LENGTH, &curve, err)) break;
+        if (curve.count > 0) *top = fmax(*top, curve.at[curve.count - 1]);
+        *precursors += precursors_draw(NULL, view, NULL);
+    }
+    computed_choose_cycle(view, asked);
+    return error_is_clean(err);
+}
+
+// Their curves and precursors.
+static bool cycles_draw(const Page *page, ResultView *view, const Axes *axes, Error *err)
+{
+    int32_t asked = view->cycle, first = 0, last = 0;
+    Stroke stroke = {.color = FIGURE_CURVE, .width = CURVE_WIDTH * page->point};
+    ViewCurve curve;
+    find_cycles(view, &first, &last);
+    for (int32_t k = first; k <= last; ++k) {
+        computed_choose_cycle(view, k);
+        if (!computed_curve(view, MEASURED_LENGTH, &curve, err)) break;
+        axes_curve(page, axes, &stroke, curve.at, curve.value, curve.count);
+        precursors_draw(page, view, axes);
+    }
+    computed_choose_cycle(view, asked);
+    return error_is_clean(err);
+}
+
+static Axes axes_layout(const Page *page, const ResultView *view, double top,
                         const Measured *measured)
 {
-    double high = curve->count > 0 ? curve->at[curve->count - 1] : 1;
+    double high = top > 0 ? top : 1;
     double length = view->number[NUMBER_LENGTH];
     for (int32_t k = 0; k < measured->count; ++k) high = fmax(high, measured->at[k]);
     high *= HEADROOM;
@@ -54,22 +100,21 @@ static Axes axes_layout(const Page *page, const ResultView *view, const ViewCurv
 bool figure_precursors(const Page *whole, ResultView *view, Error *err)
 {
     Page page = *whole;
-    ViewCurve curve;
     Measured measured = {0};
-    double critical = view->number[NUMBER_L_C];
-    Stroke stroke = {.color = FIGURE_CURVE, .width = CURVE_WIDTH * page.point};
+    int32_t precursors = 0;
+    double critical = view->number[NUMBER_L_C], top = 0;
     Stroke dashed = dashed_stroke(&page, INK, 0.5);
     if (!(view->number[NUMBER_LENGTH] > 0))
         return REFUSE(err, "the result does not say how long the block is");
-    if (!computed_curve(view, MEASURED_LENGTH, &curve, err)) return false;
+    if (!find_extent(view, &top, &precursors, err)) return false;
     if (!measured_read(page.style.compare, MEASURED_LENGTH, view, &measured, err)) return false;
-    key_of(&page, view, &measured);
-    Axes axes = axes_layout(&page, view, &curve, &measured);
+    key_of(&page, view, precursors, &measured);
+    Axes axes = axes_layout(&page, view, top, &measured);
     if (isfinite(critical)) axes_level(&page, &axes, &dashed, critical, 1.6, "~{l}_{c}");
-    axes_curve(&page, &axes, &stroke, curve.at, curve.value, curve.count);
-    precursors_draw(&page, view, &axes);
-    measured_draw(&page, &measured, &axes);
-    axes_draw(&page, &axes);
+    if (cycles_draw(&page, view, &axes, err)) {
+        measured_draw(&page, &measured, &axes);
+        axes_draw(&page, &axes);
+    }
     measured_destroy(&measured);
-    return true;
+    return error_is_clean(err);
 }

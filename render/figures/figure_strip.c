@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "render/figures/block_page.h"
+#include "render/view/zoom.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -29,7 +30,8 @@ typedef struct Strip {
     double magnification;
 } Strip;
 
-// The sliding that lies nearest to the asked time; without one the last that has ended.
+// The sliding that lies nearest to the asked time; without one that of the cycle that is asked for,
+// or else the last that has ended.
 static bool find_event(const FigureInput *input, const BlockSource *source, const ViewEvent **event,
                        Error *err)
 {
@@ -46,6 +48,7 @@ static bool find_event(const FigureInput *input, const BlockSource *source, cons
         least = away;
         *event = seen;
     }
+    if (index < 0 && zoom_sliding(view)) *event = zoom_sliding(view);
     if (!*event)
         return REFUSE(err, "no sliding of the whole block has been seen from start to end");
     return true;

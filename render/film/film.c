@@ -68,7 +68,7 @@ static bool set_clock(const FilmRequest *film, const ResultView *view, int32_t f
                       FilmClock *clock, Error *err)
 {
     double *fastest = NULL, t[2] = {0, 0};
-    FilmSpan span = {film->begin, film->end, film->last_cycle};
+    FilmSpan span = {film->begin, film->end, film->cycle};
     TRY(film_span_find(view, &span, t, err));
     TRY(find_fastest(view, &fastest, err));
     FilmClockDef def = {.rows = view->rows,
@@ -148,7 +148,7 @@ __attribute__((visibility("default"))) bool amontons_render_film_part(const char
     FilmRequest film;
     ResultView view = {0};
     double t[2] = {0, 0};
-    FilmSpan span = {request->begin, request->end, request->last_cycle};
+    FilmSpan span = {request->begin, request->end, request->cycle};
     *part = (FilmPart){0};
     TRY(complete(request, &film, &part->frames, err));
     TRY(result_view_open(folder, &view, err));

@@ -2,6 +2,7 @@
 #include "render/film/film_times.h"
 
 #include "render/view/block.h"
+#include "render/view/zoom.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -53,19 +54,16 @@ static bool time_read(const ResultView *view, const char *at, double *t, Error *
     return true;
 }
 
-static bool find_cycle(const ResultView *view, double t[2], Error *err)
+static bool find_cycle(const ResultView *view, const char *words, double t[2], Error *err)
 {
-    const ViewEvent *last = NULL, *before = NULL;
-    for (int32_t k = 0; k < view->event_count; ++k) {
-        const ViewEvent *event = &view->events[k];
-        if (event->kind != VIEW_LEADING || !isfinite(event->U_start + event->U_stop)) continue;
-        before = last;
-        last = event;
-    }
-    if (!last) return REFUSE(err, "no bulk sliding is in this history, so there is no last cycle");
-    double low = before ? before->U_stop : view->U[0];
-    t[0] = time_of_U(view, low);
-    t[1] = time_of_U(view, last->U_stop + BEHIND * (last->U_stop - low));
+    ResultView asked = *view;
+    if (!zoom_choose_cycle(&asked, words, err)) return false;
+    if (asked.cycle == VIEW_CYCLE_ALL) return true;
+    const ViewEvent *sliding = zoom_sliding(&asked);
+    if (!sliding) return REFUSE(err, "no bulk sliding is in this history, so there is no cycle");
+    Zoom zoom = zoom_choose(&asked);
+    t[0] = time_of_U(view, zoom.U_start);
+    t[1] = time_of_U(view, zoom.U_stop + BEHIND * (zoom.U_stop - zoom.U_start));
     return true;
 }
 
@@ -74,7 +72,7 @@ bool film_span_find(const ResultView *view, const FilmSpan *span, double t[2], E
     double first = view->t[0], end = view->t[view->rows - 1];
     t[0] = first;
     t[1] = end;
-    if (span->last_cycle && !find_cycle(view, t, err)) return false;
+    if (span->cycle && !find_cycle(view, span->cycle, t, err)) return false;
     if (span->from && !time_read(view, span->from, &t[0], err)) return false;
     if (span->to && !time_read(view, span->to, &t[1], err)) return false;
     t[0] = fmax(t[0], first);

@@ -17,11 +17,11 @@ FilmMoment film_moment(const ResultView *view, double t);
 double film_value(const FilmMoment *moment, const double *values, int32_t width, int32_t k);
 int64_t film_nearest_row(const FilmMoment *moment);
 
-// From and to ("U=0.0117", "t=120"; NULL: start, end), or the last cycle: from the end of a bulk
-// sliding to a little after the next one, the last. ERROR_INPUT where there is no such time.
+// From and to ("U=0.0117", "t=120"; NULL: start, end), or a cycle ("first", "last", "3"): from the
+// end of a bulk sliding to a little after the next one. ERROR_INPUT where there is no such time.
 typedef struct FilmSpan {
     const char *from, *to;
-    bool last_cycle;
+    const char *cycle;   // NULL, "all": no
 } FilmSpan;
 bool film_span_find(const ResultView *view, const FilmSpan *span, double t[2], Error *err);
 

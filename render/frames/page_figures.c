@@ -8,6 +8,7 @@
 #include "render/figures/picture.h"
 #include "render/plot/figure_curves.h"
 #include "render/plot/plot_file.h"
+#include "render/view/zoom.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -96,11 +97,12 @@ static bool draw_history(void *context, const PictureStyle *style, Page *page, E
 }
 
 // Title and warnings stand on the page already.
-__attribute__((visibility("default"))) bool amontons_render_figures(const char *folder,
-                                                                    HtmlWriter *html, Error *err)
+__attribute__((visibility("default"))) bool
+amontons_render_figures(const char *folder, const char *cycle, HtmlWriter *html, Error *err)
 {
     ResultView view = {0};
     TRY(result_view_open(folder, &view, err));
+    if (cycle) TRY(zoom_choose_cycle(&view, cycle, err));
     view.title[0] = view.warnings[0] = '\0';
     for (size_t k = 0; k < sizeof FIGURES / sizeof *FIGURES; ++k) {
         if (!figure_is_there(FIGURES[k].name, &view)) continue;

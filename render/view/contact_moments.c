@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "base/order.h"
 #include "render/view/block.h"
+#include "render/view/zoom.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -70,7 +71,8 @@ static bool take_event(const ResultView *view, const char *at, ContactMoments *m
         if (!block_moment_read(at, &by_U, &wanted, err)) return false;
         if (!by_U) wanted = view->U[nearest_row(view, view->t, wanted)];
     }
-    const ViewEvent *event = find_event(view, at ? &wanted : NULL);
+    const ViewEvent *event = at ? NULL : zoom_sliding(view);
+    if (!event || !isfinite(event->U_stop)) event = find_event(view, at ? &wanted : NULL);
     if (!event)
         return REFUSE(err,
                       "no rapid slip has been seen from start to end: say when, as --at U=%.4g",

@@ -2,9 +2,12 @@
 #include "render/view/range.h"
 
 #include "render/view/block.h"
+#include "render/view/zoom.h"
 
 #include <math.h>
 #include <stdio.h>
+
+static const double BEHIND = 0.04;   // of a cycle: shown after its sliding
 
 enum { SLIDINGS_MOST = 40, SLIDINGS_SHOWN = 20 };   // each has 3 mm of a column then
 
@@ -40,7 +43,12 @@ bool view_range_find(const ResultView *view, const PictureStyle *style, ViewRang
     for (int32_t k = 0; k < view->event_count; ++k)
         if (view->events[k].kind == VIEW_LEADING) ++count;
     double start = count > SLIDINGS_MOST ? find_start(view, count) : NAN;
-    if (isfinite(start) && !style->from && !style->to) {
+    Zoom zoom = view->cycle != VIEW_CYCLE_CHOSEN ? zoom_choose(view) : (Zoom){0};
+    if (zoom.found) {
+        shown->low = zoom.U_start;
+        shown->high = zoom.U_stop + BEHIND * (zoom.U_stop - zoom.U_start);
+        snprintf(shown->words, sizeof shown->words, "%s", zoom.words);
+    } else if (isfinite(start) && !style->from && !style->to && view->cycle != VIEW_CYCLE_ALL) {
         shown->low = start;
         snprintf(shown->words, sizeof shown->words, "the last %d of %d slidings", SLIDINGS_SHOWN,
                  count);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Which part of U a figure against U shows: what was asked for; else all of it, or of a run with so
-// many slidings that each would be a hair the last ones, and the figure says so.
+// Which part of U a figure against U shows: what was asked for, a cycle too; else all of it, or of
+// a run with so many slidings that each would be a hair the last ones, and the figure says so.
 #ifndef AMONTONS_RENDER_VIEW_RANGE_H
 #define AMONTONS_RENDER_VIEW_RANGE_H
 

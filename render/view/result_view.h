@@ -37,6 +37,10 @@ double curve_value(const ViewCurve *curve,
 // the first where all are.
 int64_t curve_place(const double *values, int64_t count, double at);
 
+// The cycle that figures of one cycle show: a number from 1, the first loading, or one of these.
+// render/view/zoom reads it.
+enum { VIEW_CYCLE_CHOSEN = 0, VIEW_CYCLE_LAST = -1, VIEW_CYCLE_ALL = -2 };
+
 typedef struct ResultView {
     ArrayFile *file;   // owned
     char *title;   // of the scene; may be empty; owned
@@ -60,6 +64,7 @@ typedef struct ResultView {
     ViewCurve front_speed;   // likewise
     ContactPlane plane;   // in space; patch_count 0: not read yet; owned
     double *contact_status;   // [rows * all_nodes] in space, or NULL: not read yet; owned
+    int32_t cycle;   // asked for
     int32_t states;   // of friction that remembers; 0: it does not
     int32_t state;   // which of them SERIES_STATE is read as
     char *state_names, *state_unit;   // a line each; "time", "1", ...; owned

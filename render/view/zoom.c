@@ -1,20 +1,34 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Which part of U the zoomed pictures show: the last precursors before a sliding, of a cycle that
-// stands for the periodic regime. From the table of events where there is one, else from the falls
-// of mu.
+// Which part of U the zoomed pictures show: the last precursors before a sliding. From the table of
+// events where there is one, else from the falls of mu.
 #include "render/view/zoom.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
-enum { PRECURSORS_SHOWN = 8 };
+// A run of so few slidings, or less, is one of the first loading.
+enum { PRECURSORS_SHOWN = 8, FEW_SLIDINGS = 2 };
 
 static const double PAD = 0.08;   // beside the precursors, over what they span
 static const double CYCLE_SHOWN = 0.15;   // of a cycle without rapid precursors
 static const double SPAN_MIN = 0.01;   // of a cycle: one precursor close to sliding
 static const double DROP_LARGE = 0.25;   // of the range of mu: bulk sliding
 
+int32_t zoom_slidings(const ResultView *view)
+{
+    int32_t count = 0;
+    for (int32_t k = 0; k < view->event_count; ++k) {
+        const ViewEvent *event = &view->events[k];
+        count += event->kind == VIEW_LEADING && isfinite(event->U_start);
+    }
+    return count;
+}
+
 // From the end of one sliding to the start of the next.
 typedef struct Cycle {
+    int32_t number;   // from 1
     double U_start, U_slide, U_stop;   // length
     double U_precursor;   // start of the first bounded precursor to be shown
     int32_t bounded;   // rapid precursors inside
@@ -52,17 +66,23 @@ static void cycle_match_peak(const ResultView *view, Cycle *cycle)
     }
 }
 
-// Periodic weighs more than having precursors; both is best.
+// What the figures are about are precursors: a cycle with them comes before one without, a periodic
+// one before others. Of those that are not periodic the first loading is what people measure.
 static int32_t cycle_merit(const Cycle *cycle)
 {
-    return (cycle->periodic ? 2 : 0) + (cycle->bounded > 0 ? 1 : 0);
+    if (cycle->bounded > 0) return cycle->periodic ? 4 : cycle->number == 1 ? 3 : 2;
+    return cycle->periodic ? 1 : 0;
 }
 
-// The best cycle of the events table; false where no sliding is in it.
-static bool cycle_from_events(const ResultView *view, Cycle *best)
+// The cycle of the events table that is asked for, or the best; false where no sliding is in it.
+// *slidings: how many there are.
+static bool cycle_from_events(const ResultView *view, Cycle *best, int32_t *slidings)
 {
     double low = 0, high = 0;
     bool found = false;
+    *slidings = zoom_slidings(view);
+    int32_t asked = view->cycle == VIEW_CYCLE_LAST ? *slidings : view->cycle;
+    if (asked == VIEW_CYCLE_CHOSEN && *slidings <= FEW_SLIDINGS) asked = 1;
     result_view_range(view, &low, &high);
     Cycle cycle = {.U_start = low};
     for (int32_t k = 0; k < view->event_count; ++k) {
@@ -72,7 +92,10 @@ static bool cycle_from_events(const ResultView *view, Cycle *best)
         cycle.U_stop = isfinite(event->U_stop) ? event->U_stop : high;
         cycle_count_events(view, &cycle);
         cycle_match_peak(view, &cycle);
-        if (cycle.U_slide > cycle.U_start && (!found || cycle_merit(&cycle) >= cycle_merit(best))) {
+        ++cycle.number;
+        bool better = asked > 0 ? cycle.number == asked
+                                : !found || cycle_merit(&cycle) >= cycle_merit(best);
+        if (cycle.U_slide > cycle.U_start && better) {
             *best = cycle;
             found = true;
         }
@@ -126,9 +149,19 @@ Zoom zoom_choose(const ResultView *view)
     Cycle cycle = {0};
     Zoom zoom = {0};
     double low = 0, high = 0;
-    bool by_events = cycle_from_events(view, &cycle);
+    if (view->cycle == VIEW_CYCLE_ALL) {
+        snprintf(zoom.words, sizeof zoom.words, "all cycles");
+        return zoom;
+    }
+    bool by_events = cycle_from_events(view, &cycle, &zoom.cycles);
     zoom.found = by_events || cycle_from_mu(view, &cycle);
     if (!zoom.found) return zoom;
+    zoom.cycle = cycle.number;
+    zoom.U_stop = cycle.U_stop;
+    if (cycle.number == 1)
+        snprintf(zoom.words, sizeof zoom.words, "first loading");
+    else if (cycle.number > 1)
+        snprintf(zoom.words, sizeof zoom.words, "cycle %d of %d", cycle.number, zoom.cycles);
     double length = cycle.U_slide - cycle.U_start;
     double first = cycle.bounded > 0 ? cycle.U_precursor : cycle.U_slide - CYCLE_SHOWN * length;
     double span = fmax(cycle.U_slide - first, SPAN_MIN * length);
@@ -139,4 +172,37 @@ Zoom zoom_choose(const ResultView *view)
     zoom.U_low = fmax(low, cycle.U_slide - (1 + PAD) * span);
     zoom.U_high = fmin(high, cycle.U_slide + PAD * span);
     return zoom;
+}
+
+bool zoom_choose_cycle(ResultView *view, const char *words, Error *err)
+{
+    int32_t slidings = zoom_slidings(view);
+    char *end = NULL;
+    if (strcmp(words, "first") == 0) {
+        view->cycle = 1;
+    } else if (strcmp(words, "last") == 0) {
+        view->cycle = VIEW_CYCLE_LAST;
+    } else if (strcmp(words, "all") == 0) {
+        view->cycle = VIEW_CYCLE_ALL;
+    } else {
+        long number = strtol(words, &end, 10);
+        if (end == words || *end || number < 1)
+            return REFUSE(err, "cycle %.40s: first, last, all or a number from 1 is allowed",
+                          words);
+        if (number > slidings)
+            return REFUSE(err, "there is no cycle %ld: the block slid %d time%s", number, slidings,
+                          slidings == 1 ? "" : "s");
+        view->cycle = (int32_t)number;
+    }
+    return true;
+}
+
+const ViewEvent *zoom_sliding(const ResultView *view)
+{
+    if (view->cycle == VIEW_CYCLE_CHOSEN || view->cycle == VIEW_CYCLE_ALL) return NULL;
+    Zoom zoom = zoom_choose(view);
+    for (int32_t k = 0; zoom.found && k < view->event_count; ++k)
+        if (view->events[k].kind == VIEW_LEADING && view->events[k].U_start == zoom.U_slide)
+            return &view->events[k];
+    return NULL;
 }

@@ -47,6 +47,8 @@ Answers answers_of(const Drops *drops)
                        .subcritical_length = NAN};
     const Regime *regime = &answers.regime;
     answers.first = regime->first;
+    answers.first_loading = first_loading_of(drops);
+    answers.later_cycles = later_cycles_of(drops, answers.first);
 
     // Load drops: their mean, whether more would tell more, what the contact holds for sure.
     int32_t count = drops_series(drops, DROP_LOAD, answers.first);
@@ -208,6 +210,8 @@ void answers_write_json(const Answers *answers, const Drops *drops, double lengt
                     {"l_sc_over_L", answers->subcritical_length / length},
                     {"l_c_over_L", answers->critical_length / length});
     if (is_in_space(drops)) json_number(json, "A_c_over_A", answers->critical_part);
+    first_loading_write_json(&answers->first_loading, &answers->later_cycles, drops->events, length,
+                             json);
     answers_write_peaks(answers, drops, length, json);
     write_drops(answers, drops, json);
     json_begin_object(json, "run_in");

@@ -13,12 +13,9 @@
 #ifndef AMONTONS_ANSWERS_ANSWERS_H
 #define AMONTONS_ANSWERS_ANSWERS_H
 
+#include "answers/first_loading.h"
 #include "answers/regime.h"
 #include "io/text/json_writer.h"
-
-typedef struct ErrorParts {   // NaN: not known
-    double mesh, branches, drops;
-} ErrorParts;
 
 // Standard errors in an error bar: 95 % of normal deviates.
 enum { ERROR_BAR = 2 };
@@ -44,6 +41,8 @@ typedef struct Answers {
     double critical_length;   // mean l_c of the peaks that count, length; NaN: none
     double critical_part;   // mean A_c/A of them; NaN: none
     double subcritical_length;   // mean l_sc of those that have one
+    FirstLoading first_loading;
+    LaterCycles later_cycles;
 } Answers;
 
 Answers answers_of(const Drops *drops);

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stddef.h>
 
-const char *const ANSWER_NAMES[ANSWER_KINDS] = {"mu_M", "mu_hold"};
+const char *const ANSWER_NAMES[ANSWER_KINDS] = {"mu_M", "mu_hold", "mu_first"};
 
 // Usual relative scatter of mu with the mesh, and usual distance to the limit of ever smaller
 // cells, before levels tell. Both are divided by the number of cells that slip where slow slip
@@ -218,9 +218,12 @@ static ErrorBar bar_of(const Levels *levels, AnswerKind kind)
     else
         limit = limit_of(levels, kind);
     double mesh = fmax(hypot(limit.mesh, END_WAITS * last->end_wait), STEPS * limit.value);
+    // A mean over branches is known the better the more runs there are; the first sliding of a
+    // block is on one of them.
+    double runs = limit.runs + (kind == ANSWER_MU_FIRST ? spread * spread : 0);
     ErrorBar bar = {.value = limit.value,
                     .parts = {.mesh = alone ? NAN : mesh,
-                              .branches = isnan(spread) ? NAN : ERROR_BAR * sqrt(limit.runs),
+                              .branches = isnan(spread) ? NAN : ERROR_BAR * sqrt(runs),
                               .drops = limit.drops}};
     double others = hypot(known(bar.parts.branches), bar.parts.drops);
     bar.apart = fabs(limit.value - level_value(last, kind)) > hypot(mesh, others);
@@ -267,7 +270,7 @@ void levels_add_run(Levels *levels, double pressure, double way, const Answers *
     LevelRun *run = &last->runs[last->run_count++];
     *run = (LevelRun){.pressure = pressure,
                       .way = way,
-                      .answer = {{NAN, NAN}, {NAN, NAN}},
+                      .answer = {{NAN, NAN}, {NAN, NAN}, answers->first_loading.mu},
                       .peaks = answers->peaks_counted,
                       .period = answers->period,
                       .run_in = answers->regime.run_in,
@@ -324,12 +327,14 @@ void level_answer_for(const Level *level, Answers *answers)
     answers->mu_hold_known_to =
         hypot(usual * answers->mu_hold.value, known(answers->mu_hold.error));
     answers->mu_max_known_to = hypot(usual * answers->mu_max, answers->mu_max_jump);
+    answers->first_loading.known_to = usual * answers->first_loading.mu.value;
 }
 
 void levels_answer_for(const Levels *levels, Answers *answers)
 {
     const ErrorBar *mu_M = levels_answer(levels, ANSWER_MU_M);
     const ErrorBar *mu_hold = levels_answer(levels, ANSWER_MU_HOLD);
+    const ErrorBar *mu_first = levels_answer(levels, ANSWER_MU_FIRST);
     if (!levels_have_runs(levels)) {
         answers->mu_M.error = answers->mu_hold.error = NAN;
         answers->mu_M_parts = answers->mu_hold_parts = (ErrorParts){NAN, NAN, NAN};
@@ -339,6 +344,8 @@ void levels_answer_for(const Levels *levels, Answers *answers)
     answers->mu_M_parts = mu_M->parts;
     answers->mu_hold = (Estimate){mu_hold->value, mu_hold->bar};
     answers->mu_hold_parts = mu_hold->parts;
+    answers->first_loading.mu = (Estimate){mu_first->value, mu_first->bar};
+    answers->first_loading.parts = mu_first->parts;
     // If no run of the last level had a peak, its mu_M is that of steady sliding.
     const Level *last = levels_last(levels);
     answers->steady = !isnan(last->answer[ANSWER_MU_M].value);
@@ -346,6 +353,7 @@ void levels_answer_for(const Levels *levels, Answers *answers)
         answers->steady = answers->steady && last->runs[k].peaks == 0;
     answers->mu_M_known_to = levels_known_to(levels, ANSWER_MU_M);
     answers->mu_hold_known_to = levels_known_to(levels, ANSWER_MU_HOLD);
+    answers->first_loading.known_to = levels_known_to(levels, ANSWER_MU_FIRST);
 }
 
 double levels_order(const Levels *levels)

@@ -6,7 +6,8 @@
 //
 //   drops      twice the standard error that the finite number of load drops leaves
 //   branches   twice the standard error of the mean over runs, the spread of a level's runs taken
-//              from the levels at least as fine; both weighed as the levels are
+//              from the levels at least as fine; both weighed as the levels are. The first
+//              sliding is one value a run: there the spread of a single run is added
 //   mesh       value = a + b / n on n nodes along the contact is estimated from the levels together
 //              (Bayes: values scatter from mesh to mesh, as slip stops at nodes, and by what few
 //              runs leave of branches; how far, the levels say themselves: what is usual counts as
@@ -28,7 +29,8 @@
 
 enum { LEVELS_MAX = 24, LEVEL_RUNS_MAX = 9 };
 
-typedef enum AnswerKind { ANSWER_MU_M, ANSWER_MU_HOLD, ANSWER_KINDS } AnswerKind;
+// The last one is the peak of the first loading: one value a run, of which no bar is asked.
+typedef enum AnswerKind { ANSWER_MU_M, ANSWER_MU_HOLD, ANSWER_MU_FIRST, ANSWER_KINDS } AnswerKind;
 
 typedef struct LevelRun {
     double pressure;   // over the scene's
@@ -85,7 +87,7 @@ typedef struct Levels {
     Level list[LEVELS_MAX];   // [count] the coarsest first
 } Levels;
 
-extern const char *const ANSWER_NAMES[ANSWER_KINDS];   // "mu_M", "mu_hold"
+extern const char *const ANSWER_NAMES[ANSWER_KINDS];   // "mu_M", "mu_hold", "mu_first"
 
 // The last level has at least a whole run, and so have all before.
 const Level *levels_last(const Levels *levels);   // NULL: there is none

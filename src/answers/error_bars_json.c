@@ -64,7 +64,8 @@ void levels_write_json(const Levels *levels, JsonWriter *json)
             json_begin_object(json, NULL);
             json_numbers_of(json, {"pressure", run->pressure},
                             {"mu_M", run->answer[ANSWER_MU_M].value},
-                            {"mu_hold", run->answer[ANSWER_MU_HOLD].value}, {"peaks", run->peaks},
+                            {"mu_hold", run->answer[ANSWER_MU_HOLD].value},
+                            {"mu_first", run->answer[ANSWER_MU_FIRST].value}, {"peaks", run->peaks},
                             {"period", run->period});
             json_text(json, "run_in", run_in_name(run->run_in));
             json_integer(json, "steps", run->steps);

@@ -225,6 +225,37 @@ static void print_bar(const RunSummary *summary)
         say(", whose own mu_M is %.4f\n", summary->bar_own_mu_M);
 }
 
+// Prints what an experiment measures, from F = 0 to the first sliding; below it the mean of the
+// later cycles that count.
+static void print_first_loading(const RunSummary *summary)
+{
+    char text[ESTIMATE_SIZE], words[ESTIMATE_SIZE];
+    bool slid = !isnan(summary->first_mu);
+    if (slid) {
+        bool bar = summary->bar_runs > 0;
+        amontons_estimate(summary->first_mu, bar ? summary->first_mu_error : (double)NAN,
+                          summary->first_mu_known_to, text);
+        say("  first loading   slid at F_T/F_N = %s", text);
+        if (!bar) {
+            amontons_known_to(summary->first_mu, summary->first_mu_known_to, words);
+            say(", %s", words);
+        }
+        say(", at U = %.4g, after ", summary->first_U);
+    } else {
+        say("  first loading   has not slid as a whole so far; ");
+    }
+    say("%d precursor%s", summary->first_precursors, summary->first_precursors == 1 ? "" : "s");
+    if (summary->first_precursors > 0)
+        say(" of up to %.2f of the block's length", summary->first_longest);
+    if (slid && !isnan(summary->first_critical_length))
+        say("; critical length %.2f", summary->first_critical_length);
+    say("\n");
+    if (isnan(summary->later_precursors)) return;
+    say("%slater cycles: %.2g precursors each", INDENT, summary->later_precursors);
+    if (summary->later_precursors > 0) say(", the longest %.2f", summary->later_longest);
+    say("\n");
+}
+
 static void print_critical_length(const RunSummary *summary)
 {
     if (!isnan(summary->critical_length))
@@ -262,6 +293,7 @@ static void print_answers(const RunSummary *summary)
     say(", the largest load ratio of the run%s\n",
         summary->bar_runs > 0 ? " in full, on the last mesh" : "");
     print_forces(summary);
+    print_first_loading(summary);
     say("  precursors      %d quasi-static, %d bounded rapid (faster than 2.5 V, over 5 %% of the "
         "contact)\n",
         summary->quasi_static, summary->bounded);

@@ -87,9 +87,10 @@ int command_film(const Command *command, int argc, char **argv)
          .word = &size},
         {"from", 0, "U=U", "Where it begins; or t=TIME; the start by default", .word = &film.begin},
         {"to", 0, "U=U", "Where it ends; or t=TIME; the end by default", .word = &film.end},
-        {"cycle", 0, NULL,
-         "The last cycle: from the last bulk sliding but one to a little after the last",
-         .flag = &film.last_cycle},
+        {"cycle", 0, "first|last|N",
+         "A cycle, from the end of one bulk sliding to a little after the next: the first, which "
+         "is the first loading, the last, or its number",
+         .word = &film.cycle},
         {"of", 0, "FIELD",
          "What is shown of the block: von_mises (default), stress_xx, stress_zz, stress_xz, "
          "pressure, velocity, displacement, strain_energy or dissipation; or of the contact: a "

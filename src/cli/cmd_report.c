@@ -21,7 +21,7 @@ static void default_file(const OptionWords *results, char *file, size_t size)
 
 int command_report(const Command *command, int argc, char **argv)
 {
-    const char *first = NULL, *file = NULL;
+    const char *first = NULL, *file = NULL, *cycle = NULL;
     char path[AMONTONS_PATH_SIZE];
     OptionWords results = {0};
     Command taken = *command;
@@ -32,6 +32,8 @@ int command_report(const Command *command, int argc, char **argv)
          "The page (default: RESULT/report.html; of several runs comparison.html, in the current "
          "folder)",
          .word = &file},
+        {"cycle", 0, "first|last|N|all",
+         "Of one run: which cycle its figures show, as in `amontons render`", .word = &cycle},
         option_overwrite(&overwrite),
         {0}};
     taken.all = &results;
@@ -40,8 +42,9 @@ int command_report(const Command *command, int argc, char **argv)
     if (file && !*file) return report_misuse("-o: the file has no name");
     if ((status = option_may_write(file, overwrite)) != 0) return status;
     if (!file) default_file(&results, path, sizeof path);
-    if (!amontons_report(results.list, results.count, file ? file : path, overwrite, &err))
+    if (!file) file = path;
+    if (!amontons_report(results.list, results.count, file, cycle, overwrite, &err))
         return report_error(&err);
-    say("report written: %s\n", file ? file : path);
+    say("report written: %s\n", file);
     return 0;
 }

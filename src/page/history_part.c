@@ -49,7 +49,7 @@ bool figures_write(HtmlWriter *html, PageSource *source, Error *err)
 {
     RenderFiguresFunction render =
         (RenderFiguresFunction)module_function("render", "amontons_render_figures", err);
-    if (render) render(source->runs->folder, html, err);
+    if (render) render(source->runs->folder, source->cycle, html, err);
     return go_on_without(html, "figures", err) && bar_figure_write(html, source->runs, err);
 }
 

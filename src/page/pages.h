@@ -5,7 +5,8 @@
 
 #include "io/text/html_writer.h"
 
-bool run_page_write(HtmlWriter *html, const char *folder, Error *err);
+// cycle: that the figures show; NULL: as they choose.
+bool run_page_write(HtmlWriter *html, const char *folder, const char *cycle, Error *err);
 bool sweep_page_write(HtmlWriter *html, const char *folder, Error *err);
 bool compare_page_write(HtmlWriter *html, const char *const *folders, int32_t count, Error *err);
 

@@ -19,6 +19,7 @@ typedef struct ReportRequest {
     const char *const *results;   // [count]
     int32_t count;
     const char *file;
+    const char *cycle;
     bool overwrite;
 } ReportRequest;
 
@@ -31,7 +32,9 @@ static bool check_folders(const ReportRequest *request, Error *err)
             return REFUSE(err, "%s is a sweep: only runs are compared; a sweep has its own page",
                           folder);
     }
-    return true;
+    bool run = request->count == 1 && !folder_holds(request->results[0], "sweep.csv", NULL);
+    return run || !request->cycle ||
+           REFUSE(err, "a cycle has a meaning for the page of one run alone");
 }
 
 static bool write_page(const ReportRequest *request, HtmlWriter *html, Error *err)
@@ -39,7 +42,7 @@ static bool write_page(const ReportRequest *request, HtmlWriter *html, Error *er
     if (request->count > 1) return compare_page_write(html, request->results, request->count, err);
     if (folder_holds(request->results[0], "sweep.csv", NULL))
         return sweep_page_write(html, request->results[0], err);
-    return run_page_write(html, request->results[0], err);
+    return run_page_write(html, request->results[0], request->cycle, err);
 }
 
 static bool write_file(void *context, FILE *reply, Error *err)
@@ -57,11 +60,11 @@ cleanup:
 }
 
 // A stranger's history may crash HDF5, or keep it busy for ever.
-bool amontons_report(const char *const *results, int32_t count, const char *file, bool overwrite,
-                     Error *err)
+bool amontons_report(const char *const *results, int32_t count, const char *file, const char *cycle,
+                     bool overwrite, Error *err)
 {
     NUMBERS_HAVE_A_POINT;
-    ReportRequest request = {results, count, file, overwrite};
+    ReportRequest request = {results, count, file, cycle, overwrite};
     ChildWork work = {.path = count > 0 ? results[0] : "",
                       .reader = "HDF5 or VTK",
                       .seconds = SECONDS_MAX,

@@ -112,10 +112,10 @@ static void list_parts(const PageSource *source, SheetPart parts[PARTS_MAX])
     parts[count] = (SheetPart){0};
 }
 
-bool run_page_write(HtmlWriter *html, const char *folder, Error *err)
+bool run_page_write(HtmlWriter *html, const char *folder, const char *cycle, Error *err)
 {
     RunSource run = {0};
-    PageSource source = {.runs = &run, .count = 1};
+    PageSource source = {.runs = &run, .count = 1, .cycle = cycle};
     SheetPart parts[PARTS_MAX];
     TRY(run_source_open(folder, &run, err));
     film_find(&source);

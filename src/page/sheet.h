@@ -15,6 +15,7 @@ typedef struct PageSource {
     const RunSource
         *runs;   // [count] one, several side by side, or of a sweep the first that is done
     int32_t count;
+    const char *cycle;   // that figures of one cycle show; NULL: as they choose
     RenderFrames frames;   // the table of events leads to them
     char film[NAME_MAX + 1];   // in the run's folder; "": there is none
     const struct SweepSource *sweep;   // NULL: it is no sweep

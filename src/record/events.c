@@ -321,6 +321,7 @@ bool events_record(void *self, const Observation *seen, Error *err)
     events->pads = before;
     pad_sums(seen, events->pads);
     bool followed = follow_step(events, seen, err);
+    events->trailing = seen->trailing;
     events->front_before = seen->front;
     events->front_slips_before = seen->front_slips;
     front_path_keep(&events->path, seen);
@@ -371,7 +372,7 @@ bool events_archive(Events *events, const Interface *interface, Archive *archive
     archive_indices(archive, events->kinds, EVENT_KIND_COUNT, 0, events->count + 1);
     archive_index(archive, &events->rapid, -1, events->count);
     archive_index(archive, &events->slow, -1, events->count);
-    archive_number(archive, &events->front_before);
+    archive_numbers_of(archive, &events->trailing, &events->front_before);
     archive_flag(archive, &events->front_slips_before);
     archive_flag(archive, &events->began);
     archive_flag(archive, &events->ended);

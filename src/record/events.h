@@ -60,6 +60,7 @@ typedef struct Events {
     int32_t kinds[EVENT_KIND_COUNT];   // counted, by kind
     int32_t rapid;   // index of the rapid event under way; -1: none
     int32_t slow;   // index of the quasi-static event under way; -1: none
+    double trailing;   // x of the block's trailing end, length
     double front_before;   // front in the step seen before, length
     bool front_slips_before;   // some node up to it slipped
     bool began, ended, crossed;   // of a rapid event, in the step seen last; crossed: it became

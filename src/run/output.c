@@ -225,6 +225,7 @@ bool output_draw_figures(Simulation *simulation, Error *err)
     PictureRequest request = {.figures = names, .figure_count = count};
     const char *compare = simulation->scene.output.compare;
     if (compare[0]) request.style.compare = compare;
+    if (simulation->scene.output.cycle[0]) request.style.cycle = simulation->scene.output.cycle;
     double started = clock_seconds();
     if (!pictures_draw(simulation->folder.path, &request, err)) return false;
     simulation->figures = count;

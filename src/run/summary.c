@@ -197,6 +197,14 @@ RunSummary summary_none(void)
                         .normal_force = NAN,
                         .base_slip = NAN,
                         .critical_length = NAN,
+                        .first_mu = NAN,
+                        .first_U = NAN,
+                        .first_critical_length = NAN,
+                        .first_longest = NAN,
+                        .first_mu_error = NAN,
+                        .first_mu_known_to = NAN,
+                        .later_precursors = NAN,
+                        .later_longest = NAN,
                         .slip_length = NAN,
                         .slip_cells = NAN,
                         .energy_error = NAN,
@@ -210,6 +218,7 @@ void summary_fill(const Simulation *simulation, const RunCounters *counters, con
 {
     const int32_t *kinds = simulation->events.kinds;
     const Model *model = &simulation->model;
+    double length = model->length;
     *summary =
         (RunSummary){.mu_M = answers->mu_M.value,
                      .mu_M_error = answers->mu_M.error,
@@ -237,7 +246,16 @@ void summary_fill(const Simulation *simulation, const RunCounters *counters, con
                      .normal_force = model->scales.load *
                                      scene_whole_force(&simulation->scene, model->interface.dim),
                      .base_slip = NAN,
-                     .critical_length = answers->critical_length / simulation->model.length,
+                     .critical_length = answers->critical_length / length,
+                     .first_mu = answers->first_loading.mu.value,
+                     .first_U = answers->first_loading.U,
+                     .first_critical_length = answers->first_loading.critical_length / length,
+                     .first_longest = answers->first_loading.longest / length,
+                     .first_mu_error = answers->first_loading.mu.error,
+                     .first_mu_known_to = answers->first_loading.known_to,
+                     .first_precursors = answers->first_loading.precursors,
+                     .later_precursors = answers->later_cycles.precursors,
+                     .later_longest = answers->later_cycles.longest / length,
                      .energy_error = simulation->errors.energy,
                      .moment_error = simulation->errors.moment,
                      .complementarity_error = simulation->errors.complementarity,

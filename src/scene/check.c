@@ -381,6 +381,11 @@ static bool check_output(const Check *check)
                      "pictures are drawn from the history: they need output.history: true");
     if (scene->output.compare[0] && scene->output.figures.count == 0)
         return blame(check, "output.compare", "output.figures names no picture to draw it in");
+    const char *cycle = scene->output.cycle;
+    if (cycle[0] && strcmp(cycle, "first") != 0 && strcmp(cycle, "last") != 0 &&
+        strcmp(cycle, "all") != 0)
+        return blame(check, "output.cycle",
+                     "first, last or all is allowed; amontons render --cycle 3 draws any");
     for (int32_t k = 0; k < scene->output.figures.count; k++) {
         if (strcmp(scene->output.figures.name[k], "field") == 0 && !scene->output.fields)
             return blame(check, "output.figures",

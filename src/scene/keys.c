@@ -377,6 +377,8 @@ static const SceneKey keys[] = {
           .choices = figure_choices),
     WORDS(KEY_TEXT, output.compare, NULL,
           "Measurements (.csv) to be drawn beside it, with the misfit."),
+    WORDS(KEY_TEXT, output.cycle, NULL,
+          "Which cycle pictures show: `first` (the first loading), `last` or `all`."),
 };
 
 #undef KEY

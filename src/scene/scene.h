@@ -143,6 +143,7 @@ typedef struct Scene {
         double film_step;   // no key: between two files of a film, length; 0: by time.until
         bool whole;   // not a key: the whole mesh is wanted by the caller of the library
         SceneNames figures;   // names of PICTURE_FIGURES
+        char cycle[SCENE_TEXT_SIZE];   // that they show; empty: as they choose
         char compare[SCENE_TEXT_SIZE];   // measurements beside them, resolved like mesh.file
     } output;
     bool trusted;   // not a key: its .geo and plug-in may do what they want

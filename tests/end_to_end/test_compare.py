@@ -208,7 +208,7 @@ class Compared(unittest.TestCase):
         self.assertIn("it needs the columns x and y", call(self.folder, "render", "study/hand.yaml", status=2).stderr)
 
     def film(self, name, *words, status=0):
-        done = call(self.folder, "film", "out", "-o", f"{name}/", "--cycle", "--seconds", "30", "--fps", "5", "--size", "640x360",
+        done = call(self.folder, "film", "out", "-o", f"{name}/", "--cycle", "last", "--seconds", "30", "--fps", "5", "--size", "640x360",
                     "--title", "none", *words, status=status)
         return done.stderr if status else [np.asarray(Image.open(path)) for path in sorted((self.folder / name).glob("*.png"))]
 

@@ -263,7 +263,7 @@ class Ends(OfHistory):
         self.refused("from 2 to 100000 frames", options=("--seconds", "0.01"))
         self.refused("U=0.0117 or t=120", options=("--from", "0.1"))
         self.refused("nothing lies between", options=("--from", "t=50", "--to", "t=20"))
-        self.refused("no bulk sliding", options=("--cycle",))
+        self.refused("no bulk sliding", options=("--cycle", "last"))
         self.refused("10, 20, 25 or 50", name="film.gif", options=("--fps", "30"))
         self.refused("there is no field called", "von_mises", options=("--of", "heat"))
         self.refused("no history", result=self.folder)

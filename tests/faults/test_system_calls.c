@@ -122,7 +122,7 @@ static bool report(Error *err)
 {
     char page[PLACE_SIZE + 20];
     snprintf(page, sizeof page, "%s/page.html", place);
-    return amontons_report((const char *const[]){result}, 1, page, true, err);
+    return amontons_report((const char *const[]){result}, 1, page, NULL, true, err);
 }
 
 static bool draw_sweep(Error *err)
@@ -182,7 +182,7 @@ static bool compare(Error *err)
 {
     char page[PLACE_SIZE + 20];
     snprintf(page, sizeof page, "%s/page.html", place);
-    return amontons_report((const char *const[]){result, result}, 2, page, true, err);
+    return amontons_report((const char *const[]){result, result}, 2, page, NULL, true, err);
 }
 
 // --- and how it may end -------------------------------------------------------------------------

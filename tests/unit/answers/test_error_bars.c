@@ -292,3 +292,34 @@ TEST(test_span)
     add(&levels, 0.3, 0.2, NAN);
     assert_near("more", levels_span_left(&levels, ANSWER_MU_M), 1, 0);
 }
+
+// The first sliding is one value a run: the scatter of a single run is part of its bar, however
+// many runs there are. It is there before run-in is over, and nobody asks for its bar.
+TEST(test_first_sliding)
+{
+    Levels levels = {0};
+    begin(&levels, 0.5, 21);
+    for (int32_t k = 0; k < 2; k++) {
+        Answers answers = {.mu_M = {0.3, NAN},
+                           .mu_hold = {0.3, NAN},
+                           .first_loading = {.slid = true, .mu = {k ? 0.36 : 0.34, NAN}},
+                           .regime = {.run_in = RUN_IN_STUCK}};
+        levels_add_run(&levels, 1, 1, &answers, 100);
+    }
+    const ErrorBar *first = levels_answer(&levels, ANSWER_MU_FIRST);
+    double spread = 0.02 / sqrt(2);
+    assert_near("mean", first->value, 0.35, 1e-15);
+    assert_near("branches", first->parts.branches, 2 * spread * sqrt(1 + 0.5), 1e-15);
+    assert_true(isnan(first->parts.mesh) && isnan(first->bar));
+    assert_true(levels.asked != ANSWER_MU_FIRST);
+    begin(&levels, 1, 42);
+    Answers answers = {.first_loading = {.slid = true, .mu = {0.35, NAN}}};
+    levels_add_run(&levels, 1, 1, &answers, 100);
+    first = levels_answer(&levels, ANSWER_MU_FIRST);
+    assert_near("bar", first->bar, hypot(first->parts.mesh, first->parts.branches), 1e-15);
+    assert_true(first->parts.branches > 2 * spread);
+    levels_answer_for(&levels, &answers);
+    assert_near("value", answers.first_loading.mu.value, first->value, 0);
+    assert_near("its error", answers.first_loading.mu.error, first->bar, 0);
+    assert_near("known to", answers.first_loading.known_to, first->bar, 0);
+}

@@ -56,9 +56,11 @@ TEST(test_spans)
     check_span(0, (FilmSpan){0}, 0, 40);
     check_span(0, (FilmSpan){.from = "U=1.1", .to = "t=30"}, 11, 30);
     check_span(0, (FilmSpan){.to = "U=9"}, 0, 40);
-    check_span(3, (FilmSpan){.last_cycle = true}, 12, 22.4);   // 4 % of 2.2 - 1.2 beyond U = 2.2
-    check_span(2, (FilmSpan){.last_cycle = true}, 0, 12.48);   // the first sliding is the last
-    check_span(3, (FilmSpan){.last_cycle = true, .to = "t=21"}, 12, 21);
+    check_span(3, (FilmSpan){.cycle = "last"}, 12, 22.4);   // 4 % of 2.2 - 1.2 beyond U = 2.2
+    check_span(2, (FilmSpan){.cycle = "last"}, 0, 12.48);   // the first sliding is the last
+    check_span(3, (FilmSpan){.cycle = "first"}, 0, 12.48);
+    check_span(3, (FilmSpan){.cycle = "all"}, 0, 40);
+    check_span(3, (FilmSpan){.cycle = "last", .to = "t=21"}, 12, 21);
 }
 
 static void check_refused(int32_t event_count, FilmSpan span, const char *words)
@@ -76,5 +78,6 @@ TEST(test_refused)
     check_refused(0, (FilmSpan){.from = "1.1"}, "U=0.0117 or t=120");
     check_refused(0, (FilmSpan){.from = "t=50"}, "to U = 4, t = 40");
     check_refused(0, (FilmSpan){.from = "t=30", .to = "t=20"}, "nothing lies between");
-    check_refused(0, (FilmSpan){.last_cycle = true}, "no bulk sliding");
+    check_refused(0, (FilmSpan){.cycle = "last"}, "no bulk sliding");
+    check_refused(3, (FilmSpan){.cycle = "7"}, "there is no cycle 7");
 }

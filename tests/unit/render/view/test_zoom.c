@@ -5,6 +5,7 @@
 #include "cases.h"
 
 #include <math.h>
+#include <string.h>
 
 enum { STEPS = 401 };
 
@@ -47,18 +48,81 @@ TEST(periodic_with_precursors_comes_first)
     assert_true(zoom.U_high > 2.0 && zoom.U_high < 2.1);
 }
 
-TEST(periodic_comes_before_precursors)
+// Where no cycle that counts has precursors, the first loading is shown if it has some; without any
+// the last that counts.
+TEST(precursors_come_before_periodic)
 {
-    const ViewEvent events[] = {
-        {VIEW_BOUNDED, 0.8, 0.81, 0}, {VIEW_LEADING, 1.0, 1.01, 0}, {VIEW_LEADING, 3.0, 3.01, 0}};
-    ResultView view = with_events(3, 3);
+    const ViewEvent events[] = {{VIEW_BOUNDED, 0.8, 0.81, 0},
+                                {VIEW_LEADING, 1.0, 1.01, 0},
+                                {VIEW_LEADING, 2.0, 2.01, 0},
+                                {VIEW_LEADING, 3.0, 3.01, 0}};
+    ResultView view = with_events(4, 3);
     view.events = (ViewEvent *)events;
-    assert_true(fabs(zoom_choose(&view).U_slide - 3.0) < 1e-12);   // the peak at 1.0 does not count
+    Zoom zoom = zoom_choose(&view);
+    assert_float_equal(zoom.U_slide, 1.0, 1e-12);
+    assert_string_equal(zoom.words, "first loading");
+    view.events = (ViewEvent *)events + 1;
+    view.event_count = 3;
+    assert_float_equal(zoom_choose(&view).U_slide, 3.0, 1e-12);
+}
+
+// With one or two slidings the run is one of the first loading.
+TEST(few_slidings_show_the_first)
+{
+    const ViewEvent events[] = {{VIEW_LEADING, 1.0, 1.01, 0},
+                                {VIEW_BOUNDED, 1.8, 1.81, 0},
+                                {VIEW_LEADING, 2.0, 2.01, 0},
+                                {VIEW_BOUNDED, 2.5, 2.51, 0}};
+    ResultView view = with_events(4, 3);
+    view.events = (ViewEvent *)events;
+    assert_float_equal(zoom_choose(&view).U_slide, 1.0, 1e-12);
+}
+
+static Zoom asked(ResultView *view, const char *cycle)
+{
+    Error err = {0};
+    assert_true(zoom_choose_cycle(view, cycle, &err));
+    return zoom_choose(view);
+}
+
+TEST(a_cycle_that_is_asked_for)
+{
+    ResultView view = with_events(8, 3);
+    Zoom first = asked(&view, "first");
+    assert_true(first.U_slide == 1.0 && first.U_start == 0 && first.U_stop == 1.01);
+    assert_true(first.cycle == 1 && first.cycles == 3);
+    assert_ptr_equal(zoom_sliding(&view), &three_cycles[1]);
+    Zoom second = asked(&view, "2");
+    assert_true(second.U_slide == 2.0 && second.U_start == 1.01 && second.U_low < 1.7);
+    assert_string_equal(second.words, "cycle 2 of 3");
+    assert_true(asked(&view, "last").U_slide == 3.0);
+    assert_string_equal(asked(&view, "all").words, "all cycles");
+    assert_false(asked(&view, "all").found);
+    assert_null(zoom_sliding(&view));
+}
+
+TEST(a_cycle_that_is_not_there)
+{
+    Error err = {0};
+    ResultView view = with_events(8, 3);
+    assert_false(zoom_choose_cycle(&view, "4", &err));
+    assert_non_null(strstr(err.message, "the block slid 3 times"));
+    err = (Error){0};
+    assert_false(zoom_choose_cycle(&view, "second", &err));
+    assert_non_null(strstr(err.message, "first, last, all"));
+    err = (Error){0};
+    assert_false(zoom_choose_cycle(&view, "", &err));
+    view = saw_tooth();   // one that has not slid is in its first loading
+    for (int32_t k = 0; k < STEPS; ++k) saw_mu[k] = 1e-3 * k;
+    assert_false(asked(&view, "first").found);
+    assert_false(asked(&view, "last").found);
 }
 
 TEST(without_peaks_precursors_decide)
 {
-    ResultView view = with_events(8, 0);
+    ResultView view = with_events(8, 0);   // no cycle counts: the first loading, which has some
+    assert_float_equal(zoom_choose(&view).U_slide, 1.0, 1e-12);
+    view.events = (ViewEvent *)three_cycles + 1;
     assert_float_equal(zoom_choose(&view).U_slide, 2.0, 1e-12);
     view = with_events(2, 0);
     assert_float_equal(zoom_choose(&view).U_slide, 1.0, 1e-12);
@@ -68,7 +132,7 @@ TEST(without_precursors_the_last_of_the_cycle)
 {
     ResultView view = with_events(2, 0);
     view.events = (ViewEvent *)three_cycles + 5;   // the slidings at 2 and 3
-    Zoom zoom = zoom_choose(&view);
+    Zoom zoom = asked(&view, "last");
     assert_float_equal(zoom.U_slide, 3.0, 1e-12);
     assert_true(zoom.U_low > 2.8 && zoom.U_low < 2.9);
 }
