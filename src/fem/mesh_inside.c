@@ -4,6 +4,7 @@
 #include "fem/mesh_inside.h"
 
 #include "base/memory.h"
+#include "fem/mesh_locate.h"
 #include "io/mesh/shape_functions.h"
 
 #include <math.h>
@@ -12,10 +13,6 @@
 // How far outside, over the size of the face: more than rounding of coordinates, and a slit that is
 // so wide open is no fault.
 static const double OUTSIDE = 1e-5;
-// Reference coordinates are exact to this where a point lies on the border of an element.
-static const double REFERENCE_TOLERANCE = 1e-9;
-// Box of an element with bent sides, over that of its nodes.
-static const double BENT_BOX = 0.25;
 
 typedef struct ProbePoint {
     MeshPlace place;
@@ -57,22 +54,6 @@ static ProbePoint point_before(const Mesh *mesh, const MeshFace *face)
     return point;
 }
 
-// Within the reference element: xi, eta, zeta >= 0 and their sum <= 1, or each from -1 to 1.
-static bool is_within(ElementKind kind, const double *at)
-{
-    int32_t dim = element_dim(kind), corners = element_corner_count(kind);
-    int32_t simplex = corners == dim + 1 ? dim : kind == ELEMENT_WEDGE6 ? 2 : 0;
-    double left = 1;
-    for (int32_t d = 0; d < simplex; d++) {
-        if (at[d] < -REFERENCE_TOLERANCE) return false;
-        left -= at[d];
-    }
-    if (left < -REFERENCE_TOLERANCE) return false;
-    for (int32_t d = simplex; d < dim; d++)
-        if (fabs(at[d]) > 1 + REFERENCE_TOLERANCE) return false;
-    return true;
-}
-
 // The first point with x >= low.
 static int32_t first_from(const ProbePoint *points, int32_t count, double low)
 {
@@ -91,20 +72,8 @@ static int32_t first_from(const ProbePoint *points, int32_t count, double low)
 static const ProbePoint *point_inside(const Mesh *mesh, int32_t e, const ProbePoint *points,
                                       int32_t count)
 {
-    ElementKind kind = (ElementKind)mesh->kind[e];
-    MeshPlace position[ELEMENT_NODES_MAX], low, high;
-    int32_t nodes = element_node_count(kind);
-    mesh_places(mesh, mesh->element_nodes + mesh->first_node[e], nodes, position);
-    for (int32_t d = 0; d < mesh->dim; d++) {
-        low[d] = INFINITY, high[d] = -INFINITY;
-        for (int32_t a = 0; a < nodes; a++) {
-            low[d] = fmin(low[d], position[a][d]);
-            high[d] = fmax(high[d], position[a][d]);
-        }
-        double bend = nodes > element_corner_count(kind) ? BENT_BOX * (high[d] - low[d]) : 0;
-        low[d] -= bend;
-        high[d] += bend;
-    }
+    MeshPlace low, high;
+    mesh_element_box(mesh, e, low, high);
     for (int32_t k = first_from(points, count, low[0]); k < count; k++) {
         const ProbePoint *point = &points[k];
         if (point->place[0] > high[0]) break;
@@ -114,9 +83,7 @@ static const ProbePoint *point_inside(const Mesh *mesh, int32_t e, const ProbePo
         for (int32_t d = 1; d < mesh->dim; d++)
             in_box = in_box && point->place[d] >= low[d] && point->place[d] <= high[d];
         MeshPlace at;
-        if (in_box && shape_locate(kind, (const MeshPlace *)position, point->place, at) &&
-            is_within(kind, at))
-            return point;
+        if (in_box && mesh_element_holds(mesh, e, point->place, at)) return point;
     }
     return NULL;
 }

@@ -209,6 +209,26 @@ static Strains strains_at(const NodalStress *stress, int32_t point, const double
     return found;
 }
 
+void nodal_strain_row(const NodalStress *stress, int32_t point, int32_t component, double share,
+                      double *row)
+{
+    int32_t dim = stress->dim, end = stress->row[point] + stress->row_length[point];
+    bool axial = component < dim;
+    for (int32_t k = stress->row[point]; k < end; k++) {
+        double *of_node = row + node_dof(dim, stress->column[k], 0);
+        const double *slope = stress->slope[k];
+        if (axial) {
+            of_node[component] += share * slope[component];
+            for (int32_t d = 0; stress->areal && d < dim; d++)
+                of_node[d] += share * stress->areal[k][d] / dim;
+        } else {
+            int32_t d = SHEAR_AXES[component - dim][0], f = SHEAR_AXES[component - dim][1];
+            of_node[d] += share * slope[f];
+            of_node[f] += share * slope[d];
+        }
+    }
+}
+
 // sqrt(3 J_2) with all three normal stresses; in the plane across is sigma_yy, which counts in
 // plane strain.
 static double von_mises(int32_t dim, const double *stress, double across)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Strains and stresses at the nodes: the mean over the elements around a node. Called by
-// record/field_files and run/static/static_report.
+// record/field_files, record/probes and run/static/static_report.
 #ifndef AMONTONS_FEM_RECOVERY_H
 #define AMONTONS_FEM_RECOVERY_H
 
@@ -33,6 +33,11 @@ const int32_t *nodal_stress_points(const NodalStress *stress, const Mesh *mesh, 
 
 bool nodal_stress_create(const Mesh *mesh, NodalStress *stress, Error *err);
 void nodal_stress_destroy(NodalStress *stress);
+
+// Adds to row [dim * node_count] `share` times the coefficients of the displacements in component
+// `component` of the strain at `point`, a shear as the engineering one.
+void nodal_strain_row(const NodalStress *stress, int32_t point, int32_t component, double share,
+                      double *row);
 
 // displacement, velocity: [dim * node_count]. relaxing: [spectrum->shape_count] likewise, what the
 // materials' branches are stretched by, sum_k g_kj e_k of each shape (fem/spectrum), stress *

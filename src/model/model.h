@@ -10,7 +10,7 @@
 #include "friction/friction.h"
 #include "contact/rod.h"
 #include "io/cache/store.h"
-#include "record/observation.h"
+#include "record/probes.h"
 #include "scene/scene.h"
 
 // Part of the face around the strip's end node that the strip covers.
@@ -51,6 +51,7 @@ typedef struct Model {
     double middle;   // x of its middle, length
     double pressure;   // on the top, load.pressure or that of load.force; stress
     double machine_stiffness;   // force/width over length, in space force over length; 0: rigid
+    ProbePlace probes[SCENE_PROBES_MAX];   // [scene->output.probes.count] where they are
     MeshOrigin mesh_origin;   // where it was read
     ObservationScales scales;   // what forces, times and velocities are measured with
     bool block_is_held;   // by a support: its forces are not known

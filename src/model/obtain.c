@@ -17,6 +17,7 @@
 #include "model/extremes.h"
 #include "model/gaps.h"
 #include "model/memory.h"
+#include "model/probe_places.h"
 #include "model/scene_mesh.h"
 #include "scene/materials.h"
 #include "scene/programs.h"
@@ -32,7 +33,7 @@ static const double REDUCTION_TOLERANCES[] = {
 // Returns true if the scene asks for the inside of the block, not for the interface alone.
 static bool wants_modes(const Scene *scene)
 {
-    return scene->output.fields || scene->output.whole;
+    return scene->output.fields || scene->output.whole || scene->output.probes.count > 0;
 }
 
 // A reduced bulk follows what the interface does: not a load put on at once, nor a velocity that
@@ -252,6 +253,7 @@ static bool prepare(const StageNotice *notice, Model *model, ReductionBlock *blo
     if (notice) watch = (ChildWatch){.goes_on = notice->goes_on, .self = notice->self};
     if (!model_read_mesh(notice ? &watch : NULL, model, err) || !model_lay_bulk(model, err))
         return false;
+    if (!probe_places_find(model->scene, &model->mesh, model->probes, err)) return false;
     if (!check_rod(model, err) || !model_hold_supports(model, err)) return false;
     if (model->is_reduced && !make_block(model, block, name, &parts, err)) return false;
     return check_memory(model, parts, err);

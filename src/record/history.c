@@ -98,7 +98,7 @@ static void fill_pads(const History *history, const Observation *seen, double *c
 }
 
 // row[s]: of each series, as many entries as it has columns: 1, the contact nodes (or their
-// tangents) or the pads.
+// tangents), the pads or the probes.
 static void fill_rows(History *history, const Observation *seen, double *row[RESULT_SERIES_COUNT])
 {
     const ContactArrays *contact = history->contact;
@@ -111,6 +111,14 @@ static void fill_rows(History *history, const Observation *seen, double *row[RES
     }
     fill_numbers(seen, history->end.last);
     fill_pads(history, seen, row);
+    Probes *probes = history->probes;
+    if (probes) {
+        probes_read(probes, seen->state);
+        row[SERIES_PROBE_DISPLACEMENT] = probes->displacement;
+        row[SERIES_PROBE_VELOCITY] = probes->velocity;
+        row[SERIES_PROBE_STRAIN] = probes->strain;
+        row[SERIES_PROBE_STRESS] = probes->stress;
+    }
     row[SERIES_SLIP_RATE] = contact->slip_rate;
     row[SERIES_SLIP] = contact->slip;
     row[SERIES_PRESSURE] = contact->pressure;

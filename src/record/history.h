@@ -7,6 +7,7 @@
 #include "io/hdf5/result_file.h"
 #include "record/contact_arrays.h"
 #include "record/drops.h"
+#include "record/probes.h"
 
 // By which a saved state knows its history again.
 typedef struct HistoryEnd {
@@ -29,6 +30,7 @@ typedef struct History {
     double *pad_rows;   // [series of pads][pad_count] of it; owned
     double *pad_length;   // [pad_count] sum of the nodes' weights; owned
     const ContactArrays *contact;   // of the step under way; not owned
+    Probes *probes;   // read at each step that is recorded; NULL: there are none; not owned
 } History;
 
 // head: numbers and texts of the file; its node arrays are filled here from `interface`.

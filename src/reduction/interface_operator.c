@@ -148,6 +148,13 @@ bool bulk_operator_recover(const BulkOperator *system, int32_t count, const doub
     return true;
 }
 
+bool bulk_operator_project(const BulkOperator *system, const double *full, double *row, Error *err)
+{
+    if (system->reduced) return reduced_bulk_project(system->reduced, full, row, err);
+    memcpy(row, full, (size_t)system->dof_count * sizeof *row);
+    return true;
+}
+
 // The share of inertia in A, normalised as reduction/reduction has it.
 double bulk_operator_error(const BulkOperator *system, OperatorTerms terms)
 {

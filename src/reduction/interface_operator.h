@@ -63,6 +63,10 @@ double bulk_operator_size(const BulkOperator *system, const double *x);
 bool bulk_operator_recover(const BulkOperator *system, int32_t count, const double *const *x,
                            double *const *full, Error *err);
 
+// The transpose: the coefficients of a linear reading of the mesh's displacements, full [dim *
+// nodes], become those of the system's unknowns, row [dof_count].
+bool bulk_operator_project(const BulkOperator *system, const double *full, double *row, Error *err);
+
 // The largest relative error of S that the reduction leaves at these terms; 0: full.
 double bulk_operator_error(const BulkOperator *system, OperatorTerms terms);
 

@@ -106,6 +106,27 @@ cleanup:
     return error_is_clean(err);
 }
 
+// The border and the interior of a part are joined as forces are: by the transpose of what splits
+// motions.
+bool reduced_bulk_project(const ReducedBulk *reduced, const double *full, double *row, Error *err)
+{
+    double *local[REDUCED_PARTS_MAX] = {0}, *field = NULL;
+    for (int p = 0; p < reduced->part_count; p++) {
+        const ReducedPart *part = &reduced->part[p];
+        memory_free(field);
+        TRY((field = NEW_ARRAY(double, part->full_dofs, err)));
+        TRY((local[p] = NEW_ARRAY(double, part->count, err)));
+        transform_apply_transposed(&part->mesh, full, field);
+        dense_apply_transposed((DenseView){part->modes, part->full_dofs, part->count}, field, 1, 0,
+                               local[p]);
+    }
+    reduced_bulk_join(reduced, (const double *const *)local, row);
+cleanup:
+    memory_free(field);
+    memory_free_list((void *const *)local, REDUCED_PARTS_MAX);
+    return error_is_clean(err);
+}
+
 // Between two levels the error is not measured; it stays below the larger of theirs, or little
 // above (a test asks at random: 1.2 times as large, of two materials).
 static const double BETWEEN = 1.5;

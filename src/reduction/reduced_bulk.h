@@ -98,6 +98,10 @@ double reduced_bulk_error(const ReducedBulk *reduced, double inertia);
 bool reduced_bulk_recover(const ReducedBulk *reduced, int32_t count, const double *const *states,
                           double *const *full, Error *err);
 
+// The transpose of that, modes' * full: forces on the mesh, or the coefficients of a linear reading
+// of its motion, become those of the state. row [count]. The modes must be at hand.
+bool reduced_bulk_project(const ReducedBulk *reduced, const double *full, double *row, Error *err);
+
 // Motions or forces x [count] into those of the parts, local[p] = [z; q], and back.
 void reduced_bulk_split(const ReducedBulk *reduced, const double *x, double *const *local);
 void reduced_bulk_join(const ReducedBulk *reduced, const double *const *local, double *x);

@@ -68,6 +68,23 @@ static const char *state_names(const Scene *scene, int32_t count, char *names, s
     return friction_state_unit(&scene->friction);
 }
 
+// Names and places of the probes into the head. names: a line each; places: [SCENE_PROBES_MAX *
+// DIM_MAX].
+static void add_probes(const Scene *scene, int32_t dim, char *names, double *places,
+                       ResultHead *head)
+{
+    const SceneProbes *probes = &scene->output.probes;
+    int32_t used = 0;
+    for (int32_t k = 0; k < probes->count; k++) {
+        used += snprintf(names + used, GROUP_NAME_SIZE + 1, "%s%s", k > 0 ? "\n" : "",
+                         probes->probe[k].name);
+        memcpy(places + (int64_t)k * dim, probes->probe[k].at.value, (size_t)dim * sizeof *places);
+    }
+    head->probes = probes->count;
+    head->probe_names = names;
+    head->probe_places = places;
+}
+
 // mu_M and l_c are NaN in the head: they are known at the end only.
 static bool open_history(Simulation *simulation, Error *err)
 {
@@ -114,13 +131,19 @@ static bool open_history(Simulation *simulation, Error *err)
         head.numbers[NUMBER_ROD_HIGH] = scene->rod.whole ? face[1] : middle + 0.5 * width;
         if (scene->rod.breadth > 0) head.numbers[NUMBER_ROD_BREADTH] = scene->rod.breadth;
     }
+    char probe_names[SCENE_PROBES_MAX * (GROUP_NAME_SIZE + 1)];
+    double probe_places[SCENE_PROBES_MAX * DIM_MAX];
+    add_probes(scene, model->mesh.dim, probe_names, probe_places, &head);
     double *points = NULL;
     char *pads = join_pad_names(&simulation->model.interface, err);
     head.pads = pads;
     TRY(error_is_clean(err));
+    TRY(probes_create(model->probes, head.probes, &model->mesh, &model->system,
+                      model->materials.list, &model->bulk.spectrum, &simulation->probes, err));
     TRY(add_faces(&model->interface.faces, &head, &points, err));
     TRY(history_create(simulation->folder.path, &head, &simulation->model.interface,
                        &simulation->contact, &simulation->history, err));
+    if (head.probes > 0) simulation->history.probes = &simulation->probes;
 cleanup:
     memory_free_all(points, pads);
     return error_is_clean(err);

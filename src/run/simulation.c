@@ -432,6 +432,7 @@ void amontons_simulation_destroy(Simulation *simulation)
     if (!simulation) return;
     fields_destroy(&simulation->fields);
     history_destroy(&simulation->history);
+    probes_destroy(&simulation->probes);
     contact_arrays_destroy(&simulation->contact);
     pads_destroy(&simulation->pads);
     drops_destroy(&simulation->drops);

@@ -58,6 +58,7 @@ struct Simulation {
     Turning turning;
     ProgramReadings readings;   // empty where the rod never jumps
     History history;
+    Probes probes;   // read by it
     Fields fields;
     Recorders recorders;
     Window window;   // part of the run that is written; one of the recorders where it is given

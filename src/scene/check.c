@@ -379,6 +379,9 @@ static bool check_output(const Check *check)
     if (scene->output.figures.count > 0 && !scene->output.history)
         return blame(check, "output.figures",
                      "pictures are drawn from the history: they need output.history: true");
+    if (scene->output.probes.count > 0 && !scene->output.history)
+        return blame(check, "output.probes",
+                     "what probes read stands in the history: they need output.history: true");
     if (scene->output.compare[0] && scene->output.figures.count == 0)
         return blame(check, "output.compare", "output.figures names no picture to draw it in");
     const char *cycle = scene->output.cycle;

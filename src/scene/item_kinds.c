@@ -3,6 +3,7 @@
 #include "scene/keys.h"
 
 static const SceneKey STRESS = {.type = KEY_NUMBER, .unit = "stress", .must_be_given = true};
+static const SceneKey PLACE = {.type = KEY_NUMBERS, .unit = "length"};
 static const SceneKey FORMULA = {.type = KEY_TEXT};
 static const SceneKey DIRECTION = {
     .type = KEY_CHOICE, .choices = (const char *const[]){"x", "y", "z", "both", "all", NULL}};
@@ -81,3 +82,13 @@ const SceneItems scene_material_items = {
     .allowed = "a map of at most 16 maps, as in {pads: {young: 0.01, eta1: 0.1}}",
     .item = "for a region of that name, {young: 0.01, eta1: 0.1}",
     .parts = MATERIAL};
+
+static const ScenePart PROBE[] = {
+    OWN(SceneProbe, at, &PLACE, .must = true, .given = offsetof(SceneProbe, has_place)), {0}};
+const SceneItems scene_probe_items = {
+    ITEMS(name, output.probes.count, output.probes.probe),
+    .named = true,
+    .noun = "a probe",
+    .allowed = "a map of at most 32 maps, as in {gauge1: {at: [0.3, 0.05]}}",
+    .item = "{at: [x, z]}",
+    .parts = PROBE};

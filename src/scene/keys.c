@@ -373,6 +373,11 @@ static const SceneKey keys[] = {
           "`2 slidings`: from the end of the one before them to the end of the run."),
     WORDS(KEY_FLAG, output.window.history, NULL,
           "true: history.h5 has the steps of the window only; else all."),
+    KEY("output.probes", KEY_ITEMS, output.probes.count, "length", RANGE_ANY, NULL,
+        "Points inside the block (or its base) at which displacement, velocity, strain and stress "
+        "are read at every step, as by a strain gauge: a map of names, each with `at`: [x, z], in "
+        "space [x, y, z].",
+        .items = &scene_probe_items),
     WORDS(KEY_NAMES, output.figures, "[]", "The pictures to draw at the end.",
           .choices = figure_choices),
     WORDS(KEY_TEXT, output.compare, NULL,

@@ -83,7 +83,7 @@ struct SceneItems {
     const ScenePart *parts;   // ended by one without a word
 };
 extern const SceneItems scene_traction_items, scene_support_items, scene_contact_items,
-    scene_state_items, scene_material_items;
+    scene_state_items, scene_material_items, scene_probe_items;
 
 static inline bool scene_key_may_lack(const SceneKey *key)
 {

@@ -140,6 +140,7 @@ typedef struct Scene {
         double fields_every_U, fields_every_t;
         bool fields_every_step, fields_at_events, fields_film;
         SceneWindow window;
+        SceneProbes probes;   // points inside the bodies
         double film_step;   // no key: between two files of a film, length; 0: by time.until
         bool whole;   // not a key: the whole mesh is wanted by the caller of the library
         SceneNames figures;   // names of PICTURE_FIGURES

@@ -12,7 +12,8 @@ enum {
     SCENE_NUMBERS_MAX = 64,
     SCENE_CONTACT_LAWS_MAX = 16,
     SCENE_MATERIALS_MAX = 16,
-    SCENE_BRANCHES_MAX = 20
+    SCENE_BRANCHES_MAX = 20,
+    SCENE_PROBES_MAX = 32
 };
 
 typedef enum SceneAnswer { ANSWER_OF_M, ANSWER_OF_HOLD } SceneAnswer;
@@ -39,6 +40,18 @@ typedef struct SceneWindow {
     char around[SCENE_TEXT_SIZE], last[SCENE_TEXT_SIZE];   // "sliding 3", "2 slidings"
     bool history;   // it, too, is written in the window alone
 } SceneWindow;
+
+// A point inside a body that is watched: an entry of output.probes.
+typedef struct SceneProbe {
+    char name[GROUP_NAME_SIZE];
+    bool has_place;
+    SceneNumbers at;   // [dim], length
+} SceneProbe;
+
+typedef struct SceneProbes {
+    int32_t count;
+    SceneProbe probe[SCENE_PROBES_MAX];
+} SceneProbes;
 
 typedef struct SceneTraction {
     char group[GROUP_NAME_SIZE];

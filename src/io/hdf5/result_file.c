@@ -12,7 +12,7 @@
 
 enum { FORMAT_VECTORS = 2 };   // the latest; 1 says nothing of itself
 
-// Row of any of the five tables.
+// Row of any of the six tables.
 typedef struct ResultRow {
     const char *name;   // in the file, with its folder
     ArrayType type;   // as stored; attributes are always doubles
@@ -37,6 +37,12 @@ static const ResultRow nodes_rows[] = {
 static const ResultRow faces_rows[] = {
 #define X(symbol, name, type, unit, description) {name, type, COLUMNS_ONE, unit, description},
     RESULT_FACES(X)
+#undef X
+};
+
+static const ResultRow probes_rows[] = {
+#define X(symbol, name, type, unit, description) {name, type, COLUMNS_ONE, unit, description},
+    RESULT_PROBES(X)
 #undef X
 };
 
@@ -76,6 +82,7 @@ bool result_series_written(const ResultHead *head, ResultSeries series)
 {
     if (series == SERIES_ROD_WAY) return head->rod_on_spring;
     if (series == SERIES_STATE) return head->states > 0;
+    if (result_series_columns(series) == COLUMNS_PROBES) return head->probes > 0;
     bool across = series == SERIES_PAD_SHEAR_ACROSS || series == SERIES_PAD_SLIP_ACROSS;
     return !across || head->tangents > 1;
 }
@@ -111,6 +118,10 @@ static int32_t row_components(const ResultRow *row, const ResultHead *head)
     static const ResultSeries vectors[] = {SERIES_SLIP_RATE, SERIES_SLIP, SERIES_SHEAR};
     for (size_t k = 0; k < sizeof vectors / sizeof vectors[0]; k++)
         if (row == &series_rows[vectors[k]] && head->tangents > 1) return head->tangents;
+    int32_t dim = head->tangents > 1 ? 3 : 2;
+    if (row == &series_rows[SERIES_PROBE_STRAIN] || row == &series_rows[SERIES_PROBE_STRESS])
+        return dim * (dim + 1) / 2;
+    if (row->columns == COLUMNS_PROBES) return dim;
     return row == &series_rows[SERIES_STATE] && head->states > 1 ? head->states : 1;
 }
 
@@ -123,8 +134,9 @@ static bool add_row(ArrayFile *file, const ResultRow *row, int32_t width, const 
     const char *unit = space ? unit_in_space(row) : row->unit;
     if (states && head->state_unit) unit = head->state_unit;
     int32_t components = row_components(row, head);
+    bool probes = row->columns == COLUMNS_PROBES;
     const char *more = states ? "; then the next state" : "; then the same along y";
-    snprintf(words, sizeof words, "%s%s", row->description, components > 1 ? more : "");
+    snprintf(words, sizeof words, "%s%s", row->description, components > 1 && !probes ? more : "");
     ArraySeries series = {
         .name = row->name, .type = row->type, .width = width, .unit = unit, .description = words};
     return array_file_add_vectors(file, &series, components, err);
@@ -144,6 +156,8 @@ static bool write_attributes(ArrayFile *file, const ResultHead *head, Error *err
         return false;
     if (head->state_unit && head->states > 0 &&
         !array_file_set_text(file, "state_unit", head->state_unit, err))
+        return false;
+    if (head->probes > 0 && !array_file_set_text(file, "probes", head->probe_names, err))
         return false;
     if (head->tangents > 1 &&
         !array_file_set_number(file, number_rows[NUMBER_FORMAT].name, FORMAT_VECTORS, err))
@@ -166,6 +180,8 @@ static int32_t series_width(const ResultHead *head, ResultSeries series)
         for (int32_t i = 0; i < head->contact_count; i++)
             if (head->nodes[NODES_PAD][i] > last) last = head->nodes[NODES_PAD][i];
         return (int32_t)last + 1;
+    case COLUMNS_PROBES:
+        return head->probes * row_components(&series_rows[series], head);
     default:
         return 1;
     }
@@ -191,6 +207,11 @@ ArrayFile *result_file_create(const char *folder, const ResultHead *head, Error 
         TRY(add_row(file, &faces_rows[k], head->faces[k].width, &flat, err));
         TRY(array_file_append(file, faces_rows[k].name, head->faces[k].values, head->faces[k].rows,
                               err));
+    }
+    if (head->probes > 0) {
+        const ResultRow *row = &probes_rows[PROBES_AT];
+        TRY(add_row(file, row, head->tangents > 1 ? 3 : 2, &flat, err));
+        TRY(array_file_append(file, row->name, head->probe_places, head->probes, err));
     }
     for (int32_t k = 0; k < RESULT_SERIES_COUNT; k++) {
         if (!result_series_written(head, (ResultSeries)k)) continue;

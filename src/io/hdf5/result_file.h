@@ -31,6 +31,9 @@ struct ResultHead {
     int32_t states;   // of a contact node, in SERIES_STATE; 0: there is none
     const char *state_names;   // a line each; NULL or empty: without names
     const char *state_unit;   // "time", "1" or "its own"; NULL: not known
+    int32_t probes;   // 0: there are none
+    const char *probe_names;   // a line each; NULL: there are none
+    const double *probe_places;   // [probes * (tangents + 1)] length
     int32_t contact_count;
     int32_t tangents;   // directions of slip: 0 or 1 in the plane, 2 in space
     const double *nodes[RESULT_NODES_COUNT];

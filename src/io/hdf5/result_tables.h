@@ -8,7 +8,8 @@
 typedef enum ResultColumns {
     COLUMNS_ONE,
     COLUMNS_NODES,   // one a contact node, by x
-    COLUMNS_PADS   // one a pad: nodes/pad numbers them
+    COLUMNS_PADS,   // one a pad: nodes/pad numbers them
+    COLUMNS_PROBES   // several a probe, in the order of the attribute `probes`
 } ResultColumns;
 
 // Rows are accepted steps: the state at the END of the step, row 0 the start. In space slip_rate,
@@ -55,7 +56,15 @@ typedef enum ResultColumns {
       "mean of interface/slip along the drive")                                                    \
     X(SERIES_PAD_SLIP_ACROSS, "pads/slip_across", ARRAY_FLOAT64, PADS, "length",                   \
       "the same across the drive; in space only")                                                  \
-    X(SERIES_PAD_SLIPPING, "pads/slipping", ARRAY_FLOAT64, PADS, "length", "how much of it slips")
+    X(SERIES_PAD_SLIPPING, "pads/slipping", ARRAY_FLOAT64, PADS, "length", "how much of it slips") \
+    X(SERIES_PROBE_DISPLACEMENT, "probes/displacement", ARRAY_FLOAT64, PROBES, "length",           \
+      "u_x, u_z of each probe of the scene, in space u_x, u_y, u_z; absent without probes")        \
+    X(SERIES_PROBE_VELOCITY, "probes/velocity", ARRAY_FLOAT64, PROBES, "velocity",                 \
+      "the same of velocities")                                                                    \
+    X(SERIES_PROBE_STRAIN, "probes/strain", ARRAY_FLOAT64, PROBES, "1",                            \
+      "xx, zz, xz of each probe, in space xx, yy, zz, xy, yz, xz; xz is half the shear angle")     \
+    X(SERIES_PROBE_STRESS, "probes/stress", ARRAY_FLOAT64, PROBES, "stress",                       \
+      "the same of stresses, elastic and viscous")
 
 // Fixed arrays over contact nodes, ordered by x. X(symbol, name, stored type, unit, description)
 #define RESULT_NODES(X)                                                                            \
@@ -74,6 +83,11 @@ typedef enum ResultColumns {
       "more")                                                                                      \
     X(FACES_CORNERS, "faces/corners", ARRAY_FLOAT64, "length",                                     \
       "x and y of corners that touch nothing, as those of TET10; absent: none")
+
+// Places of the probes, where there are any. X(symbol, name, stored type, unit, description)
+#define RESULT_PROBES(X)                                                                           \
+    X(PROBES_AT, "probes/at", ARRAY_FLOAT64, "length",                                             \
+      "x and z of each probe in the undeformed block, in space x, y, z; absent without probes")
 
 // Tables known at the end of a run (absent in a killed one). X(symbol, name, unit, description)
 #define RESULT_TABLES(X)                                                                           \
@@ -94,7 +108,7 @@ typedef enum ResultColumns {
       "mean speed of the front along the contact; nan: none")
 
 // Attributes of the file's root. Texts: title, units ("normalised" or "si"), version, pads (their
-// names, a line each), states (likewise), state_unit, warnings (absent: none).
+// names, a line each), states and probes (likewise), state_unit, warnings (absent: none).
 // X(symbol, name, unit, description)
 #define RESULT_NUMBERS(X)                                                                          \
     X(NUMBER_FORMAT, "format", "1",                                                                \
@@ -140,6 +154,12 @@ typedef enum ResultFaces {
     RESULT_FACES(X) RESULT_FACES_COUNT
 #undef X
 } ResultFaces;
+
+typedef enum ResultProbes {
+#define X(symbol, name, type, unit, description) symbol,
+    RESULT_PROBES(X) RESULT_PROBES_COUNT
+#undef X
+} ResultProbes;
 
 typedef enum ResultTable {
 #define X(symbol, name, unit, description) symbol,

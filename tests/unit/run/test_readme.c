@@ -103,8 +103,10 @@ static void put_array(FILE *out, const char *name, const char *shape, const char
 
 static void write_history_table(FILE *out)
 {
-    static const char *const shapes[] = {
-        [COLUMNS_ONE] = "steps", [COLUMNS_NODES] = "steps, nodes", [COLUMNS_PADS] = "steps, pads"};
+    static const char *const shapes[] = {[COLUMNS_ONE] = "steps",
+                                         [COLUMNS_NODES] = "steps, nodes",
+                                         [COLUMNS_PADS] = "steps, pads",
+                                         [COLUMNS_PROBES] = "steps, probes, components"};
     fputs("| array | shape | type | unit | what it holds |\n|---|---|---|---|---|\n", out);
 #define X(symbol, name, type, columns, unit, words)                                                \
     put_array(out, name, shapes[COLUMNS_##columns], #type, (const char *[]){unit, words});
@@ -118,6 +120,10 @@ static void write_history_table(FILE *out)
     put_array(out, name, strcmp(name, "faces/nodes") == 0 ? "faces, points" : "corners, 2", #type, \
               (const char *[]){unit, words});
     RESULT_FACES(X)
+#undef X
+#define X(symbol, name, type, unit, words)                                                         \
+    put_array(out, name, "probes, axes", #type, (const char *[]){unit, words});
+    RESULT_PROBES(X)
 #undef X
 #define X(symbol, name, unit, words)                                                               \
     put_array(out, name, strncmp(name, "peaks/", 6) == 0 ? "peaks" : "events", "ARRAY_FLOAT64",    \
@@ -133,6 +139,7 @@ static void write_history_table(FILE *out)
         "| `states` | text | names of what friction remembers, a line each: theta, phi, one's own; "
         "absent: nothing |\n"
         "| `state_unit` | text | time (theta), 1 (phi) or its own (a formula's, a plug-in's) |\n"
+        "| `probes` | text | names of the probes, a line each; absent: there are none |\n"
         "| `warnings` | text | what the run was warned of, a line each; absent: of nothing |\n",
         out);
 #define X(symbol, name, unit, words) put_row(out, 3, (const char *[]){"`" name "`", unit, words});
