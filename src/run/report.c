@@ -220,6 +220,28 @@ static void write_errors(JsonWriter *json, const RunErrors *errors)
                    {"equation", errors->equation}, {"reduction", errors->reduction});
 }
 
+// Where the work since the rod's start went, per width in the plane; nothing of a run that failed
+// before there was a block to step.
+static void write_energy(JsonWriter *json, const Simulation *simulation)
+{
+    const EnergyLedger *ledger = &simulation->control.ledger;
+    const BulkOperator *system = &simulation->model.system;
+    const Spectrum *spectrum = bulk_operator_spectrum(system);
+    if (system->dof_count == 0) return;
+    json_begin_object(json, "energy");
+    json_numbers_of(json, {"rod_work", ledger->rod_work}, {"load_work", ledger->load_work},
+                    {"viscous", ledger->viscous}, {"frictional", ledger->frictional},
+                    {"elastic", ledger->elastic}, {"kinetic", ledger->kinetic},
+                    {"stored_at_start", ledger->stored_at_start});
+    json_begin_list(json, "branches");
+    for (int32_t k = 0; k < spectrum->count; k++)
+        json_object_of(json, NULL, {"time", spectrum->time[k]},
+                       {"stored", ledger->branch[k].stored},
+                       {"dissipated", ledger->branch[k].dissipated});
+    json_end(json);
+    json_end(json);
+}
+
 // report->failure NULL: the run ended as it should.
 static void write_all(JsonWriter *json, const char *folder, const RunReport *report)
 {
@@ -246,6 +268,7 @@ static void write_all(JsonWriter *json, const char *folder, const RunReport *rep
     write_base(json, simulation);
     write_results(json, report);
     if (simulation->levels) levels_write_json(simulation->levels, json);
+    write_energy(json, simulation);
     write_errors(json, &simulation->errors);
     json_end(json);
 }

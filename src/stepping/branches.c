@@ -68,12 +68,13 @@ static void add_up_images(const Branches *branches, int32_t k, double *restrict 
 
 double branches_end_stage(Branches *branches, const Tableau *tableau, double step, int32_t i,
                           const double *restrict velocity, const double *elastic, State *to,
-                          double *restrict force)
+                          double *restrict force, double *dissipated)
 {
     const BulkOperator *system = branches->system;
     const Spectrum *spectrum = branches->spectrum;
     int32_t dofs = system->dof_count;
     double scaled = tableau->gamma * step, power = 0;
+    double weight = step * tableau->a[tableau->stages - 1][i];
     bool last = i + 1 == tableau->stages;
     for (int32_t j = 0; j < spectrum->shape_count; j++) {
         double *image = branches->image + (int64_t)j * dofs;
@@ -92,7 +93,9 @@ double branches_end_stage(Branches *branches, const Tableau *tableau, double ste
             stretch[d] = left * (stretch[d] + scaled * velocity[d]);
             pull[d] = left * (pull[d] + scaled * image[d]);
         }
-        power += rate * dense_dot(stretch, pull, dofs);
+        double own = rate * dense_dot(stretch, pull, dofs);
+        power += own;
+        dissipated[k] += weight * own;
         if (last) continue;
         double *restrict stretch_rate = branches->stretch_rate + rate_at(branches, i, k);
         double *restrict pull_rate = branches->pull_rate + rate_at(branches, i, k);

@@ -11,6 +11,8 @@ void energy_store(const State *state, EnergyLedger *ledger)
 {
     ledger->kinetic = 0.5 * dense_dot(state->velocity, state->momentum, state->dof_count);
     ledger->elastic = state_elastic_energy(state);
+    for (int32_t k = 0; k < state->branch_count; k++)
+        ledger->branch[k].stored = state_branch_energy(state, k);
 }
 
 // Opens a ledger: the energy stored now counts as given; works begin at 0.
@@ -56,4 +58,6 @@ void energy_archive(EnergyLedger *ledger, Archive *archive)
     archive_numbers_of(archive, &ledger->rod_work, &ledger->load_work, &ledger->viscous,
                        &ledger->frictional, &ledger->elastic, &ledger->kinetic,
                        &ledger->stored_at_start);
+    for (int32_t k = 0; k < SPECTRUM_TIMES_MAX; k++)
+        archive_numbers_of(archive, &ledger->branch[k].stored, &ledger->branch[k].dissipated);
 }

@@ -9,6 +9,12 @@
 
 #include "stepping/state.h"
 
+// Of the branches of one relaxation time (fem/spectrum), a part of `elastic` and of `viscous`.
+typedef struct BranchEnergy {
+    double stored;   // now, in their springs
+    double dissipated;   // in their dashpots, >= 0
+} BranchEnergy;
+
 typedef struct EnergyLedger {
     double rod_work;   // by the rod on the block
     double load_work;   // by pressure and tractions
@@ -17,6 +23,7 @@ typedef struct EnergyLedger {
     double elastic;   // stored now, in branches, too
     double kinetic;   // now
     double stored_at_start;   // elastic + kinetic when the ledger was opened
+    BranchEnergy branch[SPECTRUM_TIMES_MAX];   // of each relaxation time
 } EnergyLedger;
 
 EnergyLedger energy_open(const State *state);

@@ -93,8 +93,9 @@ static void add_up_pulls(ExplicitReference *scheme, const State *state)
             sum[d] += state->pull[(int64_t)k * state->dof_count + d];
 }
 
-// Branches at t_n+1 by the velocities v' of the step; returns the power that they dissipate.
-static double advance_branches(ExplicitReference *scheme, State *state)
+// Branches at t_n+1 by the velocities v' of the step; returns the power that they dissipate, and
+// adds their energies to the ledger's.
+static double advance_branches(ExplicitReference *scheme, State *state, EnergyLedger *ledger)
 {
     const Bulk *bulk = scheme->def.bulk;
     const Spectrum *spectrum = &bulk->spectrum;
@@ -125,6 +126,7 @@ static double advance_branches(ExplicitReference *scheme, State *state)
             sum += 0.25 * (before + stretch[d]) * (pulled + pull[d]);
         }
         power += sum / spectrum->time[k];
+        ledger->branch[k].dissipated += step * sum / spectrum->time[k];
     }
     return power;
 }
@@ -404,7 +406,7 @@ static void advance_once(ExplicitReference *scheme, State *state, EnergyLedger *
     lead_rod(scheme, end);
     for (int32_t j = 0; j < interface->rod_count; j++)
         pushed += resolve_rod(scheme, j, state, &frictional);
-    viscous += advance_branches(scheme, state);
+    viscous += advance_branches(scheme, state, ledger);
     ledger->viscous += step * viscous;
     ledger->frictional += step * frictional;
     ledger->rod_work += step * pushed;

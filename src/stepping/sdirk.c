@@ -209,7 +209,7 @@ static bool solve_stage(Sdirk *scheme, int32_t k, int32_t i, const State *from, 
     for (int32_t c = 0; c < count; c++) scheme->viscous[interface_dofs[c]] += contact.reaction[c];
 
     double relaxed = branches_end_stage(&scheme->branches, tableau, step, i, velocity, elastic, to,
-                                        scheme->viscous);
+                                        scheme->viscous, outcome->relaxed);
 
     // Powers. The load's work beyond that of the load as it was goes by stages.
     if (scheme->course)
@@ -284,6 +284,8 @@ void sdirk_add_energy(const Sdirk *scheme, const StepOutcome *outcome, double st
         ledger->frictional += weight * outcome->power[i].frictional;
     }
     ledger->load_work += outcome->load_work;
+    for (int32_t k = 0; k < scheme->branches.spectrum->count; k++)
+        ledger->branch[k].dissipated += outcome->relaxed[k];
 }
 
 void sdirk_archive(Sdirk *scheme, Archive *archive)

@@ -59,6 +59,7 @@ typedef struct StepOutcome {
         // every 32nd step is looked at, the others say 0
     StagePower power[TABLEAU_STAGES_MAX];   // of the stages
     double load_work;   // of the step
+    double relaxed[SPECTRUM_TIMES_MAX];   // by branches of each relaxation time, energy
 } StepOutcome;
 
 // Sets the levels' gamma, before the first of them is built.

@@ -66,13 +66,16 @@ void state_copy(const State *from, State *to)
     memcpy(to->rod_touches, from->rod_touches, (size_t)from->rod_count);
 }
 
+double state_branch_energy(const State *state, int32_t k)
+{
+    int64_t at = (int64_t)k * state->dof_count;
+    return 0.5 * dense_dot(state->stretch + at, state->pull + at, state->dof_count);
+}
+
 double state_elastic_energy(const State *state)
 {
     double energy = 0.5 * dense_dot(state->displacement, state->elastic_force, state->dof_count);
-    for (int32_t k = 0; k < state->branch_count; k++) {
-        int64_t at = (int64_t)k * state->dof_count;
-        energy += 0.5 * dense_dot(state->stretch + at, state->pull + at, state->dof_count);
-    }
+    for (int32_t k = 0; k < state->branch_count; k++) energy += state_branch_energy(state, k);
     return energy;
 }
 

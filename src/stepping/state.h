@@ -42,7 +42,8 @@ typedef struct State {
 // At rest and undeformed: u = v = 0, every contact node sticking, every rod node apart.
 bool state_create(const BulkOperator *system, const Interface *interface, State *state, Error *err);
 void state_destroy(State *state);
-// The energy of all springs: u'K u/2, and e_k'K_k e_k/2 of each branch.
+double state_branch_energy(const State *state, int32_t k);   // e_k'K_k e_k/2
+// The energy of all springs: u'K u/2, and that of each branch.
 double state_elastic_energy(const State *state);
 void state_copy(const State *from, State *to);   // of the same sizes
 

@@ -133,6 +133,23 @@ class Relaxation(OwnCache):
             self.assertLess(abs(measured.real / exact.real - 1), 1e-4)
             self.assertLess(abs(measured.imag / exact.imag - 1), 1e-4)
 
+    def test_energies(self):
+        """A pressure put on at once: its work is that of creep, and run.json says which branch stores and dissipates it."""
+        here = ["material.plane=strain", "start.state=undeformed"]
+        made, _ = self.run_scene(FREE, "energy", *here)
+        energy, branches = made["energy"], made["energy"]["branches"]
+        shear, areal = (step_response(4, lambda s, k=k: moduli(s, "strain")[k])[0] for k in (0, 1))
+        work = PRESSURE**2 * (areal + shear) / 2 * 0.5   # pressure times shortening times area
+        self.assertAlmostEqual(energy["load_work"] / work, 1, delta=1e-3)
+        self.assertAlmostEqual((energy["elastic"] + energy["viscous"]) / work, 1, delta=2e-3)
+        self.assertEqual([branch["time"] for branch in branches], [time for time, _, _ in BRANCHES])
+        self.assertLess(sum(branch["dissipated"] for branch in branches), energy["viscous"])
+        self.assertLess(sum(branch["stored"] for branch in branches), energy["elastic"])
+        explicit, _ = self.run_scene(FREE, "explicit", *here, "time.scheme=explicit", "material.density=1e-4")
+        for ours, theirs in zip(branches, explicit["energy"]["branches"]):
+            self.assertGreater(ours["stored"], 0)
+            self.assertAlmostEqual(ours["dissipated"] / theirs["dissipated"], 1, delta=1e-2)
+
     def test_reduced(self):
         """Both ways of stepping, of one material and of two, before slip has taken branches of its own."""
         for name, scene in (("block", BLOCK), ("pads", PADS)):

@@ -109,9 +109,12 @@ def compare_in_space(study, case, mesh_name, parameters, order):
 
 def steps(study, order, case="step"):
     """Four viscoelastic steps with M, C and K: displacement and velocity; `layers_step` with two
-    materials, `space_step` in space. Loads come at once and the steps are long on purpose: the ledger shows their
+    materials, `space_step` in space, `rubber_step` and `rubber_layer_step` with a branch that relaxes. Loads come at once and the steps are long on purpose: the ledger shows their
     truncation, 1.7 %."""
-    geo, parameters = {"step": ("block", REGULAR), "layers_step": ("layers", LAYERS), "space_step": ("block3d", SPACE)}[case]
+    geo, parameters, where = {"step": ("block", REGULAR, ""), "layers_step": ("layers", LAYERS, " on a layer"),
+                              "space_step": ("block3d", SPACE, " in space"),
+                              "rubber_step": ("block", REGULAR, " with a branch"),
+                              "rubber_layer_step": ("layers", LAYERS, " on a layer with a branch")}[case]
     folder = study.new_folder(f"freefem-{case}")
     folder.mkdir()
     curves = make_mesh(folder / "linear.msh", geo, parameters)
@@ -120,11 +123,10 @@ def steps(study, order, case="step"):
                      folder / "nodes.txt")
     run = Run(study, FREEFEM / f"{case}.yaml", case,
               {"mesh.file": folder / "ours.msh", "mesh.set": "{}"},
-              ledger=0.2 if case == "layers_step" else 2e-2)
+              ledger=0.2 if geo == "layers" else 2e-2)
     time, points, u, v = list(run.frames())[-1]
     dim = points.shape[1]
     theirs = theirs[match(points, theirs[:, :dim])]
-    where = {"step": "", "layers_step": " on a layer", "space_step": " in space"}[case]
     element = ("T3", "T6") if dim == 2 else ("TET4", "TET10")
     label = f"4 viscoelastic steps{where}, {element[order - 1]}"
     for name, mine, yours in (("displacement", u, theirs[:, dim:2 * dim]), ("velocity", v, theirs[:, 2 * dim:])):
@@ -179,7 +181,10 @@ def controls(study):
             ("smoothed-stick", "friction smoothed over 1e-7 of slip, nothing sticks", contact("friction")),
             ("glued-contact", "nodes in contact pull", contact("uplift")),
             ("viscous-sign", "wrong sign of the viscous coupling of xx and zz", lambda s: steps(s, 1)),
-            ("shear-viscosity", "eta1 in place of eta1/2 in shear", lambda s: steps(s, 1))):
+            ("shear-viscosity", "eta1 in place of eta1/2 in shear", lambda s: steps(s, 1)),
+            ("branch-beside", "a branch of the layer is in the block", lambda s: steps(s, 1, "rubber_layer_step")),
+            ("branch-late", "stretches of a second stage begin where the step did", lambda s: steps(s, 1, "rubber_step")),
+            ("branch-energy", "what branches store is not in the ledger", lambda s: steps(s, 1, "rubber_step"))):
         study.control(GROUP, mistake, broken, compute)
 
 
@@ -194,9 +199,8 @@ def run(study):
             for order in (1, 2):
                 compare(study, case, geo, name, order)
     for order in (1, 2):
-        steps(study, order)
-        steps(study, order, "layers_step")
-        steps(study, order, "space_step")
+        for case in ("step", "layers_step", "space_step", "rubber_step", "rubber_layer_step"):
+            steps(study, order, case)
         for case in ("space_bonded", "space_uplift"):
             compare_in_space(study, case, "regular", SPACE, order)
             if not study.quick:

@@ -68,7 +68,10 @@
     X(MISTAKE_STATES_ALONE, "states-alone")                                                        \
     X(MISTAKE_STATES_UNSOLVED, "states-unsolved")                                                  \
     X(MISTAKE_STATES_CLOCK, "states-clock")                                                        \
-    X(MISTAKE_STATES_STEADY, "states-steady")
+    X(MISTAKE_STATES_STEADY, "states-steady")                                                      \
+    X(MISTAKE_BRANCH_BESIDE, "branch-beside")                                                      \
+    X(MISTAKE_BRANCH_LATE, "branch-late")                                                          \
+    X(MISTAKE_BRANCH_ENERGY, "branch-energy")
 
 typedef enum Mistake {
 #define X(symbol, name) symbol,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Mistakes in what a scene of a real contact has: regions, laws and gaps of contacts, programs, the
-// machine, output by window. scenes.py says which tests must see them.
+// machine, output by window, branches of materials. scenes.py says which tests must see them.
 #include "mistake.h"
 
 #include "reduction/machine.h"
@@ -15,6 +15,8 @@
 #include "scene/keys.h"
 #include "scene/materials.h"
 #include "scene/profile.h"
+#include "stepping/branches.h"
+#include "stepping/energy.h"
 #include "stepping/load_course.h"
 #include "stepping/moving_set.h"
 
@@ -47,6 +49,9 @@ REPLACED(friction_set_pressure);
 REPLACED(formula_partials);
 REPLACED(friction_solve_states);
 REPLACED(state_archive);
+REPLACED(spectrum_find);
+REPLACED(branches_start_stage);
+REPLACED(energy_store);
 
 static bool made(Mistake mistake)
 {
@@ -268,4 +273,31 @@ void __wrap_state_archive(State *state, Archive *archive)
     __real_state_archive(state, archive);
     for (int32_t k = 0; made(MISTAKE_STATES_CUT) && k < state->contact_count * STATES_MAX; k++)
         if (archive_reads(archive) && k % STATES_MAX > 0) state->theta[k] = 0;
+}
+
+// --- branches of materials ----------------------------------------------------------------------
+
+// Branches of one material are in the next.
+bool __wrap_spectrum_find(const Materials *materials, int32_t dim, Spectrum *spectrum, Error *err)
+{
+    bool found = __real_spectrum_find(materials, dim, spectrum, err);
+    for (int32_t j = 0; made(MISTAKE_BRANCH_BESIDE) && j < spectrum->shape_count; j++)
+        spectrum->shape[j].region = (spectrum->shape[j].region + 1) % materials->count;
+    return found;
+}
+
+// Stretches of a later stage begin where the step did.
+void __wrap_branches_start_stage(const Branches *branches, const Tableau *tableau, double step,
+                                 int32_t i, const State *from, State *to, double *rhs)
+{
+    int32_t earlier = made(MISTAKE_BRANCH_LATE) ? 0 : i;
+    __real_branches_start_stage(branches, tableau, step, earlier, from, to, rhs);
+}
+
+// What springs of branches store is forgotten.
+void __wrap_energy_store(const State *state, EnergyLedger *ledger)
+{
+    __real_energy_store(state, ledger);
+    for (int32_t k = 0; made(MISTAKE_BRANCH_ENERGY) && k < state->branch_count; k++)
+        ledger->elastic -= ledger->branch[k].stored;
 }

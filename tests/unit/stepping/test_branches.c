@@ -160,7 +160,7 @@ TEST(test_order)
 }
 
 // What is missing in the ledger goes down with the square of the step, and branches take their part
-// of the energy.
+// of the energy: without viscosity all that is dissipated, each what its own spring and time say.
 TEST(test_energy_order)
 {
     RigDef def = branched_def();
@@ -178,6 +178,13 @@ TEST(test_energy_order)
         }
         energy_store(&stepper.now, &ledger);
         assert_true(ledger.viscous > 0.05 * ledger.elastic);
+        double dissipated = 0;
+        for (int32_t b = 0; b < stepper.rig.bulk.spectrum.count; b++) {
+            assert_true(ledger.branch[b].stored > 0 && ledger.branch[b].dissipated > 0);
+            assert_near("stored", ledger.branch[b].stored, state_branch_energy(&stepper.now, b), 0);
+            dissipated += ledger.branch[b].dissipated;
+        }
+        assert_near("dissipated", dissipated / ledger.viscous, 1, 1e-9);
         missing[k] = energy_imbalance(&ledger);
         stepper_destroy(&stepper);
     }
