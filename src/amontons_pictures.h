@@ -70,6 +70,8 @@ extern "C" {
       "middle")                                                                                    \
     X(compare, TEXT, 0, 0, "force slip-map contact-density precursors front-speed plot", "",       \
       "FILE.csv", "Measurements to draw beside what was computed")                                 \
+    X(depth, NUMBER, 1e-12, 1e12, "field field-strip", "", "LENGTH",                               \
+      "Of a base that deforms: how far below its floor it is drawn; by default all of it")         \
     X(warnings, WORD, 0, 0, "", "below none", "WHERE",                                             \
       "What the run was warned of: below (the default) or none; run.json has it in any case")
 
@@ -81,6 +83,7 @@ typedef struct PictureStyle {
     bool dark;   // light lines on dark paper
     bool overwrite;   // what is there goes; else it is refused, if no list has it
     double height;   // mm; 0: as the figure asks
+    double depth;   // how far below its floor a base is drawn, length; 0: all of it
     // As PICTURE_OPTIONS has them; NULL: the default.
     const char *style, *title, *inset, *legend, *limits, *from, *to, *cycle, *pixels, *line,
         *compare, *warnings;
@@ -152,6 +155,7 @@ typedef struct FilmRequest {
         // little after the next; NULL, "all": the history
     const char *of;   // field of the block, as FieldChoice has it; without fields not asked
     double magnification;   // of the deformation; 0: chosen
+    double depth;   // how far below its floor a base is drawn, length; 0: all of it
     bool
         fields;   // the run is computed once more for as many fields of the block as the film shows
     bool trust;   // of the run that is computed, as amontons_scene_read_trusted

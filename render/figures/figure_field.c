@@ -8,7 +8,10 @@
 // The state that the request asks for; without a word the last one before the zoomed sliding.
 static bool read_block(const FigureInput *input, BlockQuantity quantity, Block *block, Error *err)
 {
-    BlockSource source = {.folder = input->folder, .view = input->view, .quantity = quantity};
+    BlockSource source = {.folder = input->folder,
+                          .view = input->view,
+                          .quantity = quantity,
+                          .depth = input->def.style ? input->def.style->depth : 0};
     TRY(block_source_open(&source, err));
     Zoom zoom = zoom_choose(input->view);
     int32_t index = zoom.found ? block_time_before(&source, zoom.U_slide) : source.count - 1;

@@ -92,7 +92,10 @@ static int32_t choose_times(const BlockSource *source, const ViewEvent *event,
 
 static bool read_strip(const FigureInput *input, Strip *strip, BlockQuantity quantity, Error *err)
 {
-    BlockSource source = {.folder = input->folder, .view = input->view, .quantity = quantity};
+    BlockSource source = {.folder = input->folder,
+                          .view = input->view,
+                          .quantity = quantity,
+                          .depth = input->def.style ? input->def.style->depth : 0};
     const ViewEvent *event = NULL;
     int32_t chosen[FRAMES_MAX];
     TRY(block_source_open(&source, err));

@@ -49,6 +49,8 @@ static bool complete(const FilmRequest *request, FilmRequest *film, int32_t *fra
                       film->seconds, film->rate, FRAMES_MAX);
     if (!(film->magnification >= 0) || !isfinite(film->magnification))
         return REFUSE(err, "a magnification of %g: it must be above 0", film->magnification);
+    if (!(film->depth >= 0) || !isfinite(film->depth))
+        return REFUSE(err, "a depth of %g: it must be above 0", film->depth);
     *frames = (int32_t)lround(count);
     return true;
 }

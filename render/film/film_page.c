@@ -199,9 +199,10 @@ FilmPage *film_page_create(const FilmPageDef *def, Error *err)
     FilmPage *page = NEW_ARRAY(FilmPage, 1, err);
     TRY(page);
     page->def = *def;
-    page->block = (FilmBlock){.clock = def->clock,
-                              .source = {.folder = def->folder, .view = def->view},
-                              .magnification = def->film->magnification};
+    page->block =
+        (FilmBlock){.clock = def->clock,
+                    .source = {.folder = def->folder, .view = def->view, .depth = def->film->depth},
+                    .magnification = def->film->magnification};
     page->force.view = page->profile.view = page->band.view = page->plane.view = def->view;
     page->in_space = def->view->line && result_file_has_faces(def->view->file);
     page->band.clock = def->clock;

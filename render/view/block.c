@@ -236,6 +236,7 @@ bool block_read(const BlockSource *source, int32_t index, Block *block, Error *e
     block->U = source->view->U[block->row];
     snprintf(path, sizeof path, "%s/%s", source->folder, source->times[index].file);
     TRY(field_frame_read(path, &block->frame, err));
+    if (source->depth > 0) TRY(field_frame_crop(&block->frame, source->depth, err));
     TRY(block->value = NEW_ARRAY(double, block->frame.node_count, err));
     TRY(block->place = memory_array(block->frame.node_count, sizeof *block->place, err));
     if (block->frame.dim > 2) {

@@ -40,6 +40,7 @@ typedef struct BlockSource {
     const char *folder;   // borrowed, like the view
     ResultView *view;
     BlockQuantity quantity;   // that blocks are read with
+    double depth;   // of a base, below its floor: what lies deeper is left out; 0: nothing is
     int32_t count;   // times, rising
     FieldTime *times;   // [count] owned
     int64_t *row;   // [count] of the history, the nearest; owned

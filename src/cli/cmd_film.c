@@ -75,7 +75,8 @@ static int make_film(const char *result, FilmRequest *film, bool quiet)
 
 int command_film(const Command *command, int argc, char **argv)
 {
-    const char *result = NULL, *seconds = NULL, *rate = NULL, *size = NULL, *magnification = NULL;
+    const char *result = NULL, *seconds = NULL, *rate = NULL, *size = NULL, *magnification = NULL,
+               *depth = NULL;
     char name[NAME_SIZE];
     bool quiet = false;
     FilmRequest film = {0};
@@ -98,6 +99,9 @@ int command_film(const Command *command, int argc, char **argv)
          .word = &film.of},
         {"magnification", 0, "N", "Of the block's deformation; chosen by default",
          .word = &magnification},
+        {"depth", 0, "LENGTH",
+         "Of a base that deforms: how far below its floor it is drawn; by default all of it",
+         .word = &depth},
         {"fields", 0, NULL,
          "Compute the run once more, for as many fields of the block as the film shows",
          .flag = &film.fields},
@@ -111,6 +115,7 @@ int command_film(const Command *command, int argc, char **argv)
     int status = options_read(command, options, argc, argv, &result);
     if (status == 0) status = read_number("--seconds", seconds, &film.seconds);
     if (status == 0) status = read_number("--magnification", magnification, &film.magnification);
+    if (status == 0) status = read_number("--depth", depth, &film.depth);
     if (status == 0 && rate) status = option_count("--fps", rate, 1, RATE_MAX, &film.rate);
     if (status == 0) status = read_size(size, &film);
     if (status == 0) status = option_may_write(film.path, film.overwrite);

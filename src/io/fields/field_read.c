@@ -8,6 +8,7 @@
 
 #include <errno.h>
 #include <limits.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -176,6 +177,50 @@ bool field_frame_read(const char *path, FieldFrame *frame, Error *err)
         if (!needed[k]) FAIL(err, ERROR_FILE, "it lacks an array that a run writes");
 cleanup:
     error_context(err, "while reading %s", path);
+    return error_is_clean(err);
+}
+
+// In place: the numbers of these nodes are moved to the front of an array of so many a node.
+static void keep_values(double *values, int32_t components, const int32_t *place, int32_t count)
+{
+    for (int32_t i = 0; i < count; i++)
+        if (place[i] >= 0)
+            memmove(values + (int64_t)components * place[i], values + (int64_t)components * i,
+                    (size_t)components * sizeof *values);
+}
+
+bool field_frame_crop(FieldFrame *frame, double depth, Error *err)
+{
+    int32_t *place = NULL, elements = 0, entries = 0, nodes = 0;   // place of a node; -1: it goes
+    TRY(place = NEW_ARRAY(int32_t, frame->node_count, err));
+    for (int32_t i = 0; i < frame->node_count; i++) place[i] = -1;
+    for (int32_t e = 0; e < frame->element_count; e++) {
+        int32_t begin = frame->first_node[e], count = frame->first_node[e + 1] - begin;
+        const int32_t *own = frame->element_nodes + begin;
+        double highest = -INFINITY;
+        for (int32_t k = 0; k < count; k++)
+            highest = fmax(highest, frame->position[3 * (int64_t)own[k] + frame->dim - 1]);
+        if (highest <= -depth) continue;
+        for (int32_t k = 0; k < count; k++) place[own[k]] = 0;
+        memmove(frame->element_nodes + entries, own, (size_t)count * sizeof *own);
+        frame->kind[elements] = frame->kind[e];
+        frame->first_node[elements++] = entries;
+        entries += count;
+    }
+    frame->first_node[elements] = entries;
+    frame->element_count = elements;
+    for (int32_t i = 0; i < frame->node_count; i++)
+        if (place[i] == 0) place[i] = nodes++;
+    for (int32_t k = 0; k < entries; k++) frame->element_nodes[k] = place[frame->element_nodes[k]];
+    double *const vectors[] = {frame->position, frame->displacement, frame->velocity};
+    for (size_t k = 0; k < sizeof vectors / sizeof *vectors; k++)
+        keep_values(vectors[k], 3, place, frame->node_count);
+    keep_values(frame->stress_elastic, frame->stresses, place, frame->node_count);
+    keep_values(frame->stress, frame->stresses, place, frame->node_count);
+    keep_values(frame->von_mises, 1, place, frame->node_count);
+    frame->node_count = nodes;
+cleanup:
+    memory_free(place);
     return error_is_clean(err);
 }
 

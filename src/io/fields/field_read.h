@@ -34,6 +34,9 @@ typedef struct FieldFrame {
 
 // Checked: nothing points outside. ERROR_FILE names `path`.
 bool field_frame_read(const char *path, FieldFrame *frame, Error *err);
+// Takes away the elements that lie wholly deeper than this below the floor (z = 0), and the nodes
+// that only they have.
+bool field_frame_crop(FieldFrame *frame, double depth, Error *err);
 void field_frame_destroy(FieldFrame *frame);   // zeroed is fine
 
 #endif

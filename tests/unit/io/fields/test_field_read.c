@@ -71,6 +71,25 @@ TEST(test_frame)
     field_frame_destroy(&frame);
 }
 
+// What lies deeper is left out, with the nodes that only it has.
+TEST(test_crop)
+{
+    Error err;
+    FieldFrame frame;
+    Parts parts = GOOD;
+    parts.points = "0 -1 0  1 -3 0  1 -2 0  0 0 0";
+    if (!read_parts(&parts, &frame, &err)) fail_msg("%s", err.message);
+    assert_true(field_frame_crop(&frame, 0.5, &err));
+    assert_int_equal(frame.element_count, 1);
+    assert_int_equal(frame.node_count, 3);
+    for (int32_t k = 0; k < 3; k++) assert_int_equal(frame.element_nodes[k], k);
+    assert_int_equal(frame.first_node[1], 3);
+    assert_true(frame.position[4] == -2 && frame.displacement[7] == 8 && frame.von_mises[1] == 3);
+    assert_true(field_frame_crop(&frame, 5, &err));
+    assert_int_equal(frame.node_count, 3);
+    field_frame_destroy(&frame);
+}
+
 static void assert_damaged(Parts parts, const char *says)
 {
     Error err;
