@@ -6,6 +6,7 @@
 #include "base/order.h"
 #include "io/text/csv_writer.h"
 #include "render/figures/color_scale.h"
+#include "render/figures/figures.h"
 #include "render/view/zoom.h"
 
 #include <limits.h>
@@ -106,6 +107,37 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Least, mean and largest of the contact area over the nodes that are shown.
+static bool write_area(const char *path, ResultView *view, Error *err)
+{
+    double *area = NULL, *columns[OF_STATE] = {0};
+    TRY(contact_area_read(view, &area, err));
+    TRY(result_view_read_status(view, err));
+    for (int32_t k = 0; k < OF_STATE; ++k) TRY(columns[k] = NEW_ARRAY(double, view->rows, err));
+    for (int64_t row = 0; row < view->rows; ++row) {
+        double least = INFINITY, sum = 0, most = -INFINITY;
+        for (int64_t k = row * view->nodes; k < (row + 1) * view->nodes; ++k) {
+            double value = view->status[k] == 0 ? 0 : area[k];
+            least = fmin(least, value);
+            most = fmax(most, value);
+            sum += value;
+        }
+        columns[0][row] = least;
+        columns[1][row] = sum / view->nodes;
+        columns[2][row] = most;
+    }
+    const DataColumn data[] = {{"U", "m", view->U, 1},
+                               {"t", "s", view->t, 1},
+                               {"least area", NULL, columns[0], 1},
+                               {"mean area", NULL, columns[1], 1},
+                               {"largest area", NULL, columns[2], 1}};
+    TRY(write_columns(path, data, 5, view->rows, view->si, err));
+cleanup:
+    memory_free(area);
+    memory_free_list((void *const *)columns, OF_STATE);
+    return error_is_clean(err);
+}
+
 static bool write_states(const char *path, ResultView *view, Error *err)
 {
     static const char *const what[OF_STATE] = {"least", "median", "largest"};
@@ -181,6 +213,7 @@ bool figure_data_write(const char *folder, const char *name, ResultView *view, c
     Measured measured = {0};
     char path[PATH_MAX];
     if (!data_path(folder, name, "", path, err)) return false;
+    if (strcmp(name, "contact-area") == 0) return write_area(path, view, err);
     if (strcmp(name, "state-map") == 0) return write_states(path, view, err);
     if (kind == MEASURED_KINDS) return true;
     if (kind == MEASURED_LENGTH && !write_lengths(path, view, err)) return false;

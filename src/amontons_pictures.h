@@ -18,6 +18,7 @@ extern "C" {
     X(FIGURE_FORCE, "force", "F_T/F_N against U, with an inset of the precursors")                 \
     X(FIGURE_SLIP_MAP, "slip-map", "log10 of slip rate over V, against U and x")                   \
     X(FIGURE_CONTACT_DENSITY, "contact-density", "contact density before sliding, zoomed in U")    \
+    X(FIGURE_CONTACT_AREA, "contact-area", "area of the real contacts over that at rest")          \
     X(FIGURE_STATE_MAP, "state-map", "what friction remembers, against U and x")                   \
     X(FIGURE_CONTACT_PLANE, "contact-plane", "the contact of a block in space at chosen moments")  \
     X(FIGURE_PRECURSORS, "precursors", "how long slip is against F_T/F_N")                         \
@@ -48,15 +49,16 @@ extern "C" {
       "auto none upper-right upper-left lower-left lower-right outside below", "WHERE",            \
       "Where the legend stands: auto, none, upper-right, upper-left, lower-left, lower-right, "    \
       "outside or below")                                                                          \
-    X(limits, RANGE, 0, 0, "slip-map state-map contact-plane field field-strip plot", "",          \
-      "LOW,HIGH",                                                                                  \
+    X(limits, RANGE, 0, 0, "slip-map contact-area state-map contact-plane field field-strip plot", \
+      "", "LOW,HIGH",                                                                              \
       "Ends of the colours, in the numbers shown; or percents of what is shown, as in 1%,99%")     \
-    X(from, TEXT, 0, 0, "force slip-map state-map", "", "U=U",                                     \
-      "Of force, slip-map, state-map: where they begin; or t=TIME")                                \
-    X(to, TEXT, 0, 0, "force slip-map state-map", "", "U=U", "Where they end; or t=TIME")          \
+    X(from, TEXT, 0, 0, "force slip-map contact-area state-map", "", "U=U",                        \
+      "Of force, slip-map, contact-area, state-map: where they begin; or t=TIME")                  \
+    X(to, TEXT, 0, 0, "force slip-map contact-area state-map", "", "U=U",                          \
+      "Where they end; or t=TIME")                                                                 \
     X(cycle, TEXT, 0, 0,                                                                           \
-      "force slip-map contact-density state-map contact-plane precursors front-speed field "       \
-      "field-strip",                                                                               \
+      "force slip-map contact-density contact-area state-map contact-plane precursors "            \
+      "front-speed field field-strip",                                                             \
       "", "first|last|N|all",                                                                      \
       "Which cycle is shown, from one sliding to the next: first (the first loading), last, its "  \
       "number, or all; by default one with precursors, and in a run of one or two slidings the "   \
@@ -64,8 +66,8 @@ extern "C" {
     X(pixels, WORD, 0, 0, "slip-map state-map", "largest mean", "WHAT",                            \
       "What of the slip rates in a pixel slip-map shows: the largest (the default) or the mean; "  \
       "of states state-map shows the smallest, or the largest where that is asked for")            \
-    X(line, TEXT, 0, 0, "force slip-map contact-density state-map precursors front-speed", "",     \
-      "y=Y",                                                                                       \
+    X(line, TEXT, 0, 0,                                                                            \
+      "force slip-map contact-density contact-area state-map precursors front-speed", "", "y=Y",   \
       "Of a block in space: the line along the drive that is shown against U; by default in the "  \
       "middle")                                                                                    \
     X(compare, TEXT, 0, 0, "force slip-map contact-density precursors front-speed plot", "",       \

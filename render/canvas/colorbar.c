@@ -40,7 +40,7 @@ float colorbar_level(const Colorbar *bar, double value)
     if (bar->powers)
         number = number != 0 ? log10(fabs(number)) : -INFINITY;   // 0 is of most pixels
     double part = (number - bar->low) / (bar->high - bar->low);
-    if (part < 0 && bar->powers && bar->neutral) return HEAT_BELOW;
+    if (part < 0 && bar->neutral && (bar->powers || isinf(value))) return HEAT_BELOW;
     part = fmin(fmax(part, 0), 1);
     return (float)(bar->falling ? 1 - part : part);
 }

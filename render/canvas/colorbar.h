@@ -22,8 +22,8 @@ typedef struct Colorbar {
 void colorbar_fit(Colorbar *bar, const double range[2]);
 Ticks colorbar_ticks(const Colorbar *bar);
 
-// Place of a value in the colour map, 0 to 1, or a HeatLevel: NaN is no data; of powers, which are
-// of its size, what is below a bar with a neutral colour has that.
+// Place of a value in the colour map, 0 to 1, or a HeatLevel: NaN is no data; minus infinity,
+// and of powers, which are of its size, what is below a bar with a neutral colour has that.
 float colorbar_level(const Colorbar *bar, double value);
 
 // Points to the right of the bar's left edge that it takes.

@@ -53,6 +53,12 @@ bool figure_slip_map(const Page *page, ResultView *view, Error *err);
 bool figure_state_map(const Page *page, ResultView *view, Error *err);
 // Contact density max(0, 1 - |slip rate| / v_c) in the last precursors; where open, neutral.
 bool figure_contact_density(const Page *page, ResultView *view, Error *err);
+// Area of the real contacts over that at rest, likewise, in colours of what the precursors leave.
+bool figure_contact_area(const Page *page, ResultView *view, Error *err);
+// The history holds the law's own measure of it.
+bool figure_contact_area_shows(const ResultView *view);
+// That area, [rows * nodes], the caller's: the law's own measure, else the contact density.
+bool contact_area_read(ResultView *view, double **area, Error *err);
 
 // How long slip was when the load ratio first came so far, in the cycle that is enlarged.
 bool figure_precursors(const Page *page, ResultView *view, Error *err);

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { NAMES_SIZE = 240 };
+enum { NAMES_SIZE = 320 };
 
 static const double FORCE_PLAIN = 0.62;   // height over width of force without an inset
 
@@ -14,6 +14,7 @@ static const FigureShape SHAPES[FIGURE_COUNT] = {
     [FIGURE_FORCE] = {0.85, .draw = figure_force},
     [FIGURE_SLIP_MAP] = {0.62, .draw = figure_slip_map},
     [FIGURE_CONTACT_DENSITY] = {0.62, .draw = figure_contact_density},
+    [FIGURE_CONTACT_AREA] = {0.62, .draw = figure_contact_area},
     [FIGURE_STATE_MAP] = {0.62, .draw = figure_state_map},
     [FIGURE_CONTACT_PLANE] = {.draw_whole = figure_contact_plane},
     [FIGURE_PRECURSORS] = {0.62, figure_precursors, .own_axes = true},
@@ -47,6 +48,8 @@ bool figure_find(const char *name, const Figure **figure, Error *err)
 bool figure_is_there(const char *name, const ResultView *view)
 {
     if (strcmp(name, FIGURES[FIGURE_STATE_MAP].name) == 0) return view->states > 0;
+    if (strcmp(name, FIGURES[FIGURE_CONTACT_AREA].name) == 0)
+        return figure_contact_area_shows(view);
     return strcmp(name, FIGURES[FIGURE_CONTACT_PLANE].name) != 0 ||
            (view->line && view->rapid_count > 0 && result_file_has_faces(view->file));
 }

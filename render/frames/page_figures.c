@@ -38,6 +38,10 @@ static const struct {
      "the rod.",
      "Contact density max(0, 1 \u2212 |<i>v</i>|/<i>v</i><sub>c</sub>) in the last precursors "
      "before a sliding. Black line: the front of slip."},
+    {"contact-area", "png",
+     "Map: area of the real contacts before a sliding, along the contact and against the "
+     "displacement of the rod.",
+     "Area of the real contacts over that at rest, in the last precursors before a sliding."},
     {"state-map", "png",
      "Map: what friction remembers, along the contact and against the displacement of the rod.",
      "What friction remembers at each place of the contact, against <i>U</i>: the smallest in a "

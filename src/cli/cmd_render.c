@@ -81,13 +81,15 @@ int command_render(const Command *command, int argc, char **argv)
     Error err = {0};
     const Option options[] = {
         {"figure", 'f', "NAME",
-         "Draw only this picture: force, slip-map, contact-density, state-map (of friction that "
+         "Draw only this picture: force, slip-map, contact-density, contact-area (over that "
+         "at rest), state-map (of friction that "
          "remembers), contact-plane (of a block in space), precursors (slip over F_T/F_N), "
          "front-speed, field or field-strip (up to six frames of one sliding). May be given often; "
          "without it those that the result has fields, events, states or --compare has data for",
          .words = &figures},
         {"panels", 0, "NAME,NAME",
-         "Draw these of force, slip-map, contact-density and state-map below each other, as "
+         "Draw these of force, slip-map, contact-density, contact-area and state-map below each "
+         "other, as "
          "panels.png",
          .word = &request.panels},
         {"format", 0, "png|pdf|svg", "Of the files; png by default", .word = &request.style.format},

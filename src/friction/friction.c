@@ -447,6 +447,20 @@ double friction_contact_density(const FrictionNode *node, double speed)
     return fmin(fmax(left, 0), 1);
 }
 
+bool friction_has_area(const FrictionNode *node)
+{
+    return friction_operations(node->law)->area != NULL;
+}
+
+double friction_contact_area(const FrictionNode *node, double speed, const double *state)
+{
+    if (!friction_has_area(node)) return friction_contact_density(node, speed);
+    const FrictionOperations *operations = friction_operations(node->law);
+    double start[STATES_MAX] = {0};
+    friction_start_state(node, start);
+    return operations->area(node->law, state) / operations->area(node->law, start);
+}
+
 // --- states -------------------------------------------------------------------------------------
 
 void friction_set_stage(FrictionNode *node, const double *from, double reach)

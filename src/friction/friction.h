@@ -99,6 +99,11 @@ double friction_spent_speed(const FrictionNode *node);
 // the coefficient for the other laws: (mu - mu_K) / (mu_S - mu_K), 1 from mu_S on.
 double friction_contact_density(const FrictionNode *node, double speed);
 
+// Area of the real contacts over that at the start, when the rod begins to move: by the states
+// where the law has a measure of its own, else the density at this speed.
+bool friction_has_area(const FrictionNode *node);
+double friction_contact_area(const FrictionNode *node, double speed, const double *state);
+
 // The slip that the drop can drive under a mean pressure, drop * pressure * height / young, length;
 // mu_S stands for the drop where nothing weakens, 1 without any friction.
 double friction_slip(const Friction *friction, double pressure, double height, double young);

@@ -24,6 +24,10 @@ bool contact_arrays_create(const Interface *interface, const Friction *friction,
     arrays->status = NEW_ARRAY(uint8_t, count, err);
     arrays->states = friction_states(friction, count);
     if (arrays->states > 0) arrays->state = NEW_ARRAY(double, (int64_t)count * arrays->states, err);
+    bool has_area = false;
+    for (int32_t i = 0; i < count; i++)
+        has_area = has_area || friction_has_area(friction_at(friction, i));
+    if (has_area) arrays->area = NEW_ARRAY(double, count, err);
     arrays->origin = NEW_ARRAY(double, count *tangents, err);
     return error_is_clean(err);
 }
@@ -31,7 +35,7 @@ bool contact_arrays_create(const Interface *interface, const Friction *friction,
 void contact_arrays_destroy(ContactArrays *arrays)
 {
     memory_free_all(arrays->slip_rate, arrays->slip, arrays->pressure, arrays->shear,
-                    arrays->status, arrays->state, arrays->origin);
+                    arrays->status, arrays->state, arrays->area, arrays->origin);
     *arrays = (ContactArrays){0};
 }
 
@@ -93,6 +97,13 @@ bool contact_arrays_record(void *self, const Observation *seen, Error *err)
         arrays->status[i] = shown_status(friction_at(arrays->friction, i), seen_status(seen, i),
                                          slip_size(seen->interface, i, state->slip_rate));
     }
+    for (int32_t i = 0; arrays->area && i < arrays->count; i++)
+        arrays->area[i] =
+            arrays->status[i] == CONTACT_OPEN
+                ? 0
+                : friction_contact_area(friction_at(arrays->friction, i),
+                                        slip_size(seen->interface, i, state->slip_rate),
+                                        state->theta + (int64_t)i * STATES_MAX);
     arrays->started = true;
     return true;
 }

@@ -23,6 +23,8 @@ typedef struct ContactArrays {
     int32_t states;   // of a node; 0: nothing is remembered
     double *state;   // [count, states] of friction that remembers, as people read it
         // (friction_shown_state); NULL: nothing is remembered
+    double *area;   // [count] of the real contacts over that at the start, 0 where open; NULL: no
+        // law has a measure of its own (friction_has_area)
     double *origin;   // [count * tangents] displacement in the first step, length
 } ContactArrays;
 

@@ -214,7 +214,8 @@ bool field_files_write_line(FieldFiles *files, const double *line, double time, 
                                  {"gap", 1},
                                  {"pressure", 1},
                                  {"shear", tangents},
-                                 {"contact_density", 1}};
+                                 {"contact_density", 1},
+                                 {"contact_area", 1}};
     FieldArray arrays[FIELD_LINE_ARRAYS];
     int64_t count = files->line.point_count;
     for (int k = 0; k < FIELD_LINE_ARRAYS; k++) {

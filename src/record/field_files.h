@@ -8,12 +8,12 @@
 #include "contact/interface.h"
 #include "io/fields/field_file.h"
 
-enum { FIELD_LINE_ARRAYS = 6 };
+enum { FIELD_LINE_ARRAYS = 7 };
 
 // Numbers of a contact node that they hold.
 static inline int32_t field_line_columns(int32_t tangents)
 {
-    return 3 * tangents + 3;
+    return 3 * tangents + 4;
 }
 
 // Points and cells of a file as VTK wants them. Owned by FieldFiles.
@@ -52,7 +52,7 @@ void field_files_destroy(FieldFiles *files);
 bool field_files_write_bulk(FieldFiles *files, const FieldState *state, const char *path,
                             Error *err);
 // line: [field_line_columns][contact_count]: slip rate, displacement along the floor, gap,
-// pressure, shear stress, contact density.
+// pressure, shear stress, contact density, contact area.
 bool field_files_write_line(FieldFiles *files, const double *line, double time, const char *path,
                             Error *err);
 

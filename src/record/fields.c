@@ -150,6 +150,7 @@ static void copy_line(const Fields *fields, const Observation *seen, double *lin
     int64_t count = interface->contact_count, tangents = interface->dim - 1;
     double *rate = line, *moved = rate + tangents * count, *gap = moved + tangents * count;
     double *pressure = gap + count, *shear = pressure + count, *density = shear + tangents * count;
+    double *area = density + count;
     for (int32_t i = 0; i < count; i++) {
         int32_t n = interface_normal(interface, i);
         for (int32_t d = 0; d < tangents; d++) {
@@ -164,6 +165,11 @@ static void copy_line(const Fields *fields, const Observation *seen, double *lin
                          ? 0
                          : friction_contact_density(friction_at(fields->friction, i),
                                                     slip_size(interface, i, state->slip_rate));
+        area[i] = state->status[i] == CONTACT_OPEN
+                      ? 0
+                      : friction_contact_area(friction_at(fields->friction, i),
+                                              slip_size(interface, i, state->slip_rate),
+                                              state->theta + (int64_t)i * STATES_MAX);
     }
 }
 

@@ -100,6 +100,7 @@ static bool open_history(Simulation *simulation, Error *err)
         .version = AMONTONS_VERSION,
         .goes_on = simulation->goes_on,
         .states = simulation->contact.states,
+        .has_area = simulation->contact.area != NULL,
         .state_names = names,
         .state_unit = state_names(scene, simulation->contact.states, names, sizeof names),
         .rod_on_spring = scene->rod.stiffness > 0 && scene->rod.kind != ROD_NONE,

@@ -54,6 +54,12 @@ static double steady(const FrictionLaw *law, double speed)
     return law->slip_distance / speed;
 }
 
+// Contacts grow as their strength does (Dieterich and Kilgore, Pure Appl. Geophys. 143, 1994).
+static double area(const FrictionLaw *law, const double *state)
+{
+    return 1 + law->healing * log1p(fmax(*state, 0) / law->healing_time);
+}
+
 // A product of falling convex factors in v, ln(1 + c/(1 + x)) one of them.
 const FrictionOperations friction_ageing = {
     .must = "mu_static mu_kinetic critical_velocity slip_distance healing_time healing",
@@ -66,4 +72,5 @@ const FrictionOperations friction_ageing = {
     .rate = find_rate,
     .rate_is_linear = true,
     .rested = rested,
-    .steady = steady};
+    .steady = steady,
+    .area = area};

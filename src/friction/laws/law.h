@@ -193,6 +193,8 @@ typedef struct FrictionOperations {
     void (*start)(const FrictionLaw *law, const FrictionSource *source, double *state);
     // The keys that are named where its states, and where mu, are not to be worked with.
     const char *state_key, *mu_key;
+    // Area of the real contacts in these states, in a unit of its own; NULL: no state says it.
+    double (*area)(const FrictionLaw *law, const double *state);
     // The state as people read it; NULL: as it is.
     double (*shown)(const FrictionLaw *law, double state);
     const char *state_name, *state_unit;   // NULL: theta, time

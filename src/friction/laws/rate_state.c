@@ -79,6 +79,13 @@ static double shown(const FrictionLaw *law, double state)
     return law->slip_distance / law->reference_velocity * exp(state);
 }
 
+// Friction that ages, with beta = b/f_0 and theta_0 = D_c/V_0: exp(psi) is theta/theta_0.
+static double area(const FrictionLaw *law, const double *state)
+{
+    double grown = *state > 0 ? *state + log1p(exp(-*state)) : log1p(exp(*state));
+    return 1 + law->evolution_effect / law->mu_reference * grown;
+}
+
 const FrictionOperations friction_rate_state = {
     .must = "slip_distance direct_effect evolution_effect mu_reference reference_velocity",
     .may = "evolution rest",
@@ -88,4 +95,5 @@ const FrictionOperations friction_rate_state = {
     .rate = find_rate,
     .rested = rested,
     .steady = steady,
+    .area = area,
     .shown = shown};

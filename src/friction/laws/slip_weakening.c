@@ -46,6 +46,12 @@ static double steady(const FrictionLaw *law, double speed)
     return 1 / (1 + speed * law->healing_time / law->slip_distance);
 }
 
+static double area(const FrictionLaw *law, const double *state)
+{
+    (void)law;
+    return fmax(*state, 0);
+}
+
 const FrictionOperations friction_slip_weakening = {
     .must = "mu_static mu_kinetic slip_distance healing_time",
     .may = "rest",
@@ -57,5 +63,6 @@ const FrictionOperations friction_slip_weakening = {
     .rate_is_linear = true,
     .rested = rested,
     .steady = steady,
+    .area = area,
     .state_name = "phi",
     .state_unit = "1"};

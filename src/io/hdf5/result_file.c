@@ -83,6 +83,7 @@ bool result_series_written(const ResultHead *head, ResultSeries series)
     if (series == SERIES_ROD_WAY) return head->rod_on_spring;
     if (series == SERIES_STATE) return head->states > 0;
     if (result_series_columns(series) == COLUMNS_PROBES) return head->probes > 0;
+    if (series == SERIES_AREA) return head->has_area;
     bool across = series == SERIES_PAD_SHEAR_ACROSS || series == SERIES_PAD_SLIP_ACROSS;
     return !across || head->tangents > 1;
 }
@@ -337,9 +338,14 @@ bool result_file_has_faces(ArrayFile *file)
     return array_file_has(file, faces_rows[FACES_NODES].name);
 }
 
+bool result_file_has_series(ArrayFile *file, ResultSeries series)
+{
+    return array_file_has(file, series_rows[series].name);
+}
+
 bool result_file_remembers(ArrayFile *file)
 {
-    return array_file_has(file, series_rows[SERIES_STATE].name);
+    return result_file_has_series(file, SERIES_STATE);
 }
 
 // Points of faces: contact nodes, behind them corners; -1: none.

@@ -29,6 +29,7 @@ struct ResultHead {
     bool goes_on;   // with the history that is there, finished or not: numbers and nodes are in it
     bool rod_on_spring;   // SERIES_ROD_WAY is written, too
     int32_t states;   // of a contact node, in SERIES_STATE; 0: there is none
+    bool has_area;   // SERIES_AREA is written, too
     const char *state_names;   // a line each; NULL or empty: without names
     const char *state_unit;   // "time", "1" or "its own"; NULL: not known
     int32_t probes;   // 0: there are none
@@ -58,6 +59,7 @@ bool result_file_read_nodes(ArrayFile *file, ResultNodes nodes, double **values,
                             Error *err);
 bool result_file_has_nodes(ArrayFile *file, ResultNodes nodes);   // y and line: in space
 bool result_file_has_faces(ArrayFile *file);
+bool result_file_has_series(ArrayFile *file, ResultSeries series);
 bool result_file_remembers(ArrayFile *file);   // SERIES_STATE is there
 // *values [rows * width]; an array that is absent has no rows.
 bool result_file_read_faces(ArrayFile *file, ResultFaces faces, double **values, int32_t *rows,

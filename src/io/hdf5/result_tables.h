@@ -46,6 +46,9 @@ typedef enum ResultColumns {
     X(SERIES_STATE, "interface/state", ARRAY_FLOAT32, NODES, "time",                               \
       "theta of friction that remembers (`slip-weakening`: phi, part of strength, 1; one's own: "  \
       "several along a last axis, in their own units); absent where nothing is remembered")        \
+    X(SERIES_AREA, "interface/contact_area", ARRAY_FLOAT32, NODES, "1",                            \
+      "area of the real contacts over that when the rod starts, 0 where open: 1 + beta ln(1 + "    \
+      "theta/theta_0) over its value then, `slip-weakening`: phi; absent of other laws")           \
     X(SERIES_PAD_NORMAL, "pads/normal_force", ARRAY_FLOAT64, PADS, "force/width",                  \
       "load of each pad")                                                                          \
     X(SERIES_PAD_SHEAR, "pads/shear", ARRAY_FLOAT64, PADS, "force/width",                          \

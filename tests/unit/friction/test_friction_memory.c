@@ -239,3 +239,23 @@ TEST(test_follow)
         assert_near("through 0", through / -v, 1, 1e-9);
     }
 }
+
+// Over that at the start, whose states are those of GIVEN: of ageing 1 + beta ln(1 +
+// theta/theta_0), of rate and state likewise with beta = b/f_0 and theta_0 = D_c/V_0.
+TEST(test_contact_area)
+{
+    for (int32_t k = 0; k < LAWS; k++) {
+        FrictionNode law = law_of(k);
+        double start = NAN, other = STATES[k];
+        friction_start_state(&law, &start);
+        assert_true(friction_has_area(&law));
+        assert_near("at rest", friction_contact_area(&law, 0, &start), 1, 1e-14);
+        double area = k == 0   ? 1 + 0.2 * log(1 + other / 3)
+                      : k == 1 ? other
+                               : 1 + 0.03 / 0.5 * log(1 + exp(other));
+        double rested = k == 0   ? 1 + 0.2 * log(1 + start / 3)
+                        : k == 1 ? start
+                                 : 1 + 0.03 / 0.5 * log(1 + exp(start));
+        assert_near("area", friction_contact_area(&law, 1, &other), area / rested, 1e-13);
+    }
+}

@@ -76,7 +76,8 @@ TEST(options_fit_their_figures)
          {0},
          density,
          1,
-         "from has no meaning for contact-density: it is an option of force, slip-map, state-map"},
+         "from has no meaning for contact-density: it is an option of force, slip-map, "
+         "contact-area, state-map"},
         {{.from = "U=1 parsec"}, {0}, two, 2, NULL},   // force takes it, and looks at its value
         {{0}, {.at = "U=1"}, two, 2, "at has no meaning for force and the others"},
         {{0}, {.at = "U=1"}, field, 1, NULL},

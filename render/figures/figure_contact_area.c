@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Area of the real contacts over that at rest, A(x, t)/A_0, against U and x, as it is seen by light
+// that crosses a contact (Rubinstein, Cohen and Fineberg, Nature 430, 1005, 2004). Where friction
+// ages it is the law's own measure, which the history holds; else the contact density phi. A front
+// takes a few per cent of the area, so that the colours span what the precursors leave, but for one
+// per cent at each end, and no line covers the front.
+#include "render/figures/figures.h"
+
+#include "base/memory.h"
+#include "render/figures/color_scale.h"
+#include "render/figures/map_page.h"
+#include "render/view/zoom.h"
+
+#include <math.h>
+
+enum { COUNTED_MOST = 200000 };   // of a long history every second row, or third, ...
+
+static const Color OPEN = {0.55f, 0.56f, 0.58f, 1};
+
+bool figure_contact_area_shows(const ResultView *view)
+{
+    return result_file_has_series(view->file, SERIES_AREA);
+}
+
+bool contact_area_read(ResultView *view, double **area, Error *err)
+{
+    double critical = view->number[NUMBER_CRITICAL_VELOCITY];
+    if (figure_contact_area_shows(view))
+        return result_view_read(view, SERIES_AREA, false, area, err);
+    if (!(critical > 0)) return REFUSE(err, FIGURE_NO_DENSITY);
+    if (!result_view_read_slip_rate(view, err) || !result_view_read_status(view, err)) return false;
+    int64_t count = view->rows * view->nodes;
+    if (!(*area = NEW_ARRAY(double, count, err))) return false;
+    for (int64_t k = 0; k < count; ++k)
+        (*area)[k] = fmax(1 - fabs(view->slip_rate[k]) / critical, 0);
+    return true;
+}
+
+// Fits the bar to the area of what touches, from U[0] to U[1].
+static bool fit_bar(const ResultView *view, const double U[2], const double *area,
+                    const PictureStyle *style, Colorbar *bar, Error *err)
+{
+    const ValueWords words = {.words = "contact area ~{A} / ~{A}_{0}", .si = "", .normalised = ""};
+    int64_t total = view->rows * view->nodes, every = 1 + total / COUNTED_MOST, count = 0;
+    WeighedValue *values = NEW_ARRAY(WeighedValue, total / every + view->nodes, err);
+    TRY(values);
+    for (int64_t row = 0; row < view->rows; row += every)
+        for (int32_t i = 0; i < view->nodes && view->U[row] >= U[0] && view->U[row] <= U[1]; ++i)
+            if (view->status[row * view->nodes + i] != 0)
+                values[count++] = (WeighedValue){area[row * view->nodes + i], 1};
+    TRY(value_bar_fit(values, count, &words, style, bar, err));
+    bar->falling = true;
+cleanup:
+    memory_free(values);
+    return error_is_clean(err);
+}
+
+bool figure_contact_area(const Page *whole, ResultView *view, Error *err)
+{
+    Page page = *whole;
+    double *area = NULL;
+    ViewRange shown = {0};
+    KeyEntry entries[3];
+    Zoom zoom = zoom_choose(view);
+    MapPage map = {.sign = -1};
+    bool asked = page.style.from || page.style.to, open = false;
+
+    // What is shown, and the part of it that the colours are for: sliding is darker than any.
+    TRY(view_range_find(view, &page.style, &shown, err));
+    if (zoom.found && !asked) {
+        shown.low = zoom.U_low;
+        shown.high = zoom.U_high;
+    }
+    double calm[2] = {shown.low, shown.high};
+    if (zoom.found && !asked && zoom.U_slide > shown.low) calm[1] = zoom.U_slide;
+    TRY(result_view_read_status(view, err));
+    TRY(contact_area_read(view, &area, err));
+    TRY(fit_bar(view, calm, area, &page.style, &map.bar, err));
+
+    // Open contact has a colour of its own.
+    for (int64_t k = 0; k < view->rows * view->nodes; ++k) {
+        double U = view->U[k / view->nodes];
+        if (view->status[k] != 0) continue;
+        area[k] = -INFINITY;
+        open = open || (U >= shown.low && U <= shown.high);
+    }
+    map.states = area;
+    map.bar.clipped = map.bar.clipped || calm[1] < shown.high;   // in sliding less is left
+    map.bar.neutral = open ? "open" : NULL;
+    map.bar.neutral_color = OPEN;
+    int32_t count = map_page_key(view, NULL, entries);
+    if (!asked && zoom.words[0]) entries[count++] = (KeyEntry){.words = zoom.words};
+    key_draw(&page, entries, count);
+    TRY(map_page_draw(&page, view, (double[]){shown.low, shown.high}, &map, err));
+    map_page_draw_frame(&page, view, &map);
+cleanup:
+    memory_free(area);
+    map_page_destroy(&map);
+    return error_is_clean(err);
+}
