@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { NAMES_SIZE = 240 };
+enum { NAMES_SIZE = 300 };
 
 static const double FORCE_PLAIN = 0.62;   // height over width of force without an inset
 
@@ -18,6 +18,8 @@ static const FigureShape SHAPES[FIGURE_COUNT] = {
     [FIGURE_CONTACT_PLANE] = {.draw_whole = figure_contact_plane},
     [FIGURE_PRECURSORS] = {0.62, figure_precursors, .own_axes = true},
     [FIGURE_FRONT_SPEED] = {0.62, figure_front_speed, .own_axes = true},
+    [FIGURE_PROBES] = {.draw_whole = figure_probes},
+    [FIGURE_PROFILE] = {.draw_whole = figure_profile, .own_axes = true},
     [FIGURE_FIELD] = {.draw_whole = figure_field},
     [FIGURE_STRIP] = {.draw_whole = figure_strip}};
 
@@ -47,6 +49,7 @@ bool figure_find(const char *name, const Figure **figure, Error *err)
 bool figure_is_there(const char *name, const ResultView *view)
 {
     if (strcmp(name, FIGURES[FIGURE_STATE_MAP].name) == 0) return view->states > 0;
+    if (strcmp(name, FIGURES[FIGURE_PROBES].name) == 0) return view->probes > 0;
     return strcmp(name, FIGURES[FIGURE_CONTACT_PLANE].name) != 0 ||
            (view->line && view->rapid_count > 0 && result_file_has_faces(view->file));
 }

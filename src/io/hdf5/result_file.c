@@ -337,6 +337,11 @@ bool result_file_has_faces(ArrayFile *file)
     return array_file_has(file, faces_rows[FACES_NODES].name);
 }
 
+bool result_file_has_series(ArrayFile *file, ResultSeries series)
+{
+    return array_file_has(file, series_rows[series].name);
+}
+
 bool result_file_remembers(ArrayFile *file)
 {
     return array_file_has(file, series_rows[SERIES_STATE].name);

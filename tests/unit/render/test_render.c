@@ -135,7 +135,7 @@ TEST(unknown_figures_are_named)
     assert_non_null(strstr(err.message, "\"colour\""));
     assert_non_null(strstr(err.message,
                            "force, slip-map, contact-density, state-map, contact-plane, "
-                           "precursors, front-speed, field, field-strip"));
+                           "precursors, front-speed, probes, profile, field, field-strip"));
 }
 
 GROUP_BETWEEN(result_write, result_remove);
