@@ -7,6 +7,8 @@
 #include "io/text/csv_writer.h"
 #include "render/figures/color_scale.h"
 #include "render/figures/figures.h"
+#include "render/figures/probe_data.h"
+#include "render/figures/profile_data.h"
 #include "render/view/zoom.h"
 
 #include <limits.h>
@@ -15,7 +17,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { COLUMNS_MAX = 6, OF_STATE = 3 };
+enum { COLUMNS_MAX = 6, OF_STATE = 3, NAME_SIZE = 100 };
 
 // Names may say " (m)" where the result is in SI.
 typedef struct DataColumn {
@@ -28,7 +30,7 @@ static bool write_columns(const char *path, const DataColumn *columns, int32_t c
                           bool si, Error *err)
 {
     CsvWriter *csv = csv_create(path, err);
-    char name[VIEW_STATE_SIZE + 20];
+    char name[NAME_SIZE + 20];
     if (!csv) return false;
     for (int32_t k = 0; k < count; ++k) {
         bool has_unit = si && columns[k].unit;
@@ -166,6 +168,84 @@ cleanup:
     return error_is_clean(err);
 }
 
+// U, t, then each component of each quantity of each probe: "gauge1 strain_xx".
+static bool write_probes(const char *path, ResultView *view, Error *err)
+{
+    CsvWriter *csv = NULL;
+    double *values[PROBE_QUANTITY_COUNT] = {0};
+    char name[NAME_SIZE + 40], probe[PROBE_NAME_SIZE];
+    for (int32_t q = 0; q < PROBE_QUANTITY_COUNT; ++q)
+        TRY(probe_read(view, (ProbeQuantity)q, &values[q], err));
+    TRY(csv = csv_create(path, err));
+    csv_text(csv, view->si ? "U (m)" : "U");
+    csv_text(csv, view->si ? "t (s)" : "t");
+    for (int32_t k = 0; k < view->probes; ++k)
+        for (int32_t q = 0; q < PROBE_QUANTITY_COUNT; ++q) {
+            ProbeWords words = probe_words((ProbeQuantity)q);
+            bool has_unit = view->si && words.si[0];
+            probe_name(view, k, probe);
+            for (int32_t c = 0; c < probe_components(view, (ProbeQuantity)q); ++c) {
+                snprintf(name, sizeof name, has_unit ? "%s %s_%s (%s)" : "%s %s_%s", probe,
+                         words.name, probe_component(view, (ProbeQuantity)q, c), words.si);
+                csv_text(csv, name);
+            }
+        }
+    csv_end_row(csv);
+    for (int64_t row = 0; row < view->rows; ++row) {
+        csv_rounded(csv, view->U[row]);
+        csv_rounded(csv, view->t[row]);
+        for (int32_t k = 0; k < view->probes; ++k)
+            for (int32_t q = 0; q < PROBE_QUANTITY_COUNT; ++q) {
+                int32_t components = probe_components(view, (ProbeQuantity)q);
+                const double *at = values[q] + (row * view->probes + k) * components;
+                for (int32_t c = 0; c < components; ++c) csv_rounded(csv, at[c]);
+            }
+        csv_end_row(csv);
+    }
+    CsvWriter *whole = csv;
+    csv = NULL;
+    TRY(csv_finish(whole, err));
+cleanup:
+    csv_abandon(csv);
+    memory_free_list((void *const *)values, PROBE_QUANTITY_COUNT);
+    return error_is_clean(err);
+}
+
+// A row for each node at each moment.
+static bool write_profiles(const char *path, ResultView *view, const char *at, Error *err)
+{
+    enum { COLUMNS = 4 + PROFILE_QUANTITIES + 1 };
+    static const char *const names[2][COLUMNS] = {
+        {"U", "t", "F_T/F_N", "x", "p", "tau", "tau/p", "slip", "gap", "status"},
+        {"U (m)", "t (s)", "F_T/F_N", "x (m)", "p (Pa)", "tau (Pa)", "tau/p", "slip (m)", "gap (m)",
+         "status"}};
+    Profiles profiles;
+    CsvWriter *csv = NULL;
+    TRY(profiles_read(view, at, &profiles, err));
+    TRY(csv = csv_create(path, err));
+    for (int32_t c = 0; c < COLUMNS; ++c) csv_text(csv, names[view->si][c]);
+    csv_end_row(csv);
+    for (int32_t k = 0; k < profiles.count; ++k)
+        for (int32_t i = 0; i < profiles.nodes; ++i) {
+            int64_t row = profiles.row[k], at_node = (int64_t)k * profiles.nodes + i;
+            csv_rounded(csv, view->U[row]);
+            csv_rounded(csv, view->t[row]);
+            csv_rounded(csv, view->mu[row]);
+            csv_rounded(csv, view->x[i]);
+            for (int32_t q = 0; q < PROFILE_QUANTITIES; ++q)
+                csv_rounded(csv, profiles.values[q] ? profiles.values[q][at_node] : NAN);
+            csv_rounded(csv, profiles.status[at_node]);
+            csv_end_row(csv);
+        }
+    CsvWriter *whole = csv;
+    csv = NULL;
+    TRY(csv_finish(whole, err));
+cleanup:
+    csv_abandon(csv);
+    profiles_destroy(&profiles);
+    return error_is_clean(err);
+}
+
 // MEASURED_KINDS: nothing of the figure is measured.
 static MeasuredKind kind_of(const char *figure)
 {
@@ -205,8 +285,8 @@ static bool write_compared(const char *path, const Measured *measured, bool si, 
     return write_columns(path, columns, count, measured->count, si, err);
 }
 
-bool figure_data_write(const char *folder, const char *name, ResultView *view, const char *compare,
-                       Error *err)
+bool figure_data_write(const char *folder, const char *name, ResultView *view,
+                       const FieldChoice *field, const char *compare, Error *err)
 {
     MeasuredKind kind = kind_of(name);
     bool done = true;
@@ -215,6 +295,8 @@ bool figure_data_write(const char *folder, const char *name, ResultView *view, c
     if (!data_path(folder, name, "", path, err)) return false;
     if (strcmp(name, "contact-area") == 0) return write_area(path, view, err);
     if (strcmp(name, "state-map") == 0) return write_states(path, view, err);
+    if (strcmp(name, "probes") == 0) return write_probes(path, view, err);
+    if (strcmp(name, "profile") == 0) return write_profiles(path, view, field->at, err);
     if (kind == MEASURED_KINDS) return true;
     if (kind == MEASURED_LENGTH && !write_lengths(path, view, err)) return false;
     if (kind != MEASURED_AREA && kind != MEASURED_LENGTH && !write_curve(path, view, kind, err))

@@ -6,9 +6,9 @@
 
 #include "render/figures/figures.h"
 
-// name: "force"; figures without curves have no table of their own.
-bool figure_data_write(const char *folder, const char *name, ResultView *view, const char *compare,
-                       Error *err);
+// name: "force"; figures without curves have no table of their own. field: the moments of profile.
+bool figure_data_write(const char *folder, const char *name, ResultView *view,
+                       const FieldChoice *field, const char *compare, Error *err);
 
 // Whether `name` shows what the file has measured.
 bool figure_data_measured(const char *name, const char *compare, ResultView *view, bool *shows,

@@ -29,6 +29,7 @@
     X(CONTACT_SHEAR, "shear", "shear stress |~{\u03c4}|", "Pa", "~{E}")                            \
     X(CONTACT_RATIO, "shear_over_pressure", "|~{\u03c4}| / ~{p}", "", "")                          \
     X(CONTACT_SLIP, "slip", "slip since (a)", "m", "~{L}_{0}")                                     \
+    X(CONTACT_GAP, "gap", "gap", "m", "~{L}_{0}")                                                  \
     X(CONTACT_STATE, "state", "", "", "")                                                          \
     X(CONTACT_ARRIVAL, "arrival", "arrival of rapid slip", "s", "~{t}_{0}")
 

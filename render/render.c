@@ -49,7 +49,8 @@ static int32_t picture_count(const PictureRequest *request)
 static bool picture_path(const char *folder, const PictureRequest *request, const Figure *figure,
                          char path[PATH_MAX], Error *err)
 {
-    const char *of = figure && figure->shape->draw_whole ? request->field.of : NULL;
+    bool takes = figure && figure->shape->draw_whole && figure->id != FIGURE_PROFILE;
+    const char *of = takes ? request->field.of : NULL;
     int length =
         snprintf(path, PATH_MAX, "%s/figures/%s%s%s.%s", folder, figure ? figure->name : "panels",
                  of ? "-" : "", of ? of : "",
@@ -69,7 +70,8 @@ static bool make_picture(const char *folder, const PictureRequest *request, cons
     TRY(picture_draw(picture, folder, request, view, &page, err));
     TRY(page_finish(&page, path, figure ? figure->title : view->title, err));
     for (int32_t k = 0; k < picture->count; ++k)
-        TRY(figure_data_write(folder, picture->parts[k].name, view, request->style.compare, err));
+        TRY(figure_data_write(folder, picture->parts[k].name, view, &request->field,
+                              request->style.compare, err));
 cleanup:
     page_destroy(&page);
     return error_is_clean(err);
@@ -116,9 +118,11 @@ static bool is_drawn(const char *folder, const Figure *figure, const PictureRequ
     if (figure->id == FIGURE_STRIP) *drawn = false;
     if (figure->id == FIGURE_CONTACT_PLANE)
         *drawn = *drawn && (!of || figure_contact_plane_shows(view, of));
+    bool probes = of && view->probes > 0 && figure_probes_show(of);
+    if (figure->id == FIGURE_PROBES) *drawn = *drawn && (!of || probes);
     if (figure->id == FIGURE_FIELD)
-        *drawn = figure_field_shows(folder, of) ||
-                 (figure_field_shows(folder, NULL) && !figure_contact_plane_shows(view, of));
+        *drawn = figure_field_shows(folder, of) || (figure_field_shows(folder, NULL) && !probes &&
+                                                    !figure_contact_plane_shows(view, of));
     return true;
 }
 

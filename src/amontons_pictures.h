@@ -23,6 +23,8 @@ extern "C" {
     X(FIGURE_CONTACT_PLANE, "contact-plane", "the contact of a block in space at chosen moments")  \
     X(FIGURE_PRECURSORS, "precursors", "how long slip is against F_T/F_N")                         \
     X(FIGURE_FRONT_SPEED, "front-speed", "how fast the front of a sliding runs, against x")        \
+    X(FIGURE_PROBES, "probes", "what the probes of the scene saw, against U")                      \
+    X(FIGURE_PROFILE, "profile", "pressure, friction, slip and gap along x at chosen moments")     \
     X(FIGURE_FIELD, "field", "a field of the block at one time")                                   \
     X(FIGURE_STRIP, "field-strip", "a field of the block in frames of one sliding")
 
@@ -52,9 +54,9 @@ extern "C" {
     X(limits, RANGE, 0, 0, "slip-map contact-area state-map contact-plane field field-strip plot", \
       "", "LOW,HIGH",                                                                              \
       "Ends of the colours, in the numbers shown; or percents of what is shown, as in 1%,99%")     \
-    X(from, TEXT, 0, 0, "force slip-map contact-area state-map", "", "U=U",                        \
-      "Of force, slip-map, contact-area, state-map: where they begin; or t=TIME")                  \
-    X(to, TEXT, 0, 0, "force slip-map contact-area state-map", "", "U=U",                          \
+    X(from, TEXT, 0, 0, "force slip-map contact-area state-map probes", "", "U=U",                 \
+      "Of force, slip-map, contact-area, state-map, probes: where they begin; or t=TIME")          \
+    X(to, TEXT, 0, 0, "force slip-map contact-area state-map probes", "", "U=U",                   \
       "Where they end; or t=TIME")                                                                 \
     X(cycle, TEXT, 0, 0,                                                                           \
       "force slip-map contact-density contact-area state-map contact-plane precursors "            \
@@ -67,7 +69,8 @@ extern "C" {
       "What of the slip rates in a pixel slip-map shows: the largest (the default) or the mean; "  \
       "of states state-map shows the smallest, or the largest where that is asked for")            \
     X(line, TEXT, 0, 0,                                                                            \
-      "force slip-map contact-density contact-area state-map precursors front-speed", "", "y=Y",   \
+      "force slip-map contact-density contact-area state-map precursors front-speed profile", "",  \
+      "y=Y",                                                                                       \
       "Of a block in space: the line along the drive that is shown against U; by default in the "  \
       "middle")                                                                                    \
     X(compare, TEXT, 0, 0, "force slip-map contact-density precursors front-speed plot", "",       \
@@ -97,8 +100,8 @@ bool amontons_picture_option(PictureStyle *style, const char *name, const char *
 
 // Which figures take each member of FieldChoice.
 #define FIELD_OPTIONS(X)                                                                           \
-    X(of, "contact-plane field field-strip")                                                       \
-    X(at, "contact-plane field field-strip")                                                       \
+    X(of, "contact-plane field field-strip probes")                                                \
+    X(at, "contact-plane field field-strip profile")                                               \
     X(edges, "field field-strip")                                                                  \
     X(cut, "field field-strip")
 

@@ -13,11 +13,12 @@ from ._structs import NODE_OPEN, NODE_SLIPS, NODE_STICKS, NODE_WEAKENS
 from .commands import (cache, clean_cache, data_folder, film, fit, forecast, info, kernels, keys, model1d,
                        open_result, optimise, read_table, render, render_plot, render_sweep, run, stability, static, sweep,
                        version)
+from .notebook import NotebookProgress
 from .results import Answer, Field, History, Result
 from .simulation import Simulation
 
 __version__ = version()
 __all__ = ["AmontonsError", "Answer", "ComputeError", "Field", "FileError", "History", "InputError", "LibraryError",
-           "NODE_OPEN", "NODE_SLIPS", "NODE_STICKS", "NODE_WEAKENS", "Result", "Simulation", "cache", "clean_cache",
+           "NODE_OPEN", "NODE_SLIPS", "NODE_STICKS", "NODE_WEAKENS", "NotebookProgress", "Result", "Simulation", "cache", "clean_cache",
            "data_folder", "film", "fit", "forecast", "info", "kernels", "keys", "model1d", "open_result",
            "optimise", "read_table", "render", "render_plot", "render_sweep", "run", "stability", "static", "sweep", "version"]

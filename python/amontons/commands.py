@@ -80,6 +80,9 @@ def _run_in(read: Scene, folder: Any, overwrite: bool, resume: bool, progress: P
     options = c.RunOptions(folder=c_text_or_none(folder), overwrite=overwrite, resume=resume,
                            on_step=_callback(c.StepCallback, progress, stop), stop=ctypes.pointer(stop))
     call_stoppable(lib.amontons_run, stop, read, ctypes.byref(options), ctypes.byref(summary))
+    finish = getattr(progress, "finish", None)
+    if finish:
+        finish()
     result = Result(folder)
     result.summary = summary
     return result

@@ -13,9 +13,16 @@ import numpy as np
 
 from . import _structs as c
 from ._library import path_of
+from .notebook import result_html
 
 _SHORT = {"t": "series/time", "U": "series/rod_displacement", "x": "nodes/x"}
-_FOLDERS = ("series", "interface", "nodes", "pads")
+_FOLDERS = ("series", "interface", "nodes", "pads", "probes")
+_TABLES = ("events", "peaks", "pads", "pad_slidings")   # of run.json, a map a row
+_SHOWN = ("force", "slip-map", "contact-density", "state-map", "probes", "profile")   # of a result, in a notebook
+_NUMBERS = ("mu_M", "mu_hold", "mu_max", "l_c_over_L")
+# Components of a probe's values by how many these are: a vector has as many as there are axes, a strain 3 in the plane.
+_VECTORS = {2: ("x", "z"), 3: ("x", "y", "z")}
+_STRAINS = {3: ("xx", "zz", "xz"), 6: ("xx", "yy", "zz", "xy", "yz", "xz")}
 
 
 def _open_arrays(path: Path) -> Any:
@@ -107,6 +114,32 @@ class History(Mapping):
         return {name: value.item() if hasattr(value, "item") else value for name, value in self._file.attrs.items()}
 
 
+    @property
+    def probes(self) -> list[str]:
+        """Names of the probes of the scene, in the order of history["probes/strain"][steps, probes, components]."""
+        return [name for name in str(self.numbers.get("probes", "")).split("\n") if name]
+
+    def to_pandas(self) -> Any:
+        """The series as a table of pandas, a row for each step: the index is t; U, mu and the other series, `pads NAME ...`
+        of each pad, `NAME strain_xx` of each probe. Needs pandas."""
+        pandas = _pandas()
+        columns = {name.split("/")[1]: self[name] for name in self._names if name.startswith("series/")}
+        columns = {"U" if name == "rod_displacement" else name: values for name, values in columns.items()}
+        t = columns.pop("time")
+        pads = str(self.numbers.get("pads", "")).split("\n")
+        for name in (name for name in self._names if name.startswith("pads/")):
+            for k, values in enumerate(self[name].reshape(len(t), -1).T):
+                pad = pads[k] if k < len(pads) and pads[k] else str(k)
+                columns[f"pads {pad} {name.split('/')[1]}"] = values
+        for name in (name for name in self._names if name.startswith("probes/") and name != "probes/at"):
+            values, quantity = self[name], name.split("/")[1]
+            for k, probe in enumerate(self.probes):
+                names = _STRAINS if quantity in ("strain", "stress") else _VECTORS
+                for c, component in enumerate(names[values.shape[2]]):
+                    columns[f"{probe} {quantity}_{component}"] = values[:, k, c]
+        return pandas.DataFrame(columns, index=pandas.Index(t, name="t"))
+
+
 class Field(NamedTuple):
     """The files of one time, for ParaView, meshio or vtk: the whole block (.vtu) and the contact (.vtp)."""
     t: float
@@ -166,6 +199,35 @@ class Result:
         """What makes an answer doubtful."""
         return list(self.report.get("warnings", []))
 
+    def to_pandas(self, table: str = "events") -> Any:
+        """`events`, `peaks`, `pads` or `pad_slidings` of run.json as a table of pandas, a row for each. Needs pandas."""
+        if table not in _TABLES:
+            raise ValueError(f"there is no table {table!r}; there are: {', '.join(_TABLES)}")
+        return _pandas().DataFrame(self.report.get("results", {}).get(table) or [])
+
+    def _pictures(self) -> list[Path]:
+        found = {path.stem: path for path in sorted((self.folder / "figures").glob("*.png"))}
+        return [found[name] for name in _SHOWN if name in found]
+
+    def _repr_png_(self) -> bytes | None:
+        """The first of its pictures; a run that has drawn none has no picture."""
+        pictures = self._pictures()
+        return pictures[0].read_bytes() if pictures else None
+
+    def _repr_html_(self) -> str:
+        """Its answers, what it was warned of, and the pictures that it has drawn."""
+        report = self.report
+        results, rows = report.get("results", {}), []
+        for name in _NUMBERS:
+            value, error = results.get(name), results.get(f"{name}_error") or results.get(f"{name}_known_to")
+            if value is not None:
+                rows.append((name, f"{value:.4g}" + (f" ± {error:.2g}" if error is not None else "")))
+        kinds = [event.get("kind") for event in results.get("events") or []]
+        rows += [(f"{kind} events", str(kinds.count(kind))) for kind in dict.fromkeys(kinds)]
+        title = (report.get("scene") or {}).get("title") or self.folder.name
+        state = report.get("status", "has not ended")
+        return result_html(f"{title}: {state}", rows, self.warnings, self._pictures())
+
     def plot_force(self, axes: Any = None) -> Any:
         """F_T/F_N against the displacement of the rod, with the peaks that count for mu_M. Needs matplotlib; returns
         the axes."""
@@ -202,6 +264,14 @@ class Result:
 
     def _unit(self, unit: str) -> str:
         return f" ({unit})" if self.history.numbers.get("units") == "si" else ""
+
+
+def _pandas() -> Any:
+    try:
+        import pandas
+    except ImportError:
+        raise ImportError("tables need pandas (Debian: python3-pandas); arrays and run.json are there without it") from None
+    return pandas
 
 
 def _new_axes() -> Any:

@@ -10,6 +10,7 @@ import numpy as np
 
 from . import _structs as c
 from ._library import Owner, Scene, c_text, c_text_or_none, call, lib, raise_error
+from .notebook import progress_html
 from .results import Answer
 
 
@@ -77,6 +78,10 @@ class Simulation(Owner):
 
     def __del__(self) -> None:
         self._memory = None   # arrays that are left keep it
+
+    def _repr_html_(self) -> str:
+        """How far it is, in a notebook."""
+        return progress_html(self.step) if self._memory else "a simulation that is closed"
 
     @property
     def finished(self) -> bool:

@@ -125,7 +125,7 @@ static bool take_values(Maps *maps, Error *err)
         [CONTACT_SLIP_RATE] = SERIES_SLIP_RATE, [CONTACT_DENSITY] = SERIES_SLIP_RATE,
         [CONTACT_PRESSURE] = SERIES_PRESSURE,   [CONTACT_SHEAR] = SERIES_SHEAR,
         [CONTACT_RATIO] = SERIES_SHEAR,         [CONTACT_SLIP] = SERIES_SLIP,
-        [CONTACT_STATE] = SERIES_STATE};
+        [CONTACT_STATE] = SERIES_STATE,         [CONTACT_GAP] = SERIES_GAP};
     ContactQuantity quantity = maps->quantity;
     int32_t nodes = maps->view->plane.nodes;
     if (!(maps->values = NEW_ARRAY(double, (int64_t)maps->count *nodes, err))) return false;

@@ -43,6 +43,12 @@ bool figure_strip(Page *page, const FigureInput *input, Error *err);
 bool figure_contact_plane(Page *page, const FigureInput *input, Error *err);
 bool figure_contact_plane_shows(ResultView *view, const char *quantity);
 
+// What the probes saw, strains where nothing is named, against U.
+bool figure_probes(Page *page, const FigureInput *input, Error *err);
+bool figure_probes_show(const char *quantity);   // whether it knows that
+// The contact along x at moments, those around the last sliding where none are asked for.
+bool figure_profile(Page *page, const FigureInput *input, Error *err);
+
 // F_T/F_N against U with its peaks, mu_S, mu_M, mu_K, and above it an inset of the precursors.
 bool figure_force(const Page *page, ResultView *view, Error *err);
 // Whether it has that inset, for which it is higher.

@@ -292,6 +292,9 @@ bool result_view_open(const char *folder, ResultView *view, Error *err)
     TRY(lines_read(view, "pads", &view->pad_names, err));
     TRY(lines_read(view, "warnings", &view->warnings, err));
     TRY(states_read(view, err));
+    TRY(lines_read(view, "probes", &view->probe_names, err));
+    view->probes = view->probe_names[0] != 0;
+    for (const char *at = view->probe_names; *at; ++at) view->probes += *at == '\n';
     TRY(events_read(view, err));
     TRY(peaks_read(view, err));
     for (int32_t k = 0; k < RESULT_NUMBERS_COUNT; ++k)
@@ -396,7 +399,7 @@ void result_view_close(ResultView *view)
     memory_free_all(view->title, view->t, view->U, view->mu, view->x, view->pad, view->line,
                     view->pad_names, view->warnings, view->slip_rate, view->slip, view->front,
                     view->status, view->contact_status, view->state_names, view->state_unit,
-                    view->events, view->peaks, view->rapid);
+                    view->probe_names, view->events, view->peaks, view->rapid);
     memory_free_all(view->precursors.at, view->precursors.value, view->front_speed.at,
                     view->front_speed.value);
     contact_plane_destroy(&view->plane);

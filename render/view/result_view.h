@@ -68,6 +68,8 @@ typedef struct ResultView {
     int32_t states;   // of friction that remembers; 0: it does not
     int32_t state;   // which of them SERIES_STATE is read as
     char *state_names, *state_unit;   // a line each; "time", "1", ...; owned
+    int32_t probes;   // points inside the bodies; 0: there are none
+    char *probe_names;   // a line each; owned
     double number[RESULT_NUMBERS_COUNT];   // NaN: not known
     int32_t event_count, peak_count;   // 0 in a run that did not end
     ViewEvent *events;   // [event_count] owned

@@ -21,6 +21,7 @@ bool contact_arrays_create(const Interface *interface, const Friction *friction,
     arrays->slip = NEW_ARRAY(double, count *tangents, err);
     arrays->pressure = NEW_ARRAY(double, count, err);
     arrays->shear = NEW_ARRAY(double, count *tangents, err);
+    arrays->gap = NEW_ARRAY(double, count, err);
     arrays->status = NEW_ARRAY(uint8_t, count, err);
     arrays->states = friction_states(friction, count);
     if (arrays->states > 0) arrays->state = NEW_ARRAY(double, (int64_t)count * arrays->states, err);
@@ -34,7 +35,7 @@ bool contact_arrays_create(const Interface *interface, const Friction *friction,
 
 void contact_arrays_destroy(ContactArrays *arrays)
 {
-    memory_free_all(arrays->slip_rate, arrays->slip, arrays->pressure, arrays->shear,
+    memory_free_all(arrays->slip_rate, arrays->slip, arrays->pressure, arrays->shear, arrays->gap,
                     arrays->status, arrays->state, arrays->area, arrays->origin);
     *arrays = (ContactArrays){0};
 }
@@ -94,6 +95,9 @@ bool contact_arrays_record(void *self, const Observation *seen, Error *err)
             arrays->state[i * arrays->states + k] = friction_shown_state(
                 friction_at(arrays->friction, i), k, state->theta[i * STATES_MAX + k]);
         arrays->pressure[i] = state->reaction[n] / seen->interface->weight[i];
+        double moved = state->displacement[seen->system->interface_dofs[n]];
+        arrays->gap[i] =
+            state->status[i] == CONTACT_OPEN ? moved + interface_gap(seen->interface, i) : 0;
         arrays->status[i] = shown_status(friction_at(arrays->friction, i), seen_status(seen, i),
                                          slip_size(seen->interface, i, state->slip_rate));
     }

@@ -18,6 +18,7 @@ typedef struct ContactArrays {
     double *slip;   // [count * tangents] since the first step, length
     double *pressure;   // [count] stress
     double *shear;   // [count * tangents] positive where the plane drags the block back, stress
+    double *gap;   // [count] over the floor, 0 where they touch, length
     uint8_t *status;   // [count] 0 open, 1 sticks, 2 slips where friction weakens, 3 where it does
         // not
     int32_t states;   // of a node; 0: nothing is remembered

@@ -123,6 +123,7 @@ static void fill_rows(History *history, const Observation *seen, double *row[RES
     row[SERIES_SLIP] = contact->slip;
     row[SERIES_PRESSURE] = contact->pressure;
     row[SERIES_SHEAR] = contact->shear;
+    row[SERIES_GAP] = contact->gap;
     row[SERIES_STATE] = contact->state;
     row[SERIES_AREA] = contact->area;
     row[SERIES_STATUS] = history->status;

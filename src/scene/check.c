@@ -393,6 +393,9 @@ static bool check_output(const Check *check)
         if (strcmp(scene->output.figures.name[k], "field") == 0 && !scene->output.fields)
             return blame(check, "output.figures",
                          "`field` draws the block as it is stored: it needs output.fields");
+        if (strcmp(scene->output.figures.name[k], "probes") == 0 && scene->output.probes.count == 0)
+            return blame(check, "output.figures",
+                         "`probes` draws what output.probes reads: there are none");
         if (strcmp(scene->output.figures.name[k], "field-strip") == 0)
             return blame(check, "output.figures",
                          "`field-strip` needs a sliding, which no run is sure to have: draw it "

@@ -4,6 +4,7 @@
 Held against fields of the same run, interpolated by VTK; against a uniform state in closed form; and against FreeFem++ on
 the same mesh, whose strains it evaluates itself at the points.
 """
+import csv
 import shutil
 import subprocess
 import textwrap
@@ -236,6 +237,65 @@ output: {{figures: [], fields: {{every_U: 5e-4}}, probes: {{g: {{at: [0.3, 0.2, 
         self.assertGreater(len(found["series/time"]), 3)
         self.assertEqual(len(found["series/time"]), len(found["probes/strain"]))
 
+    def render(self, folder, *words, status=0):
+        done = subprocess.run([PROGRAM, "render", folder, "--dpi", "120", *words], capture_output=True, text=True, timeout=120,
+                              env=self.environment)
+        self.assertEqual(done.returncode, status, done.stderr)
+        return done.stderr
+
+    def table(self, path):
+        with open(path, encoding="utf-8", newline="") as file:
+            rows = list(csv.DictReader(file))
+        return {name: numpy.array([float(row[name] or "nan") for row in rows]) for name in rows[0]}
+
+    def test_figures(self):
+        folder = self.run_scene(FIG1, "figures", *SMALL[:1], "time.until={U: 0.006}", "output.fields=none",
+                                "output.probes={foot: {at: [0.2, 0.02]}, top: {at: [0.8, 0.4]}}", "output.figures=[probes]")
+        self.assertTrue((folder / "figures" / "probes.png").exists())
+        found, shown = self.arrays(folder), self.table(folder / "figures" / "probes.csv")
+        for k, name in enumerate(("foot", "top")):
+            for c, axes in enumerate(("xx", "zz", "xz")):
+                numpy.testing.assert_allclose(shown[f"{name} strain_{axes}"], found["probes/strain"][:, k, c], rtol=1e-8)
+                numpy.testing.assert_allclose(shown[f"{name} stress_{axes}"], found["probes/stress"][:, k, c], rtol=1e-8)
+            numpy.testing.assert_allclose(shown[f"{name} displacement_z"], found["probes/displacement"][:, k, 1], rtol=1e-8)
+        self.render(folder, "--figure", "probes", "--of", "velocity", "--from", "U=0.001")
+        self.assertTrue((folder / "figures" / "probes-velocity.png").exists())
+        self.assertIn("known are: strain, stress, displacement, velocity",
+                      self.render(folder, "--figure", "probes", "--of", "force", status=2))
+
+    def test_profile(self):
+        """Around a sliding: equal loads before and after it; with --at the arrays of the history; what is open has a gap."""
+        folder = self.run_scene(FIG1, "profile", *SMALL[:1], "time.until={U: 0.008}", "output.fields=none", "output.figures=[]")
+        self.render(folder, "--figure", "profile")
+        shown = self.table(folder / "figures" / "profile.csv")
+        moments = list(dict.fromkeys(shown["U"]))
+        self.assertEqual(len(moments), 3)
+        with h5py.File(folder / "history.h5") as file:
+            series = {name: file[name][()].astype(float) for name in
+                      ("series/rod_displacement", "series/mu", "interface/pressure", "interface/shear", "interface/slip",
+                       "interface/gap", "interface/status")}
+        load = [shown["F_T/F_N"][shown["U"] == U][0] for U in moments]
+        self.assertAlmostEqual(load[0], load[2], delta=0.02)
+        self.assertGreater(load[1], load[0] + 0.1)
+        rows = [int(numpy.argmin(numpy.abs(series["series/rod_displacement"] - U))) for U in moments]
+        for U, row in zip(moments, rows):
+            here = shown["U"] == U
+            numpy.testing.assert_allclose(shown["p"][here], series["interface/pressure"][row], rtol=1e-7, atol=1e-12)
+            numpy.testing.assert_allclose(shown["gap"][here], series["interface/gap"][row], rtol=1e-7, atol=1e-12)
+            numpy.testing.assert_allclose(shown["slip"][here], series["interface/slip"][row] - series["interface/slip"][rows[0]],
+                                          rtol=1e-6, atol=1e-12)
+            numpy.testing.assert_array_equal(numpy.isnan(shown["tau/p"][here]), series["interface/status"][row] == 0)
+        is_open = series["interface/status"] == 0
+        self.assertTrue(numpy.any(is_open))
+        self.assertTrue(numpy.all(series["interface/gap"][is_open] >= -1e-12))
+        self.assertTrue(numpy.all(series["interface/gap"][~is_open] == 0))
+        self.render(folder, "--figure", "profile", "--at", "mu=0.2")
+        shown = self.table(folder / "figures" / "profile.csv")
+        self.assertGreaterEqual(len(set(shown["U"])), 2)
+        self.assertLess(numpy.max(numpy.abs(shown["F_T/F_N"] - 0.2)), 0.02)
+        self.render(folder, "--figure", "profile", "--at", "U=0.001,U=0.002")
+        self.assertIn("never rises through 0.9", self.render(folder, "--figure", "profile", "--at", "mu=0.9", status=2))
+
     def test_refused(self):
         def said(*settings):
             return self.run_scene(FIG1, "refused", *SMALL[:3], *settings, status=2)
@@ -246,6 +306,7 @@ output: {{figures: [], fields: {{every_U: 5e-4}}, probes: {{g: {{at: [0.3, 0.2, 
         self.assertIn("allowed: [x, z]", said("output.probes={g: {at: [0.5, 0.1, 0.2]}}"))
         self.assertIn("a probe needs its `at`", said("output.probes={g: {}}"))
         self.assertIn("allowed: at", said("output.probes={g: {at: [0.5, 0.1], place: 3}}"))
+        self.assertIn("there are none", said("output.figures=[probes]"))
         self.assertIn("need output.history: true", said("output.probes={g: {at: [0.5, 0.1]}}", "output.history=false"))
 
 

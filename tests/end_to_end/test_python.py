@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The Python module against the program: the same numbers, to the bit; its structs against the compiler's; views without
 copies; errors with file, line and key; Ctrl-C; pictures and tables."""
+import base64
 import csv
 import copy
 import ctypes
@@ -16,7 +17,9 @@ import sys
 import tempfile
 import textwrap
 import time
+import types
 import unittest
+import unittest.mock
 from pathlib import Path
 
 import numpy as np
@@ -480,6 +483,60 @@ class Commands(InFolder):
         np.testing.assert_array_equal(line[:, 1], result.history.mu)
         axes.figure.savefig(self.folder / "force.png")
         result.plot_slip_map().figure.savefig(self.folder / "map.png")
+
+    @unittest.skipUnless(has("pandas"), "no pandas here")
+    def test_tables(self):
+        probes = {"a": {"at": [0.3, 0.1]}, "b 2": {"at": [0.6, 0.2]}}
+        result = amontons.run(FIG1, {**SMALL, "time.until": {"U": 0.004}, "output.probes": probes})
+        table, history = result.history.to_pandas(), result.history
+        self.assertEqual(history.probes, ["a", "b 2"])
+        self.assertEqual(table.index.name, "t")
+        np.testing.assert_array_equal(table.index, history.t)
+        np.testing.assert_array_equal(table["U"], history.U)
+        np.testing.assert_array_equal(table["mu"], history.mu)
+        np.testing.assert_array_equal(table["b 2 strain_xz"], history["probes/strain"][:, 1, 2])
+        np.testing.assert_array_equal(table["a displacement_z"], history.displacement[:, 0, 1])
+        np.testing.assert_array_equal(table["pads contact normal_force"], history["pads/normal_force"])
+        events = result.to_pandas("events")
+        self.assertEqual(list(events["U_start"]), [event["U_start"] for event in result.events])
+        self.assertEqual(len(result.to_pandas("pads")), len(result.pads))
+        with self.assertRaisesRegex(ValueError, "there are: events, peaks, pads, pad_slidings"):
+            result.to_pandas("nothing")
+
+    def test_no_pandas(self):
+        result = amontons.run(FIG1, {**SMALL, "time.until": {"U": 0.001}})
+        with unittest.mock.patch.dict(sys.modules, {"pandas": None}):
+            for table in (result.history.to_pandas, result.to_pandas):
+                with self.assertRaisesRegex(ImportError, "python3-pandas"):
+                    table()
+
+    def test_notebook(self):
+        """What Jupyter asks of an object; IPython stands in for itself."""
+        shown = []
+
+        class Handle:
+            def update(self, html):
+                shown.append(html)
+
+        display = types.ModuleType("IPython.display")
+        display.HTML, display.display = str, lambda html, display_id: Handle()
+        with unittest.mock.patch.dict(sys.modules, {"IPython": types.ModuleType("IPython"), "IPython.display": display}):
+            result = amontons.run(FIG1, {**SMALL, "title": "A <block>", "output.figures": ["force"]}, self.folder / "shown",
+                                  progress=amontons.NotebookProgress())
+        self.assertIn("F_T/F_N", shown[0])
+        self.assertIn(f"U = {result.history.U[-1]:.6g}", shown[-1])
+        page, picture = result._repr_html_(), (self.folder / "shown" / "figures" / "force.png").read_bytes()
+        self.assertEqual(result._repr_png_(), picture)
+        self.assertIn(base64.b64encode(picture).decode(), page)
+        self.assertIn("A &lt;block&gt;: done", page)
+        self.assertIn("mu_max", page)
+        self.assertIsNone(amontons.run(FIG1, SMALL)._repr_png_())
+        simulation = amontons.Simulation(FIG1, SMALL)
+        simulation.advance()
+        self.assertIn(f"U = {simulation.step.U:.6g}", simulation._repr_html_())
+        with unittest.mock.patch.dict(sys.modules, {"IPython": None, "IPython.display": None}):
+            with self.assertRaisesRegex(ImportError, "IPython"):
+                amontons.NotebookProgress()
 
     def test_cache(self):
         os.environ["AMONTONS_CACHE"] = str(self.folder / "cache")

@@ -59,7 +59,7 @@ bool result_file_read_nodes(ArrayFile *file, ResultNodes nodes, double **values,
                             Error *err);
 bool result_file_has_nodes(ArrayFile *file, ResultNodes nodes);   // y and line: in space
 bool result_file_has_faces(ArrayFile *file);
-bool result_file_has_series(ArrayFile *file, ResultSeries series);
+bool result_file_has_series(ArrayFile *file, ResultSeries series);   // older ones may lack some
 bool result_file_remembers(ArrayFile *file);   // SERIES_STATE is there
 // *values [rows * width]; an array that is absent has no rows.
 bool result_file_read_faces(ArrayFile *file, ResultFaces faces, double **values, int32_t *rows,

@@ -43,6 +43,8 @@ typedef enum ResultColumns {
       "tau: friction stress on the block, positive against the drive (towards -x)")                \
     X(SERIES_STATUS, "interface/status", ARRAY_UINT8, NODES, "1",                                  \
       "0 open, 1 stick, 2 slip where friction weakens, 3 slip where it does not")                  \
+    X(SERIES_GAP, "interface/gap", ARRAY_FLOAT32, NODES, "length",                                 \
+      "how far the block stands over the floor; 0 where they touch")                               \
     X(SERIES_STATE, "interface/state", ARRAY_FLOAT32, NODES, "time",                               \
       "theta of friction that remembers (`slip-weakening`: phi, part of strength, 1; one's own: "  \
       "several along a last axis, in their own units); absent where nothing is remembered")        \

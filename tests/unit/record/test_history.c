@@ -21,6 +21,7 @@ static void show(int32_t k)
     for (int32_t i = 0; i < SEEN_NODES; i++) rate[i] = 0.1 * k - 0.25 * i;
     hand_seen(&hand, 0.5 * k, rate);
     for (int32_t i = 0; i < SEEN_NODES; i++) {
+        hand.displacement[plane_normal(i)] = 0.02 * (i + 1);
         hand.displacement[plane_tangent(i)] = 7 + 3 * k + 0.5 * i;
         hand.reaction[plane_normal(i)] = 2 + k + i;
         hand.reaction[plane_tangent(i)] = k - 10 * i;
@@ -86,6 +87,8 @@ static double wanted(ResultSeries series, int32_t k, int32_t i)
         return (2 + k + i) / hand.weight[i];
     case SERIES_SHEAR:
         return (10 * i - k) / hand.weight[i];
+    case SERIES_GAP:   // of what touches its displacement is rounding and counts as none
+        return open ? 0.02 * (i + 1) : 0;
     case SERIES_STATUS:
         return open ? 0 : (rate == 0 ? 1 : (fabs(rate) < 1 ? 2 : 3));
     default:

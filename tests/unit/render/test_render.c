@@ -133,9 +133,10 @@ TEST(unknown_figures_are_named)
     assert_false(amontons_render(folder, &request, &err));
     assert_int_equal(err.code, ERROR_INPUT);
     assert_non_null(strstr(err.message, "\"colour\""));
-    assert_non_null(strstr(
-        err.message, "force, slip-map, contact-density, contact-area, state-map, contact-plane, "
-                     "precursors, front-speed, field, field-strip"));
+    assert_non_null(strstr(err.message,
+                           "force, slip-map, contact-density, contact-area, state-map, "
+                           "contact-plane, precursors, front-speed, probes, profile, field, "
+                           "field-strip"));
 }
 
 GROUP_BETWEEN(result_write, result_remove);
