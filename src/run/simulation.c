@@ -245,6 +245,7 @@ bool simulation_create_by(const Scene *scene, const RunOptions *options, double 
                            &simulation->warnings);
     simulation->ill_posed = warning || simulation->warnings.count > before;
     warnings_of_branches(&simulation->model, &simulation->warnings);
+    warnings_of_damping(&simulation->model, &simulation->warnings);
     if (simulation->model.interface.dim > 2 && scene->given[scene_key_index("material.plane")])
         warnings_add(&simulation->warnings,
                      "material.plane means nothing here: the mesh is in space");

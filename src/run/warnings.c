@@ -4,7 +4,8 @@
 //     -mu' p w_i  >  S_C[t_i, t_i],     mu' the steepest, p the mean pressure, w_i the weight.
 //
 // S_C of one node hardly depends on the mesh and w_i shrinks with it, so this is a matter of
-// element size: above it l_sc is shorter than an element.
+// element size: above it l_sc is shorter than an element. With branches of a material the least of
+// S[t_i,t_i] over real rates takes the place of S_C, as what grows is no faster than they follow.
 //
 // Only the run shows whether the length over which slip runs away, on whichever pad it does, has
 // enough cells. Of 48 blocks, pads and grooves (46 of set A, 2 of set B; those of validation/pads
@@ -15,6 +16,7 @@
 
 #include "answers/drop_series.h"
 #include "friction/friction_start.h"
+#include "model/step_rule.h"
 #include "scene/keys.h"
 #include "scene/materials.h"
 #include "scene/programs.h"
@@ -46,8 +48,9 @@ int32_t undamped_nodes(const Certificate *certificate, double load, double *wors
     for (int32_t i = 0; i < interface->contact_count; i++) {
         int64_t t = interface_tangent(interface, i);
         double slope = friction_steepest(friction_at(friction, i));
-        double ratio = slope * load / length * interface->weight[i] /
-                       schur[t * interface->count + t];
+        double ratio =
+            slope * load / length * interface->weight[i] /
+            (certificate->alone ? certificate->alone[i] : schur[t * interface->count + t]);
         count += ratio > 1;
         *worst = ratio > *worst ? ratio : *worst;
     }
@@ -67,6 +70,10 @@ void warnings_of_viscosity(const Scene *scene, const Model *model, RunWarnings *
     }
 }
 
+// A branch is a spring in a run where its time is so many of the run's: its stress falls by this
+// part.
+static const double STANDING = 1e3;
+
 void warnings_of_branches(const Model *model, RunWarnings *warnings)
 {
     if (model->folded_time > 0)
@@ -75,6 +82,32 @@ void warnings_of_branches(const Model *model, RunWarnings *warnings)
             "branches of `relaxation` with times of %.3g or less are taken as a viscosity: "
             "waves within an element are a thousand times slower",
             model->folded_time);
+    double slowest = materials_relaxation_time(&model->materials);
+    double end = step_rule_end(model->scene);
+    if (end > 0 && slowest > STANDING * end)
+        warnings_add(warnings,
+                     "branches of `relaxation` with times up to %.3g do not relax in a run of "
+                     "%.3g: they are springs in it%s",
+                     slowest, end,
+                     model->scene->start.state == START_RELAXED
+                         ? ", which gave way while the block settled"
+                         : "");
+}
+
+// A scene in units of eta1 has as its viscosity what its length makes of it; one in SI means a
+// material.
+void warnings_of_damping(const Model *model, RunWarnings *warnings)
+{
+    const Scene *scene = model->scene;
+    const Material *floor = &model->materials.list[model->contact_region];
+    double damping = material_wave_damping(floor, fmax(model->length, model->height));
+    if (scene->units != UNITS_SI || !(floor->eta1 > 0) || damping <= 1) return;
+    double rate = material_speeds(floor).shear / (2 * fmax(model->length, model->height));
+    warnings_add(warnings,
+                 "no wave runs in the block: eta1 of %s is %.3g times what damps its longest one "
+                 "critically; a viscosity taken from slow motion does this; a table of E' and E'' "
+                 "about %.3g Hz (material: {from: FILE}), or branches, have the damping of waves",
+                 scene_region_name(scene, model->contact_region), damping, rate);
 }
 
 void warnings_of_resolution(const Certificate *certificate, double load, RunWarnings *warnings)

@@ -24,8 +24,12 @@ int32_t undamped_nodes(const Certificate *certificate, double load, double *wors
 // Materials without viscosity on which friction that weakens acts, where others have some.
 void warnings_of_viscosity(const Scene *scene, const Model *model, RunWarnings *warnings);
 
-// Branches that were made a viscosity, as they relax faster than anything in the mesh moves.
+// Branches that were made a viscosity, as they relax faster than anything in the mesh moves; those
+// that do not relax in the run.
 void warnings_of_branches(const Model *model, RunWarnings *warnings);
+
+// In an SI scene: a viscosity that damps every wave of the block, and what would know better.
+void warnings_of_damping(const Model *model, RunWarnings *warnings);
 
 // Says so. Appends to `warnings`.
 void warnings_of_resolution(const Certificate *certificate, double load, RunWarnings *warnings);

@@ -166,6 +166,21 @@ static bool check_relaxation(const Check *check, const SceneMaterial *region, co
     if (relaxation->count > 0 && !(poisson < 0.5))
         return blame(check, key, "%s%srelaxation: poisson is %g; branches need less than 0.5", name,
                      dot, poisson);
+    for (int32_t k = 0; k < relaxation->count; k++) {   // they may be formulas, or set one by one
+        const SceneBranch *branch = &relaxation->branch[k];
+        if (!(branch->time > 0 && branch->shear >= 0 && branch->bulk >= 0 &&
+              branch->shear + branch->bulk > 0))
+            return blame(check, key,
+                         "%s%srelaxation.%d has time %g, shear %g and bulk %g; allowed: a time > "
+                         "0, moduli >= 0 and not both 0",
+                         name, dot, k, branch->time, branch->shear, branch->bulk);
+        for (int32_t i = 0; i < k; i++)
+            if (relaxation->branch[i].time == branch->time)
+                return blame(check, key,
+                             "%s%srelaxation: the time %g stands twice; add up the "
+                             "moduli",
+                             name, dot, branch->time);
+    }
     if (!scene_material_is_short(scene, region)) return true;
     for (int32_t k = 0; k < relaxation->count; k++) {
         shear -= relaxation->branch[k].shear;
@@ -414,10 +429,10 @@ const char *amontons_scene_warning(const Scene *scene)
             return NULL;
     if (scene->material.relaxation.count > 0)
         return "material.eta1 is 0, and branches of `relaxation` are elastic at once: with "
-               "friction "
-               "that weakens, the shortest wave that the mesh can hold grows fastest, so the "
-               "answer "
-               "has no limit as the mesh gets finer (an ill-posed problem); give eta1 beside them";
+               "friction that weakens, the shortest wave that the mesh can hold grows fastest, so "
+               "the answer has no limit as the mesh gets finer (an ill-posed problem); give eta1 "
+               "beside them, as E'' over 2 pi f at the highest frequency that was measured, or a "
+               "law that remembers (friction.law: rate-and-state)";
     return "material.eta1 is 0: with friction that weakens, the shortest wave that the mesh can "
            "hold grows fastest, so the answer has no limit as the mesh gets finer (an ill-posed "
            "problem)";

@@ -33,7 +33,8 @@ bool scene_number(const void *context, const char *name, double *value)
         *value = parameter->value;
         return !*parameter->text;
     }
-    if (scene_materials_find(scene, name, value)) return true;
+    if (scene_materials_find(scene, name, value) || scene_branches_find(scene, name, value))
+        return true;
     if (index < 0 || keys[index].type != KEY_NUMBER) return false;
     memcpy(value, (const char *)scene + keys[index].offset, sizeof *value);
     return true;

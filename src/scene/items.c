@@ -87,10 +87,17 @@ static bool set_word(const SceneKey *key, int32_t k, const SceneValue *value, Sc
 {
     static const SceneKey name_key = {.type = KEY_NAME};
     static const ScenePart group = {"group", 0, 0, &name_key, true, true};
-    char path[PATH_SIZE], name[PATH_SIZE + 64];
+    char path[PATH_SIZE], name[2 * PATH_SIZE];
     const SceneItems *items = key->items;
     char *item = item_of(items, scene, k);
     const char *word = value->part ? value->part : yaml_key(value->document, value->node);
+    const char *dot = value->part ? strchr(word, '.') : NULL;   // "relaxation.0.shear"
+    char first[GROUP_NAME_SIZE];
+    if (dot) {
+        int length = dot - word < GROUP_NAME_SIZE ? (int)(dot - word) : GROUP_NAME_SIZE - 1;
+        snprintf(first, sizeof first, "%.*s", length, word);
+        word = first;
+    }
     bool is_group = !items->named && strcmp(word, "group") == 0;
     const ScenePart *part = is_group ? &group : find_part(items, word);
     path_of(key, item, path);
@@ -102,7 +109,9 @@ static bool set_word(const SceneKey *key, int32_t k, const SceneValue *value, Sc
     if (own.type == KEY_TEXT && !*yaml_text(value->document, value->node))
         return yaml_refuse(value->document, value->node, name, "a text", err);
     if (part->given) *(bool *)(item + part->given) = true;
-    return scene_value_set(&own, value, scene, err);
+    SceneValue one = *value;
+    one.part = dot ? dot + 1 : NULL;
+    return scene_value_set(&own, &one, scene, err);
 }
 
 // All of a map, {mu_static: 0.5}. An empty one is an item without words.
@@ -180,11 +189,20 @@ static void hold_axes(Scene *scene)
     }
 }
 
+// Where the words of an item begin in "layer.young" and "layer.relaxation.0.shear"; names of items
+// may have dots. NULL: nowhere.
+static const char *last_words(const char *part)
+{
+    static const char branches[] = ".relaxation.";
+    const char *found = strstr(part, branches);
+    return found ? found : strrchr(part, '.');
+}
+
 // The rest of the path of a --set: an item's map, or one word of an item.
 static bool set_below(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
 {
     SceneValue one = {.document = value->document, .node = value->node};
-    const char *dot = strrchr(value->part, '.');
+    const char *dot = last_words(value->part);
     bool whole = yaml_kind(value->document, value->node) == YAML_MAP;
     size_t length = whole ? strlen(value->part) : dot ? (size_t)(dot - value->part) : 0;
     int32_t k = take_item(key, value->part, length, &one, scene, err);

@@ -411,7 +411,8 @@ int32_t scene_key_above(const char *name, const char **part)
 {
     for (int32_t k = 0; k < KEY_COUNT; k++) {
         size_t length = strlen(keys[k].name);
-        bool open = keys[k].type == KEY_PARAMETERS || (keys[k].items && keys[k].items->named);
+        bool open = keys[k].type == KEY_PARAMETERS || keys[k].type == KEY_BRANCHES ||
+                    (keys[k].items && keys[k].items->named);
         if (!open || strncmp(name, keys[k].name, length) != 0 || name[length] != '.') continue;
         *part = name + length + 1;
         return k;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "scene/materials.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 const char *scene_region_name(const Scene *scene, int32_t k)
@@ -25,6 +26,36 @@ bool scene_material_is_short(const Scene *scene, const SceneMaterial *region)
 {
     bool own = region && (region->given[MATERIAL_YOUNG] || region->given[MATERIAL_YOUNG_SHORT]);
     return own ? region->given[MATERIAL_YOUNG_SHORT] : scene->material.young_short > 0;
+}
+
+bool scene_branches_find(const Scene *scene, const char *path, double *number)
+{
+    static const char whole[] = "material.relaxation.", below[] = ".relaxation.";
+    const SceneRelaxation *relaxation = &scene->material.relaxation;
+    const char *rest = path + sizeof whole - 1;
+    char *word;
+    if (strncmp(path, whole, sizeof whole - 1) != 0) {
+        const char *found = strstr(path, below), *name = path + sizeof "materials." - 1;
+        if (!found || strncmp(path, "materials.", sizeof "materials." - 1) != 0) return false;
+        relaxation = NULL;
+        for (int32_t i = 0; i < scene->materials.count; i++) {
+            const SceneMaterial *region = &scene->materials.region[i];
+            size_t length = strlen(region->group);
+            if (region->has_relaxation && name + length == found &&
+                memcmp(region->group, name, length) == 0)
+                relaxation = &region->relaxation;
+        }
+        rest = found + sizeof below - 1;
+    }
+    long k = relaxation ? strtol(rest, &word, 10) : -1;
+    if (k < 0 || word == rest || k >= relaxation->count) return false;
+    const SceneBranch *branch = &relaxation->branch[k];
+    const double *named = strcmp(word, ".time") == 0    ? &branch->time
+                          : strcmp(word, ".shear") == 0 ? &branch->shear
+                          : strcmp(word, ".bulk") == 0  ? &branch->bulk
+                                                        : NULL;
+    if (named) *number = *named;
+    return named != NULL;
 }
 
 bool scene_materials_find(const Scene *scene, const char *path, double *number)

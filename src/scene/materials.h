@@ -21,5 +21,8 @@ const char *scene_region_name(const Scene *scene, int32_t k);
 
 // The number at a path of keys ("materials.pads.young"). false: none is given there.
 bool scene_materials_find(const Scene *scene, const char *path, double *number);
+// The same of branches, counted from 0 ("material.relaxation.0.shear",
+// "materials.pads.relaxation.1.time").
+bool scene_branches_find(const Scene *scene, const char *path, double *number);
 
 #endif

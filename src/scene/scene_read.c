@@ -105,15 +105,20 @@ static bool add_formula(Reader *reader, const char *name, const SceneValue *valu
     return true;
 }
 
-// Formulas in the maps of a key that has names of one's own below it: "mesh.set.height",
-// "materials.pads.young". What reads the map leaves them out.
+// Formulas in the maps and lists of a key that has names of one's own, or branches, below it:
+// "mesh.set.height", "materials.pads.young", "material.relaxation.0.shear". What reads the map
+// leaves them out.
 static bool gather_formulas_below(Reader *reader, const char *name, const SceneValue *value,
                                   Error *err)
 {
+    bool list = yaml_kind(value->document, value->node) == YAML_LIST;
+    int32_t number = 0;
     YAML_EACH (item, value->document, value->node) {
-        char path[KEY_NAME_SIZE];
+        char path[KEY_NAME_SIZE], place[16];
         SceneValue child = {.document = value->document, .node = item};
-        snprintf(path, sizeof path, "%.60s.%.30s", name, yaml_key(value->document, item));
+        snprintf(place, sizeof place, "%d", number++);
+        snprintf(path, sizeof path, "%.60s.%.30s", name,
+                 list ? place : yaml_key(value->document, item));
         bool done = scene_is_formula(value->document, item)
                         ? add_formula(reader, path, &child, err)
                         : gather_formulas_below(reader, path, &child, err);
@@ -128,7 +133,8 @@ static bool gather(Reader *reader, const char *name, const SceneValue *value, Er
     Setting setting = {.key = scene_key_index(name), .value = *value};
     if (setting.key >= 0) {
         const SceneKey *key = &reader->keys[setting.key];
-        bool open = key->type == KEY_PARAMETERS || key->items == &scene_material_items;
+        bool open = key->type == KEY_PARAMETERS || key->type == KEY_BRANCHES ||
+                    key->items == &scene_material_items;
         if (key->type == KEY_NUMBER && scene_is_formula(value->document, value->node))
             return add_formula(reader, name, value, err);
         if (!add_setting(reader, &setting, err)) return false;
@@ -142,7 +148,7 @@ static bool gather(Reader *reader, const char *name, const SceneValue *value, Er
 }
 
 // A value given for `name` from outside of the file; `mesh.set.NAME` sets a single parameter,
-// `materials.NAME.young` a single number.
+// `materials.NAME.young` and `material.relaxation.0.shear` a single number.
 static bool gather_outside(Reader *reader, const char *name, const SceneValue *value, Error *err)
 {
     Setting setting = {.key = -1, .value = *value};

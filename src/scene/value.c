@@ -10,6 +10,7 @@
 
 #include <ctype.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
@@ -181,45 +182,58 @@ static bool set_numbers(const SceneKey *key, const SceneValue *value, Scene *sce
 
 // --- branches -----------------------------------------------------------------------------------
 
-// One map {time, shear, bulk}, each word with a key of its own that points at its place.
-static bool add_branch(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
+enum { TIME, SHEAR, BULK, WORDS };
+
+// The number that stands at a word of a branch, `word` its place in {time, shear, bulk}; WORDS: it
+// is none of these.
+static bool read_branch_word(const SceneKey *key, const char *name, const SceneValue *value,
+                             const Scene *scene, double *number, int32_t *word, Error *err)
 {
     static const SceneKey words[] = {
         {.name = "time", .type = KEY_NUMBER, .unit = "time", .range = RANGE_POSITIVE},
         {.name = "shear", .type = KEY_NUMBER, .unit = "stress", .range = RANGE_NOT_NEGATIVE},
         {.name = "bulk", .type = KEY_NUMBER, .unit = "stress", .range = RANGE_NOT_NEGATIVE}};
-    enum { TIME, SHEAR, BULK, WORDS };
+    char path[100];
+    int32_t k = 0;
+    while (k < WORDS && strcmp(words[k].name, name) != 0) k++;
+    if (k == WORDS)
+        return yaml_key_error(value->document, value->node, err,
+                              "%s: unknown key `%.60s`; allowed: time, shear, bulk", key->name,
+                              name);
+    *word = k;
+    if (scene_is_formula(value->document, value->node)) return true;   // worked out afterwards
+    SceneKey own = words[k];
+    snprintf(path, sizeof path, "%s.%s", key->name, name);
+    own.name = path;
+    return read_in_range(&own, value, scene->units, &number[k], &(bool){false}, err);
+}
+
+// One map {time, shear, bulk}.
+static bool add_branch(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
+{
     static const char allowed[] = "a map {time: TIME, shear: STRESS, bulk: STRESS}";
     const YamlDocument *document = value->document;
     SceneRelaxation *relaxation = field_of(key, scene);
     double number[WORDS] = {0};
-    bool given[WORDS] = {0};
+    bool given[WORDS] = {0}, formulas = false;
     if (yaml_kind(document, value->node) != YAML_MAP)
         return yaml_refuse(document, value->node, key->name, allowed, err);
     YAML_EACH (node, document, value->node) {
         SceneValue one = {.document = document, .node = node};
-        const char *word = yaml_key(document, node);
-        char path[100];
-        int32_t k = 0;
-        while (k < WORDS && strcmp(words[k].name, word) != 0) k++;
-        if (k == WORDS)
-            return yaml_key_error(document, node, err,
-                                  "%s: unknown key `%.60s`; allowed: time, shear, bulk", key->name,
-                                  word);
-        SceneKey own = words[k];
-        snprintf(path, sizeof path, "%s.%s", key->name, word);
-        own.name = path;
-        if (!read_in_range(&own, &one, scene->units, &number[k], &(bool){false}, err)) return false;
+        int32_t k = WORDS;
+        if (!read_branch_word(key, yaml_key(document, node), &one, scene, number, &k, err))
+            return false;
         given[k] = true;
+        formulas = formulas || scene_is_formula(document, node);
     }
     if (!given[TIME])
         return yaml_error(document, value->node, err, "%s: a branch needs its `time`; allowed: %s",
                           key->name, allowed);
-    if (!(number[SHEAR] + number[BULK] > 0))
+    if (!formulas && !(number[SHEAR] + number[BULK] > 0))
         return yaml_error(document, value->node, err,
                           "%s: a branch needs `shear` or `bulk` above 0", key->name);
     for (int32_t i = 0; i < relaxation->count; i++)
-        if (relaxation->branch[i].time == number[TIME])
+        if (number[TIME] > 0 && relaxation->branch[i].time == number[TIME])
             return yaml_error(document, value->node, err,
                               "%s: the time %g stands twice; add up the moduli", key->name,
                               number[TIME]);
@@ -228,8 +242,28 @@ static bool add_branch(const SceneKey *key, const SceneValue *value, Scene *scen
     return true;
 }
 
+// One number of a branch of the list, value->part "0.shear".
+static bool set_branch_part(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
+{
+    SceneRelaxation *relaxation = field_of(key, scene);
+    char *end;
+    long k = strtol(value->part, &end, 10);
+    int32_t word = WORDS;
+    double number[WORDS];
+    if (end == value->part || *end != '.' || k < 0 || k >= relaxation->count)
+        return yaml_key_error(value->document, value->node, err,
+                              "%s.%.60s: there is no such branch; of %d the first is %s.0, and "
+                              "its numbers are %s.0.time, .shear and .bulk",
+                              key->name, value->part, relaxation->count, key->name, key->name);
+    SceneBranch *branch = &relaxation->branch[k];
+    if (!read_branch_word(key, end + 1, value, scene, number, &word, err)) return false;
+    *(word == TIME ? &branch->time : word == SHEAR ? &branch->shear : &branch->bulk) = number[word];
+    return true;
+}
+
 static bool set_branches(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
 {
+    if (value->part) return set_branch_part(key, value, scene, err);
     scene_value_clear(key, scene);
     if (yaml_kind(value->document, value->node) == YAML_NOTHING) return true;
     return set_items(key, value, YAML_LIST, add_branch, scene, err);

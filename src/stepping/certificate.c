@@ -34,6 +34,45 @@ static bool create_work(const Block *block, Certificate *certificate, Error *err
     return error_is_clean(err);
 }
 
+// At real rates that double, up from the fastest branch while inertia does not yet make up for
+// what branches lose, and down to the slowest or until every node resists RISEN times its least.
+static bool find_alone(const Block *block, Certificate *certificate, Error *err)
+{
+    static const double RISEN = 4;
+    const Spectrum *spectrum = bulk_operator_spectrum(block->system);
+    const Interface *interface = block->interface;
+    double fastest = INFINITY, slowest = 0;
+    for (int32_t k = 0; k < spectrum->count; k++) {
+        fastest = fmin(fastest, spectrum->time[k]);
+        slowest = fmax(slowest, spectrum->time[k]);
+    }
+    if (spectrum->count == 0) return true;
+    double *alone = certificate->alone = NEW_ARRAY(double, interface->contact_count, err);
+    for (int32_t i = 0; alone && i < interface->contact_count; i++) alone[i] = INFINITY;
+    bool up = true, done = !alone;
+    for (double rate = 1 / fastest; !done; rate = up ? 2 * rate : 0.5 * rate) {
+        OperatorTerms terms = {.mass = rate, .damping = 1, .stiffness = 1 / rate};
+        InterfaceOperator *condensed = interface_operator_create(block->system, terms, err);
+        if (!condensed) return false;
+        const double *schur = interface_operator_schur(condensed);
+        bool less = false, risen = true;
+        for (int32_t i = 0; i < interface->contact_count; i++) {
+            int64_t t = interface_tangent(interface, i);
+            double own = schur[t * interface->count + t];
+            less = less || own < alone[i];
+            risen = risen && own > RISEN * alone[i];
+            alone[i] = fmin(alone[i], own);
+        }
+        interface_operator_destroy(condensed);
+        done = !up && (risen || rate * slowest <= 1);
+        if (up && !less) {
+            up = false;
+            rate = 1 / fastest;
+        }
+    }
+    return error_is_clean(err);
+}
+
 // S_C is condensed from C alone, lifted as C may be singular in the interface's own motion
 // (reduction/interface_operator), once for all states.
 bool certificate_create(const Block *block, Certificate *certificate, Error *err)
@@ -46,6 +85,7 @@ bool certificate_create(const Block *block, Certificate *certificate, Error *err
     if (certificate->damping)
         TRY(contact_matrix_create(interface_operator_schur(certificate->damping),
                                   block->interface->count, &certificate->damping_contact, err));
+    if (certificate->damping) TRY(find_alone(block, certificate, err));
 cleanup:
     return error_is_clean(err);
 }
@@ -70,7 +110,7 @@ void certificate_destroy(Certificate *certificate)
 {
     contact_matrix_destroy(&certificate->damping_contact);
     interface_operator_destroy(certificate->damping);
-    memory_free(certificate->half_damping);
+    memory_free_all(certificate->half_damping, certificate->alone);
     moving_set_destroy(&certificate->moving);
     memory_free_all(certificate->matrix, certificate->vector, certificate->pivots);
     *certificate = (Certificate){0};

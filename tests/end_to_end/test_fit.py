@@ -95,9 +95,9 @@ class Fit(unittest.TestCase):
         self.assertIn("material.density: anything from 0.8 to 1.25 fits", said)
         self.assertRegex(said, r"the data know .*critical_velocity.* to \S+ %.* material.density.* (to a factor of|not at all)")
 
-    def measure_curve(self, error=0.004):
+    def measure_curve(self, error=0.004, truth="material.young: [0.8]", more=""):
         """F_T/F_N over the way of the rod while it rises, with Young's modulus 0.8."""
-        self.call("sweep", HEAD + "  output.history: true\nvary: {material.young: [0.8]}\n", "-q", "-o", "truth")
+        self.call("sweep", HEAD + f"  output.history: true\n{more}vary: {{{truth}}}\n", "-q", "-o", "truth")
         import h5py
         folder = next((self.folder / "truth/points").iterdir())
         with h5py.File(folder / "history.h5") as file:
@@ -125,6 +125,15 @@ class Fit(unittest.TestCase):
         self.assertTrue(low < 0.8 < high and high - low < 0.2, (value, low, high))
         said = self.call("fit", study.replace("history: true", "history: false"), "-o", "none", status=2).stderr
         self.assertIn("output.history: true", said)
+
+    def test_a_branch(self):
+        """The modulus of one branch, from a curve that was made with it."""
+        branches = "  material.relaxation: [{time: 1e5, shear: 0.1}, {time: 5, shear: 0.02}]\n"
+        self.measure_curve(truth="material.relaxation.0.shear: [0.3]", more=branches)
+        study = HEAD + "  output.history: true\n" + branches + \
+            "search: {material.relaxation.0.shear: {log: [0.1, 1]}}\nfit: {measured: [measured.csv], designs: 8}\n"
+        value, low, high = self.regions(self.call("fit", study, "-j", "2", "-o", "out").stdout)["material.relaxation.0.shear"]
+        self.assertTrue(low < 0.3 < high and high - low < 0.2, (value, low, high))
 
     def test_slide_hold_slide(self):
         """Times held and peaks of mu give healing and slip distance of the ageing law, within their errors."""

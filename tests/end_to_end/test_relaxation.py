@@ -5,8 +5,11 @@ have the same history; stresses in fields balance the load; a run that was cut o
 is told with its place."""
 import json
 import os
+import random
 import re
+import signal
 import subprocess
+import time
 import unittest
 from pathlib import Path
 
@@ -145,7 +148,7 @@ class Relaxation(OwnCache):
         self.assertEqual([branch["time"] for branch in branches], [time for time, _, _ in BRANCHES])
         self.assertLess(sum(branch["dissipated"] for branch in branches), energy["viscous"])
         self.assertLess(sum(branch["stored"] for branch in branches), energy["elastic"])
-        explicit, _ = self.run_scene(FREE, "explicit_creep", *here, "time.scheme=explicit", "material.density=1e-4")
+        explicit, _ = self.run_scene(FREE, "energy-explicit", *here, "time.scheme=explicit", "material.density=1e-4")
         for ours, theirs in zip(branches, explicit["energy"]["branches"]):
             self.assertGreater(ours["stored"], 0)
             self.assertAlmostEqual(ours["dissipated"] / theirs["dissipated"], 1, delta=1e-2)
@@ -227,6 +230,65 @@ class Relaxation(OwnCache):
         left, right = (numpy.interp(at, x["series/rod_displacement"], x["series/mu"]) for x in (once, twice))
         self.assertLess(numpy.abs(left - right).max(), 2e-3 * left.max())
 
+    def test_killed(self):
+        """A run that is killed after some checkpoint and resumed ends with the bits of one that was not, energies of branches,
+        too."""
+        end = "time.until.U=0.04"
+        whole, arrays = self.run_scene(BLOCK, "not-killed", end)
+        process = subprocess.Popen([PROGRAM, "run", self.folder / "scene.yaml", "--set", end, "-q", "--checkpoint", "0.02s", "-o",
+                                    self.folder / "killed"], cwd=self.folder, env=self.environment)
+        while process.poll() is None and not (self.folder / "killed" / "checkpoint.bin").exists():
+            time.sleep(0.002)
+        time.sleep(random.uniform(0, 0.3 * whole["timing_s"]["total"]))
+        process.kill()
+        process.wait()
+        self.assertEqual(process.returncode, -signal.SIGKILL)
+        made, resumed = self.run_scene(BLOCK, "killed", end, flags=("--resume",))
+        self.assertEqual((made["resumed"], made["energy"], made["results"]), (1, whole["energy"], whole["results"]))
+        self.assertEqual(sorted(arrays), sorted(resumed))
+        for key, values in arrays.items():
+            numpy.testing.assert_array_equal(values, resumed[key], key)
+
+    def test_windows(self):
+        """A window about a sliding, for which the run goes back, leaves it with the same bits, energies of branches, too."""
+        here = ["time.until.U=0.01"]
+        whole, _ = self.run_scene(BLOCK, "no-window", *here)
+        made, _ = self.run_scene(BLOCK, "window", *here, "output.fields={every_step: true}", "output.window={around: sliding 2}")
+        self.assertEqual((made["results"], made["energy"]), (whole["results"], whole["energy"]))
+        self.assertGreater(len(list((self.folder / "window" / "fields").glob("bulk*.vtu"))), 5)
+
+    def test_sweep(self):
+        """A branch's modulus and time vary in a study."""
+        (self.folder / "scene.yaml").write_text(BLOCK)
+        study = self.folder / "study.yaml"
+        study.write_text("scene: scene.yaml\nset: {time.until.U: 2e-3}\nvary:\n  material.relaxation.0.shear: [0.1, 0.4]\n"
+                         "  material.relaxation.1.time: [20, 40]\nrecord: [mu_max]\n")
+        subprocess.run([PROGRAM, "sweep", study, "-q", "-o", self.folder / "sweep"], check=True, cwd=self.folder, env=self.environment)
+        lines = (self.folder / "sweep" / "sweep.csv").read_text().splitlines()
+        self.assertIn("material.relaxation.0.shear", lines[0])
+        mu = [line.split(",")[lines[0].split(",").index("mu_max")] for line in lines[1:]]
+        self.assertEqual(len(set(mu)), 4)
+        one, _ = self.run_scene(BLOCK, "one", "time.until.U=2e-3", "material.relaxation.0.shear=0.1", "material.relaxation.1.time=20")
+        self.assertAlmostEqual(float(mu[0]), one["results"]["mu_max"], delta=1e-9)
+
+    def test_parts(self):
+        """A number of one branch is set alone, and by a formula in the file or behind --set; so are those of a region."""
+        formulas = BLOCK.replace("shear: 0.2, bulk: 0.1", "shear: = 0.2 * material.young, bulk: = material.relaxation.0.shear / 2")
+        made = []
+        for scene, settings in ((BLOCK, ()), (formulas, ()), (formulas, ("material.relaxation.0.shear=0.4", "material.relaxation.0.shear=0.2")),
+                                (BLOCK, ("material.relaxation.1.shear== 0.75 * material.relaxation.0.shear",)),
+                                (BLOCK.replace("shear: 0.2,", "shear: 0.1,"), ("material.relaxation.0.shear=0.2",))):
+            made.append(self.run_scene(scene, f"part{len(made)}", "time.until.U=1e-5", *settings)[0]["scene"]["material"]["relaxation"])
+        for other in made[1:]:
+            self.assertEqual(other, made[0])
+        region, _ = self.run_scene(PADS, "region", "time.until.U=1e-5", "materials.layer.relaxation.1.shear=0.04")
+        self.assertEqual([branch["shear"] for branch in region["scene"]["materials"]["layer"]["relaxation"]], [0.05, 0.04])
+        for setting, words in (("material.relaxation.2.shear=1", "there is no such branch"),
+                               ("material.relaxation.0.young=1", "unknown key `young`; allowed: time, shear, bulk"),
+                               ("material.relaxation.0.time=40", "stands twice"),
+                               ("material.relaxation.1.shear=0", "not both 0")):
+            self.assertIn(words, self.call(BLOCK, "run", setting, status=2, flags=("--dry-run",)))
+
     def test_refused(self):
         for setting, words in (
                 ("material.relaxation=[{shear: 1}]", "a branch needs its `time`"),
@@ -257,6 +319,12 @@ class Relaxation(OwnCache):
         said = self.call(BLOCK, "run", "material.eta1=0", "material.eta2=0", "time.until.U=1e-6",
                          flags=("-o", self.folder / "elastic"))
         self.assertIn("give eta1 beside them", said)
+        slow, _ = self.run_scene(BLOCK, "slow", "time.until.U=1e-5", "material.relaxation=[{time: 1e9, shear: 0.2}]")
+        self.assertIn("they are springs in it, which gave way while the block settled", str(slow["warnings"]))
+        steel = BLOCK.replace("normalised", "si").replace("material: {", "material: {young: 1 MPa, density: 1e3, eta1: 3e6, eta2: 0, ")
+        thick, _ = self.run_scene(steel, "thick", "time.until.U=1e-6", "load.pressure=3e3", "rod.velocity=1e-4",
+                                  "material.relaxation=[]")
+        self.assertIn("no wave runs in the block: eta1 of material is", str(thick["warnings"]))
 
 
 if __name__ == "__main__":
