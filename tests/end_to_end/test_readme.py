@@ -127,9 +127,10 @@ class Result(unittest.TestCase):
         with h5py.File(self.result / "history.h5") as history:
             stored = {f"{group}/{name}": item for group in history
                       for name, item in history[group].items()}
-            rows = [row for row in rows   # test_machine.py, test_space_results.py, test_memory.py
+            rows = [row for row in rows   # test_machine.py, test_space_results.py, test_memory.py, test_probes.py
                     if row[0] not in ("series/rod_way", "interface/state", "nodes/y", "nodes/line", "events/slipped",
-                                      "faces/nodes", "faces/corners", "pads/shear_across", "pads/slip_across")]
+                                      "faces/nodes", "faces/corners", "pads/shear_across", "pads/slip_across", "interface/contact_area")
+                    and not row[0].startswith("probes/")]
             self.assertEqual(set(stored), {name for name, *_ in rows})
             sizes = {"steps": len(history["series/time"]), "nodes": len(history["nodes/x"]),
                      "pads": int(max(history["nodes/pad"][:])) + 1,
@@ -148,7 +149,7 @@ class Result(unittest.TestCase):
         with h5py.File(self.result / "history.h5") as history:
             held = set(history.attrs)
         self.assertLessEqual(held, named)
-        self.assertLessEqual(named - held, {"mu_macroscopic", "critical_length", "warnings", "format", "rod_breadth", "states", "state_unit", "thickness"})
+        self.assertLessEqual(named - held, {"mu_macroscopic", "critical_length", "warnings", "format", "rod_breadth", "states", "state_unit", "thickness", "probes"})
 
     def test_table_of_fields(self):
         rows = re.findall(r"^\| `(\.vt[up])` \| ([^|]+) \|", RESULTS, re.M)

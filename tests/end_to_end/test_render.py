@@ -36,7 +36,7 @@ class Error(ctypes.Structure):
 
 class Style(ctypes.Structure):
     _fields_ = [("format", ctypes.c_char_p), ("width", ctypes.c_double), ("dpi", ctypes.c_double),
-                ("dark", ctypes.c_bool), ("overwrite", ctypes.c_bool), ("height", ctypes.c_double),
+                ("dark", ctypes.c_bool), ("overwrite", ctypes.c_bool), ("height", ctypes.c_double), ("depth", ctypes.c_double),
                 *((name, ctypes.c_char_p) for name in ("style", "title", "inset", "legend", "limits", "from", "to", "cycle", "pixels", "line",
                                                        "compare", "warnings"))]
 
