@@ -183,8 +183,7 @@ def controls(study):
             ("viscous-sign", "wrong sign of the viscous coupling of xx and zz", lambda s: steps(s, 1)),
             ("shear-viscosity", "eta1 in place of eta1/2 in shear", lambda s: steps(s, 1)),
             ("branch-beside", "a branch of the layer is in the block", lambda s: steps(s, 1, "rubber_layer_step")),
-            ("branch-late", "stretches of a second stage begin where the step did", lambda s: steps(s, 1, "rubber_step")),
-            ("branch-energy", "what branches store is not in the ledger", lambda s: steps(s, 1, "rubber_step"))):
+            ("branch-late", "stretches of a second stage begin where the step did", lambda s: steps(s, 1, "rubber_step"))):
         study.control(GROUP, mistake, broken, compute)
 
 
