@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "base/order.h"
 #include "io/text/csv_writer.h"
+#include "render/events_table.h"
 #include "render/figures/color_scale.h"
 #include "render/figures/figures.h"
 #include "render/figures/probe_data.h"
@@ -292,6 +293,9 @@ bool figure_data_write(const char *folder, const char *name, ResultView *view,
     bool done = true;
     Measured measured = {0};
     char path[PATH_MAX];
+    if (strcmp(name, "force") == 0 &&
+        !(data_path(folder, "events", "", path, err) && events_table_write(path, view, err)))
+        return false;
     if (!data_path(folder, name, "", path, err)) return false;
     if (strcmp(name, "contact-area") == 0) return write_area(path, view, err);
     if (strcmp(name, "state-map") == 0) return write_states(path, view, err);

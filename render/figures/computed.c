@@ -117,14 +117,12 @@ static double arrival_at(const ResultView *view, const double *times, double x)
     return NAN;
 }
 
-static void event_rows(const ResultView *view, const Zoom *zoom, int64_t *first, int64_t *end)
+static void event_rows(const ResultView *view, double start, double stop, int64_t *first,
+                       int64_t *end)
 {
-    double stop = INFINITY;
-    for (int32_t k = 0; k < view->event_count; ++k)
-        if (view->events[k].U_start == zoom->U_slide) stop = view->events[k].U_stop;
     *first = *end = 0;
     for (int64_t row = 0; row < view->rows; ++row) {
-        if (view->U[row] < zoom->U_slide) *first = row;
+        if (view->U[row] < start) *first = row;
         if (view->U[row] <= stop) *end = row + 1;
     }
 }
@@ -132,17 +130,14 @@ static void event_rows(const ResultView *view, const Zoom *zoom, int64_t *first,
 // Between stations a twentieth of the block apart, by the times at which slip there first gets
 // faster than twice the rod, as in record/front_path. Where slip was slow before the front is one
 // of speeding up, and may run faster than any wave.
-static bool find_speeds(ResultView *view, Error *err)
+static bool find_speeds(ResultView *view, double start, double stop, ViewCurve *curve, Error *err)
 {
-    ViewCurve *curve = &view->front_speed;
     double *times = NULL, V = fabs(view->number[NUMBER_ROD_VELOCITY]);
     int64_t first = 0, end = 0;
-    Zoom zoom = zoom_choose(view);
-    if (curve->at || !zoom.found) return true;
     TRY(result_view_read_slip_rate(view, err));
     TRY(times = NEW_ARRAY(double, view->nodes, err));
     TRY(curve_make(curve, STATIONS, err));
-    event_rows(view, &zoom, &first, &end);
+    event_rows(view, start, stop, &first, &end);
     for (int32_t i = 0; i < view->nodes; ++i) times[i] = arrival(view, i, first, end, RAPID * V);
     double low = view->x[0], step = (view->x[view->nodes - 1] - low) / (STATIONS - 1);
     for (int32_t k = 0; k + 1 < STATIONS; ++k) {
@@ -156,6 +151,23 @@ cleanup:
     return error_is_clean(err);
 }
 
+bool computed_front_speed(ResultView *view, const ViewEvent *event, ViewCurve *curve, Error *err)
+{
+    *curve = (ViewCurve){0};
+    return find_speeds(view, event->U_start, event->U_stop, curve, err);
+}
+
+// That of the sliding of the cycle.
+static bool find_sliding_speeds(ResultView *view, Error *err)
+{
+    Zoom zoom = zoom_choose(view);
+    double stop = INFINITY;
+    if (view->front_speed.at || !zoom.found) return true;
+    for (int32_t k = 0; k < view->event_count; ++k)
+        if (view->events[k].U_start == zoom.U_slide) stop = view->events[k].U_stop;
+    return find_speeds(view, zoom.U_slide, stop, &view->front_speed, err);
+}
+
 bool computed_curve(ResultView *view, MeasuredKind kind, ViewCurve *curve, Error *err)
 {
     bool done = true;
@@ -165,7 +177,7 @@ bool computed_curve(ResultView *view, MeasuredKind kind, ViewCurve *curve, Error
     if (kind == MEASURED_FRONT) curve->value = view->front;
     if (kind == MEASURED_LENGTH) done = find_lengths(view, err);
     if (kind == MEASURED_LENGTH) *curve = view->precursors;
-    if (kind == MEASURED_SPEED) done = find_speeds(view, err);
+    if (kind == MEASURED_SPEED) done = find_sliding_speeds(view, err);
     if (kind == MEASURED_SPEED) *curve = view->front_speed;
     return done;
 }

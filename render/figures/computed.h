@@ -27,6 +27,10 @@ void computed_choose_cycle(ResultView *view, int32_t cycle);
 bool computed_precursor(ResultView *view, const ViewEvent *event, double *mu, double *length,
                         Error *err);
 
+// Speed of the front of a rapid event over x, as of MEASURED_SPEED. The arrays are the caller's,
+// also after a failure; there may be no points.
+bool computed_front_speed(ResultView *view, const ViewEvent *event, ViewCurve *curve, Error *err);
+
 // Contact density when the rod was at U, of the node nearest to x, linear between steps; NaN:
 // beyond the block. Slip rates and statuses have been read.
 double computed_area(const ResultView *view, double U, double x);

@@ -147,6 +147,38 @@ class Compared(unittest.TestCase):
         self.expect_misfit(said, abs(1 - found["computed"][0] / self.c_R))
         self.assertIn("R", said)
 
+    def test_events(self):
+        """A row for each event that counts: load ratios beside it, and the work of friction in it, worked out once more."""
+        call(self.folder, "render", "out", "--figure", "force")
+        with open(self.folder / "out/figures/events.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        counted = [event for event in self.events if event["kind"] in ("bounded rapid", "leading rapid")]
+        names = {"bounded rapid": "precursor", "leading rapid": "sliding"}
+        self.assertEqual([row["event"] for row in rows], [names[event["kind"]] for event in counted])
+        slidings = np.cumsum([0] + [row["event"] == "sliding" for row in rows])[:-1]
+        self.assertEqual([int(row["cycle"]) for row in rows], list(slidings + 1))
+        with h5py.File(self.folder / "out/history.h5") as file:
+            slip, shear, weight = (file[name][:].astype(float) for name in ("interface/slip", "interface/shear", "nodes/weight"))
+            load = file.attrs["normal_force"]
+        for row, event in zip(rows, counted):
+            first, last = np.searchsorted(self.U, event["U_start"]) - 1, np.searchsorted(self.U, event["U_stop"], "right") - 1
+            part = slice(first, last + 1)
+            work = (weight * (shear[part][1:] + shear[part][:-1]) / 2 * np.diff(slip[part], axis=0)).sum()
+            wanted = {"U": event["U_start"], "t": event["t_start"], "F_T/F_N before": self.mu[first], "F_T/F_N after": self.mu[last],
+                      "F_T before": load * self.mu[first], "reach": event["reach"], "largest slip rate": event["peak_slip_rate"],
+                      "work of friction": work, "steps": last - first, "resolved": last - first >= 8}
+            for name, value in wanted.items():
+                np.testing.assert_allclose(float(row[name]), value, rtol=1e-6, err_msg=name)
+
+    def test_cycles(self):
+        """The precursors of the first loading, and of all cycles one behind the other."""
+        call(self.folder, "render", "out", "--figure", "precursors", "--cycle", "first")
+        first = table(self.folder / "out/figures/precursors.csv")
+        self.assertEqual(set(first["cycle"]), {1})
+        self.assertLess(abs(first["F_T/F_N"][-1] / self.mu[self.U <= self.slide[0]["U_start"]].max() - 1), 1e-6)
+        call(self.folder, "render", "out", "--figure", "precursors", "--cycle", "all")
+        self.assertEqual(set(table(self.folder / "out/figures/precursors.csv")["cycle"]), set(range(1, len(self.slide) + 1)))
+
     def away(self, event, curve):
         times = np.array([np.nan if value is None else value for value in event["front_times"]])
         speed = 0.05 / np.abs(np.diff(times)) / self.c_R

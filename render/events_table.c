@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Events that count by their rate and their width (record/events). What the history adds is read
+// off its steps: the load ratio in the step before and at the end, and the work of friction, the
+// integral of tau over slip and contact by the trapezoidal rule.
+#include "render/events_table.h"
+
+#include "base/memory.h"
+#include "io/text/csv_writer.h"
+
+#include <math.h>
+#include <stdio.h>
+
+// Steps that follow an event at least, for what is read off its course to be more than one step's.
+enum { STEPS_ENOUGH = 8, NAME_SIZE = 48 };
+
+// In the plane; in space the whole contact is not on the line that is shown.
+typedef struct Friction {
+    double *shear;   // [rows * nodes] stress
+    double *weight;   // [nodes] length
+} Friction;
+
+static double friction_work(const ResultView *view, const Friction *friction, int64_t first,
+                            int64_t last)
+{
+    double work = 0;
+    if (!friction->shear) return NAN;
+    for (int64_t row = first; row < last; ++row)
+        for (int32_t i = 0; i < view->nodes; ++i) {
+            int64_t from = row * view->nodes + i, to = from + view->nodes;
+            work += friction->weight[i] * (friction->shear[from] + friction->shear[to]) / 2 *
+                    (view->slip[to] - view->slip[from]);
+        }
+    return work;
+}
+
+static bool read_friction(ResultView *view, Friction *friction, Error *err)
+{
+    int32_t count = 0;
+    if (view->line) return true;
+    return result_view_read_slip(view, err) &&
+           result_view_read(view, SERIES_SHEAR, false, &friction->shear, err) &&
+           result_file_read_nodes(view->file, NODES_WEIGHT, &friction->weight, &count, err) &&
+           (count == view->nodes ||
+            FAULT(err, ERROR_FILE, "%d weights of %d contact nodes", count, view->nodes));
+}
+
+static void name_column(CsvWriter *csv, const char *name, const char *unit)
+{
+    char text[NAME_SIZE];
+    snprintf(text, sizeof text, unit ? "%s (%s)" : "%s", name, unit);
+    csv_text(csv, text);
+}
+
+static void name_columns(CsvWriter *csv, const ResultView *view, bool whole)
+{
+    const char *force = whole ? "N" : "N/m", *energy = whole ? "J" : "J/m";
+    name_column(csv, "cycle", NULL);
+    name_column(csv, "event", NULL);
+    name_column(csv, "U", view->si ? "m" : NULL);
+    name_column(csv, "t", view->si ? "s" : NULL);
+    name_column(csv, "F_T/F_N before", NULL);
+    name_column(csv, "F_T/F_N after", NULL);
+    name_column(csv, "F_T before", view->si ? force : NULL);
+    name_column(csv, "F_T after", view->si ? force : NULL);
+    name_column(csv, "reach", view->si ? "m" : NULL);
+    name_column(csv, "largest slip rate", view->si ? "m/s" : NULL);
+    name_column(csv, "duration", view->si ? "s" : NULL);
+    name_column(csv, "work of friction", view->si ? energy : NULL);
+    name_column(csv, "steps", NULL);
+    name_column(csv, "resolved", NULL);
+    csv_end_row(csv);
+}
+
+bool events_table_write(const char *path, ResultView *view, Error *err)
+{
+    Friction friction = {0};
+    double *peak = NULL, thickness = view->number[NUMBER_THICKNESS];
+    int32_t peaks = 0, cycle = 1;
+    bool whole = view->line || thickness > 0;
+    double times = !view->line && thickness > 0 ? thickness : 1;
+    double load = view->number[NUMBER_LOAD] * times;
+    CsvWriter *csv = NULL;
+    TRY(read_friction(view, &friction, err));
+    TRY(result_file_read_table(view->file, EVENTS_PEAK_RATE, &peak, &peaks, err));
+    TRY(csv = csv_create(path, err));
+    name_columns(csv, view, whole);
+    for (int32_t k = 0; k < view->event_count; ++k) {
+        const ViewEvent *event = &view->events[k];
+        bool sliding = event->kind == VIEW_LEADING;
+        if (!(sliding || event->kind == VIEW_BOUNDED)) continue;
+        if (!isfinite(event->U_start + event->U_stop)) continue;
+        int64_t first = 0, last = 0;   // the step before, and that of its end
+        for (int64_t row = 0; row < view->rows; ++row) {
+            if (view->U[row] < event->U_start) first = row;
+            if (view->U[row] <= event->U_stop) last = row;
+        }
+        csv_number(csv, cycle);
+        csv_text(csv, sliding ? "sliding" : "precursor");
+        csv_rounded(csv, event->U_start);
+        csv_rounded(csv, view->t[first + 1 < view->rows ? first + 1 : first]);
+        csv_rounded(csv, view->mu[first]);
+        csv_rounded(csv, view->mu[last]);
+        csv_rounded(csv, load * view->mu[first]);
+        csv_rounded(csv, load * view->mu[last]);
+        csv_rounded(csv, event->reach - result_view_trailing_end(view));
+        csv_rounded(csv, k < peaks ? peak[k] : NAN);
+        csv_rounded(csv, view->t[last] - view->t[first]);
+        csv_rounded(csv, times * friction_work(view, &friction, first, last));
+        csv_number(csv, (double)(last - first));
+        csv_number(csv, last - first >= STEPS_ENOUGH);
+        csv_end_row(csv);
+        cycle += sliding;
+    }
+    TRY(csv_finish(csv, err));
+cleanup:
+    memory_free_all(friction.shear, friction.weight, peak);
+    return error_is_clean(err);
+}
