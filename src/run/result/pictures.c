@@ -110,11 +110,11 @@ cleanup:
 bool amontons_compare(const char *folder, const char *measured, const PictureStyle *style,
                       char *words, int32_t size, Error *err)
 {
+    NUMBERS_HAVE_A_POINT;
     static const char *const figure = "measured";
     PictureRequest request = {.figures = &figure, .figure_count = 1};
     if (style) request.style = *style;
     request.style.compare = measured;
-    NUMBERS_HAVE_A_POINT;
     if (size > 0) words[0] = 0;
     return amontons_render_result(folder, &request, err) && tell_misfits(folder, words, size, err);
 }
