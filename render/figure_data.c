@@ -250,8 +250,8 @@ cleanup:
 // MEASURED_KINDS: nothing of the figure is measured.
 static MeasuredKind kind_of(const char *figure)
 {
-    static const char *const figures[MEASURED_KINDS] = {"force", "slip-map", "contact-density",
-                                                        "precursors", "front-speed"};
+    static const char *const figures[MEASURED_KINDS] = {
+        "force", "slip-map", "contact-density", "precursors", "front-speed", "probes"};
     int32_t kind = 0;
     while (kind < MEASURED_KINDS && strcmp(figures[kind], figure) != 0) ++kind;
     return (MeasuredKind)kind;
@@ -286,6 +286,33 @@ static bool write_compared(const char *path, const Measured *measured, bool si, 
     return write_columns(path, columns, count, measured->count, si, err);
 }
 
+// The same of probes, with the name of the column that each point stands in.
+static bool write_compared_probes(const char *path, const Measured *measured,
+                                  const ResultView *view, Error *err)
+{
+    ProbeWords words = probe_words(measured->quantity);
+    char name[NAME_SIZE + 40], probe[PROBE_NAME_SIZE];
+    CsvWriter *csv = csv_create(path, err);
+    if (!csv) return false;
+    const char *const names[] = {view->si ? "U (m)" : "U", "column", "value", "error", "computed"};
+    for (int32_t k = 0; k < 5; ++k) csv_text(csv, names[k]);
+    csv_end_row(csv);
+    for (int32_t k = 0; k < measured->count; ++k) {
+        int32_t id = (int32_t)measured->x[k];
+        bool has_unit = view->si && words.si[0];
+        probe_name(view, id / PROBE_COMPONENTS_MAX, probe);
+        snprintf(name, sizeof name, has_unit ? "%s %s_%s (%s)" : "%s %s_%s", probe, words.name,
+                 probe_component(view, measured->quantity, id % PROBE_COMPONENTS_MAX), words.si);
+        csv_rounded(csv, measured->at[k]);
+        csv_text(csv, name);
+        csv_rounded(csv, measured->value[k]);
+        csv_rounded(csv, measured->error[k]);
+        csv_rounded(csv, measured->computed[k]);
+        csv_end_row(csv);
+    }
+    return csv_finish(csv, err);
+}
+
 bool figure_data_write(const char *folder, const char *name, ResultView *view,
                        const FieldChoice *field, const char *compare, Error *err)
 {
@@ -299,18 +326,60 @@ bool figure_data_write(const char *folder, const char *name, ResultView *view,
     if (!data_path(folder, name, "", path, err)) return false;
     if (strcmp(name, "contact-area") == 0) return write_area(path, view, err);
     if (strcmp(name, "state-map") == 0) return write_states(path, view, err);
-    if (strcmp(name, "probes") == 0) return write_probes(path, view, err);
+    if (kind == MEASURED_PROBE && !write_probes(path, view, err)) return false;
     if (strcmp(name, "profile") == 0) return write_profiles(path, view, field->at, err);
     if (kind == MEASURED_KINDS) return true;
     if (kind == MEASURED_LENGTH && !write_lengths(path, view, err)) return false;
-    if (kind != MEASURED_AREA && kind != MEASURED_LENGTH && !write_curve(path, view, kind, err))
-        return false;
+    bool curve = kind != MEASURED_AREA && kind != MEASURED_LENGTH && kind != MEASURED_PROBE;
+    if (curve && !write_curve(path, view, kind, err)) return false;
     if (!measured_read(compare, kind, view, &measured, err)) return false;
     if (measured.count > 0)
         done = data_path(folder, name, "-compared", path, err) &&
-               write_compared(path, &measured, view->si, err);
+               (kind == MEASURED_PROBE ? write_compared_probes(path, &measured, view, err)
+                                       : write_compared(path, &measured, view->si, err));
     measured_destroy(&measured);
     return done;
+}
+
+bool figure_data_misfits(const char *folder, ResultView *view, const char *compare, Error *err)
+{
+    static const char *const figures[MEASURED_KINDS] = {
+        "force", "slip-map", "contact-density", "precursors", "front-speed", "probes"};
+    static const char *const units[MEASURED_KINDS] = {"", "L", "", "L", "c_R", ""};
+    char path[PATH_MAX];
+    Measured measured = {0};
+    CsvWriter *csv = NULL;
+    TRY(data_path(folder, "misfit", "", path, err));
+    TRY(csv = csv_create(path, err));
+    csv_text(csv, "figure");
+    csv_text(csv, "points");
+    csv_text(csv, "covered");
+    csv_text(csv, "misfit");
+    csv_text(csv, "over");
+    csv_text(csv, "misfit over errors");
+    csv_end_row(csv);
+    for (int32_t kind = 0; kind < MEASURED_KINDS; ++kind) {
+        TRY(measured_read(compare, (MeasuredKind)kind, view, &measured, err));
+        if (measured.count > 0) {
+            const char *unit = kind == MEASURED_PROBE ? probe_words(measured.quantity).si
+                                                      : units[kind];
+            csv_text(csv, figures[kind]);
+            csv_number(csv, measured.count);
+            csv_number(csv, measured.compared);
+            csv_number(csv, measured.compared > 0 ? measured.misfit : NAN);
+            csv_text(csv, kind == MEASURED_PROBE && !view->si ? "" : unit);
+            csv_number(csv, measured.compared > 0 ? measured.in_errors : NAN);
+            csv_end_row(csv);
+        }
+        measured_destroy(&measured);
+    }
+    CsvWriter *whole = csv;
+    csv = NULL;
+    TRY(csv_finish(whole, err));
+cleanup:
+    csv_abandon(csv);
+    measured_destroy(&measured);
+    return error_is_clean(err);
 }
 
 bool figure_data_measured(const char *name, const char *compare, ResultView *view, bool *shows,

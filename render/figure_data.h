@@ -14,4 +14,7 @@ bool figure_data_write(const char *folder, const char *name, ResultView *view,
 bool figure_data_measured(const char *name, const char *compare, ResultView *view, bool *shows,
                           Error *err);
 
+// Writes figures/misfit.csv: a row for each figure that shows what the file has measured.
+bool figure_data_misfits(const char *folder, ResultView *view, const char *compare, Error *err);
+
 #endif

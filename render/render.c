@@ -40,6 +40,12 @@ static bool find_picture(const PictureRequest *request, int32_t k, Picture *pict
     return picture_add(picture, picture->figure, err);
 }
 
+// The one name "measured": all figures that show what the measurements have, and no others.
+static bool wants_measured(const PictureRequest *request)
+{
+    return request->figure_count == 1 && strcmp(request->figures[0], "measured") == 0;
+}
+
 static int32_t picture_count(const PictureRequest *request)
 {
     return request->panels ? 1 : request->figure_count > 0 ? request->figure_count : FIGURE_COUNT;
@@ -148,10 +154,16 @@ static bool check_compare(const PictureRequest *request, ResultView *view, Error
 }
 
 // One open result serves all pictures.
-__attribute__((visibility("default"))) bool
-amontons_render(const char *folder, const PictureRequest *request, Error *err)
+__attribute__((visibility("default"))) bool amontons_render(const char *folder,
+                                                            const PictureRequest *asked, Error *err)
 {
     ResultView view = {0};
+    PictureRequest taken = *asked;
+    const PictureRequest *request = &taken;
+    bool measured = wants_measured(asked);
+    if (measured) taken.figure_count = 0;
+    if (measured && !asked->style.compare)
+        return REFUSE(err, "`measured` are the figures that show measurements: none are given");
     TRY(request_check(folder, request, err));
     TRY(result_view_open(folder, &view, err));
     TRY(check_compare(request, &view, err));
@@ -164,8 +176,12 @@ amontons_render(const char *folder, const PictureRequest *request, Error *err)
         TRY(find_picture(request, k, &picture, err));
         if (request->figure_count == 0 && !request->panels)
             TRY(is_drawn(folder, picture.figure, request, &view, &drawn, err));
+        if (measured)
+            TRY(figure_data_measured(picture.figure->name, request->style.compare, &view, &drawn,
+                                     err));
         if (drawn) TRY(make_picture(folder, request, &picture, &view, err));
     }
+    if (measured) TRY(figure_data_misfits(folder, &view, request->style.compare, err));
 cleanup:
     result_view_close(&view);
     return error_is_clean(err);

@@ -73,8 +73,8 @@ extern "C" {
       "y=Y",                                                                                       \
       "Of a block in space: the line along the drive that is shown against U; by default in the "  \
       "middle")                                                                                    \
-    X(compare, TEXT, 0, 0, "force slip-map contact-density precursors front-speed plot", "",       \
-      "FILE.csv", "Measurements to draw beside what was computed")                                 \
+    X(compare, TEXT, 0, 0, "force slip-map contact-density precursors front-speed probes plot",    \
+      "", "FILE.csv", "Measurements to draw beside what was computed")                             \
     X(depth, NUMBER, 1e-12, 1e12, "field field-strip", "", "LENGTH",                               \
       "Of a base that deforms: how far below its floor it is drawn; by default all of it")         \
     X(warnings, WORD, 0, 0, "", "below none", "WHERE",                                             \
@@ -116,7 +116,8 @@ typedef struct FieldChoice {
 } FieldChoice;
 
 typedef struct PictureRequest {
-    const char *const *figures;   // [figure_count] names, as output.figures has them; 0: all
+    const char *const *figures;   // [figure_count] names, as output.figures has them; 0: all; one
+        // name `measured`: those that show what style.compare has measured, and figures/misfit.csv
     int32_t figure_count;
     PictureStyle style;
     FieldChoice field;
@@ -127,6 +128,12 @@ typedef struct PictureRequest {
 
 // Draws figures of the result in `folder` into folder/figures/NAME.png (.pdf, .svg). NULL: all.
 bool amontons_render_result(const char *folder, const PictureRequest *request, Error *err);
+
+// Draws each figure that shows what the table `measured` (.csv) has beside the result in `folder`,
+// and writes their misfits into folder/figures/misfit.csv and, a line each, into words [size].
+// style NULL is fine; its `compare` is not asked.
+bool amontons_compare(const char *folder, const char *measured, const PictureStyle *style,
+                      char *words, int32_t size, Error *err);
 
 // Draws the curves that the YAML file `plot` describes (render/plot/plot_file.h) into the file
 // `picture`, whose name ends in .png, .pdf or .svg: style->format is not asked. NULL is fine.

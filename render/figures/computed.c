@@ -172,7 +172,7 @@ bool computed_curve(ResultView *view, MeasuredKind kind, ViewCurve *curve, Error
 {
     bool done = true;
     *curve = (ViewCurve){view->rows, view->U, view->mu};
-    if (kind == MEASURED_AREA) *curve = (ViewCurve){0};
+    if (kind == MEASURED_AREA || kind == MEASURED_PROBE) *curve = (ViewCurve){0};
     if (kind == MEASURED_FRONT) done = result_view_read_front(view, err);
     if (kind == MEASURED_FRONT) curve->value = view->front;
     if (kind == MEASURED_LENGTH) done = find_lengths(view, err);

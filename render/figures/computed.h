@@ -12,10 +12,12 @@ typedef enum MeasuredKind {
     MEASURED_AREA,   // contact area over what it was at rest, over U and x: no curve
     MEASURED_LENGTH,   // how long slip was when F_T/F_N first came so far, in the cycle of the zoom
     MEASURED_SPEED,   // how fast the front of the sliding of the zoom ran, over x
+    MEASURED_PROBE,   // what probes saw, over U, several columns: no curve
     MEASURED_KINDS
 } MeasuredKind;
 
-// The curve of a kind, whose arrays stay the view's; of MEASURED_AREA none (count 0).
+// The curve of a kind, whose arrays stay the view's; of MEASURED_AREA and MEASURED_PROBE none
+// (count 0).
 bool computed_curve(ResultView *view, MeasuredKind kind, ViewCurve *curve, Error *err);
 
 // Another cycle is shown from now on (render/view/zoom); curves of the one before are forgotten.

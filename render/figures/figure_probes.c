@@ -10,7 +10,7 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { KEY_MAX = 33 };   // probes, and which slidings are shown
+enum { KEY_MAX = 34 };   // probes, which slidings are shown, measurements
 
 static const double SMALL_STRAIN = 1e-2;   // below it strains are shown in millionths
 
@@ -48,18 +48,19 @@ static void curve_draw(const Page *page, const ResultView *view, const Axes *axe
     canvas_clip(page->canvas, NULL);
 }
 
-static void key_of(Page *page, const ResultView *view, const ViewRange *shown)
+static void key_of(Page *page, const ResultView *view, const ViewRange *shown,
+                   const Measured *measured)
 {
     char names[KEY_MAX][PROBE_NAME_SIZE];
     KeyEntry entries[KEY_MAX];
     int32_t count = 0;
-    for (int32_t k = 0; k < view->probes && count < KEY_MAX - 1; ++k) {
+    for (int32_t k = 0; k < view->probes && count < KEY_MAX - 2; ++k) {
         probe_name(view, k, names[k]);
         entries[count++] =
             (KeyEntry){k < STACK_COLORS ? KEY_LINE : KEY_DASHED, stack_color(k), names[k]};
     }
     if (shown->words[0]) entries[count++] = (KeyEntry){.words = shown->words};
-    key_draw(page, entries, count);
+    key_draw(page, entries, measured_key(measured, KEY_DISC, entries, count));
 }
 
 bool figure_probes_show(const char *quantity)
@@ -76,8 +77,12 @@ bool figure_probes(Page *page, const FigureInput *input, Error *err)
     ProbeQuantity quantity;
     ViewRange shown;
     Axes axes[PROBE_COMPONENTS_MAX] = {0};
+    Measured measured = {0};
     double *values = NULL;
     TRY(probe_quantity_find(input->field->of, &quantity, err));
+    TRY(measured_read(def.style->compare, MEASURED_PROBE, view, &measured, err));
+    if (measured.count > 0 && !input->field->of) quantity = measured.quantity;
+    if (measured.quantity != quantity) measured.count = 0;
     TRY(probe_read(view, quantity, &values, err));
     TRY(view_range_find(view, def.style, &shown, err));
     int32_t components = probe_components(view, quantity);
@@ -85,13 +90,16 @@ bool figure_probes(Page *page, const FigureInput *input, Error *err)
     def.height = page_shape(def.style, stack_shape(components));
     TRY(page_begin(page, &def, err));
     Page whole = *page;
-    key_of(&whole, view, &shown);
+    key_of(&whole, view, &shown, &measured);
     for (int32_t c = 0; c < components; ++c) {
         double low = INFINITY, high = -INFINITY;
         for (int64_t row = 0; row < view->rows; ++row)
             for (int32_t k = 0; k < view->probes; ++k)
                 if (view->U[row] >= shown.low && view->U[row] <= shown.high)
                     stack_widen(values[row * stride + k * components + c], &low, &high);
+        for (int32_t k = 0; k < measured.count; ++k)
+            if ((int32_t)measured.x[k] % PROBE_COMPONENTS_MAX == c)
+                stack_widen(measured.value[k], &low, &high);
         axes[c] = (Axes){.x = figure_length_axis(view, "U", shown.low, shown.high),
                          .y = stack_axis(low, high)};
         name_axis(view, quantity, c, &axes[c].y);
@@ -100,9 +108,11 @@ bool figure_probes(Page *page, const FigureInput *input, Error *err)
     for (int32_t c = 0; c < components; ++c) {
         for (int32_t k = 0; k < view->probes; ++k)
             curve_draw(&whole, view, &axes[c], values + k * components + c, stride, k);
+        measured_draw_probes(&whole, &measured, c, &axes[c]);
         axes_draw(&whole, &axes[c]);
     }
 cleanup:
     memory_free(values);
+    measured_destroy(&measured);
     return error_is_clean(err);
 }

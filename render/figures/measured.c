@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "base/units.h"
 #include "io/text/csv_reader.h"
+#include "render/figures/stack.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -134,7 +135,55 @@ static bool find_ratio(const CsvTable *table, const ResultView *view, Column *ra
 // All that a file may hold.
 typedef struct Columns {
     Column U, t, ratio, x, area, length, speed;
+    Column probe;   // the first of those of probes, and its quantity
+    ProbeQuantity quantity;
 } Columns;
+
+// Strain as gauges are read: a number, a percentage, or millionths.
+static bool strain_factor(const CsvTable *table, CsvUnit unit, Column *column, Error *err)
+{
+    static const char *const millionths[] = {"um/m",  "\u00b5m/m", "\u03bcm/m",  "1e-6",
+                                             "10^-6", "ustrain",   "microstrain"};
+    for (size_t k = 0; k < sizeof millionths / sizeof *millionths; ++k)
+        if (strlen(millionths[k]) == (size_t)unit.length &&
+            strncmp(millionths[k], unit.text, (size_t)unit.length) == 0) {
+            column->factor = 1e-6;
+            return true;
+        }
+    return unit.length == 0 || csv_to_si(table, column->index, unit, "1", &column->factor, err);
+}
+
+// The column of component c of a probe, as in figures/probes.csv: "gauge1 strain_xx".
+static bool find_probe(const CsvTable *table, const ResultView *view, ProbeQuantity quantity,
+                       int32_t probe, int32_t c, Column *column, Error *err)
+{
+    static const char *const dimensions[PROBE_QUANTITY_COUNT] = {
+        [PROBE_STRESS] = "stress", [PROBE_DISPLACEMENT] = "length", [PROBE_VELOCITY] = "velocity"};
+    char name[PROBE_NAME_SIZE + NAME_SIZE], own[PROBE_NAME_SIZE];
+    CsvUnit unit;
+    *column = NONE;
+    probe_name(view, probe, own);
+    snprintf(name, sizeof name, "%s %s_%s", own, probe_words(quantity).name,
+             probe_component(view, quantity, c));
+    if (!csv_find(table, name, &column->index, &unit, err)) return false;
+    if (column->index < 0) return true;
+    if (quantity == PROBE_STRAIN) return strain_factor(table, unit, column, err);
+    return unit_factor(table, view, unit, dimensions[quantity], column, err);
+}
+
+static bool find_probes(const CsvTable *table, const ResultView *view, Columns *found, Error *err)
+{
+    found->probe = NONE;
+    for (int32_t q = 0; q < PROBE_QUANTITY_COUNT; ++q)
+        for (int32_t k = 0; k < view->probes; ++k)
+            for (int32_t c = 0; c < probe_components(view, (ProbeQuantity)q); ++c) {
+                found->quantity = (ProbeQuantity)q;
+                if (!find_probe(table, view, found->quantity, k, c, &found->probe, err))
+                    return false;
+                if (found->probe.index >= 0) return true;
+            }
+    return true;
+}
 
 static bool find_columns(const CsvTable *table, const ResultView *view, Columns *found, Error *err)
 {
@@ -144,16 +193,17 @@ static bool find_columns(const CsvTable *table, const ResultView *view, Columns 
            find_quantity(table, "x", "length", view, &found->x, err) &&
            find_number(table, "A/A_0", NULL, &found->area, err) &&
            find_quantity(table, "l", "length", view, &found->length, err) &&
-           find_quantity(table, "v", "velocity", view, &found->speed, err);
+           find_quantity(table, "v", "velocity", view, &found->speed, err) &&
+           find_probes(table, view, found, err);
 }
 
 // Which columns `kind` has: over what, and the value. false: the file does not have it.
 static bool choose(const Columns *found, MeasuredKind kind, Column *at, Column *value)
 {
     const Column moment = found->U.index >= 0 ? found->U : found->t;
-    const Column ats[MEASURED_KINDS] = {moment, moment, moment, found->ratio, found->x};
-    const Column values[MEASURED_KINDS] = {found->ratio, found->x, found->area, found->length,
-                                           found->speed};
+    const Column ats[MEASURED_KINDS] = {moment, moment, moment, found->ratio, found->x, moment};
+    const Column values[MEASURED_KINDS] = {found->ratio,  found->x,     found->area,
+                                           found->length, found->speed, found->probe};
     *at = ats[kind];
     *value = values[kind];
     if (kind == MEASURED_FRONT && (found->area.index >= 0 || found->speed.index >= 0)) return false;
@@ -192,16 +242,53 @@ static bool find_error(const CsvTable *table, const Column *value, Column *error
     return csv_check(table, error->index, true, err);
 }
 
+static bool make_lists(Measured *measured, int64_t room, Error *err)
+{
+    double **lists[] = {&measured->at, &measured->x, &measured->value, &measured->error,
+                        &measured->computed};
+    for (size_t k = 0; k < sizeof lists / sizeof *lists; ++k)
+        if (!(*lists[k] = NEW_ARRAY(double, room, err))) return false;
+    return true;
+}
+
+// All columns of probes of one quantity.
+static bool take_probes(const CsvTable *table, const Columns *found, const ResultView *view,
+                        Measured *measured, Error *err)
+{
+    const ViewCurve way = {view->rows, view->t, view->U};
+    const Column *at = found->U.index >= 0 ? &found->U : &found->t;
+    int32_t components = probe_components(view, found->quantity);
+    measured->quantity = found->quantity;
+    if (!make_lists(measured, (int64_t)table->rows * table->columns, err)) return false;
+    for (int32_t id = 0; id < view->probes * components; ++id) {
+        Column value, error;
+        int32_t probe = id / components, c = id % components;
+        if (!find_probe(table, view, found->quantity, probe, c, &value, err)) return false;
+        if (value.index < 0) continue;
+        if (!csv_check(table, value.index, false, err)) return false;
+        if (!find_error(table, &value, &error, err)) return false;
+        for (int32_t row = 0; row < table->rows; ++row) {
+            int32_t k = measured->count;
+            double moment = read_cell(table, row, at);
+            measured->at[k] = at == &found->U ? moment : curve_value(&way, moment);
+            measured->x[k] = PROBE_COMPONENTS_MAX * probe + c;
+            measured->value[k] = read_cell(table, row, &value);
+            measured->error[k] = read_cell(table, row, &error);
+            measured->computed[k] = NAN;
+            if (isfinite(measured->at[k] + measured->value[k])) ++measured->count;
+        }
+    }
+    return true;
+}
+
 static bool take_rows(const CsvTable *table, const Columns *found, const ResultView *view,
                       Measured *measured, Error *err)
 {
     Column at, value, error;
     const ViewCurve way = {view->rows, view->t, view->U};
     if (!choose(found, measured->kind, &at, &value)) return true;
-    double **lists[] = {&measured->at, &measured->x, &measured->value, &measured->error,
-                        &measured->computed};
-    for (size_t k = 0; k < sizeof lists / sizeof *lists; ++k)
-        if (!(*lists[k] = NEW_ARRAY(double, table->rows, err))) return false;
+    if (measured->kind == MEASURED_PROBE) return take_probes(table, found, view, measured, err);
+    if (!make_lists(measured, table->rows, err)) return false;
     if (!find_error(table, &value, &error, err)) return false;
     bool is_time = measured->kind <= MEASURED_AREA && found->U.index < 0;
     for (int32_t row = 0; row < table->rows; ++row) {
@@ -234,7 +321,7 @@ static bool read_table(const char *path, const ResultView *view, CsvTable *table
     if (!has_any(found))
         FAIL(err, ERROR_INPUT,
              "%s: it needs the columns U and F_T/F_N, U and x, U, x and A/A_0, F_T/F_N and l, or x "
-             "and v",
+             "and v; or U and those of probes of the result, as gauge1 strain_xx",
              path);
     if (table->rows == 0)
         FAIL(err, ERROR_INPUT, "%s: below the names of its columns there is no row", path);
@@ -258,7 +345,8 @@ static void describe(Measured *measured, const ResultView *view)
                                 {" ~{L}", NUMBER_LENGTH},
                                 {"", -1},
                                 {" ~{L}", NUMBER_LENGTH},
-                                {" ~{c}_{R}", NUMBER_C_RAYLEIGH}};
+                                {" ~{c}_{R}", NUMBER_C_RAYLEIGH},
+                                {"", -1}};
     double sum = 0, parts = 0;
     int32_t count = 0, number = scales[measured->kind].number;
     for (int32_t k = 0; k < measured->count; ++k) {
@@ -268,9 +356,13 @@ static void describe(Measured *measured, const ResultView *view)
         parts += away * away / (measured->error[k] * measured->error[k]);
         ++count;
     }
+    measured->compared = count;
+    measured->misfit = measured->in_errors = NAN;
     if (count == 0) return;
     size_t length = strlen(measured->words);
     double misfit = sqrt(sum / count) / (number < 0 ? 1 : view->number[number]);
+    measured->misfit = misfit;
+    if (isfinite(parts)) measured->in_errors = sqrt(parts / count);
     length += (size_t)snprintf(measured->words + length, sizeof measured->words - length,
                                ": misfit %.3g%s", misfit, scales[measured->kind].words);
     if (isfinite(parts))
@@ -278,8 +370,33 @@ static void describe(Measured *measured, const ResultView *view)
                  sqrt(parts / count));
 }
 
+// Of each measurement what its probe saw then, linear between steps.
+static bool compute_probes(Measured *measured, ResultView *view, Error *err)
+{
+    double *values = NULL;
+    int32_t components = probe_components(view, measured->quantity);
+    int64_t stride = (int64_t)components * view->probes;
+    TRY(probe_read(view, measured->quantity, &values, err));
+    for (int32_t k = 0; k < measured->count; ++k) {
+        double at = measured->at[k];
+        int32_t id = (int32_t)measured->x[k];
+        if (!(at >= view->U[0] && at <= view->U[view->rows - 1])) continue;
+        int64_t row = curve_place(view->U, view->rows, at);
+        double span = view->U[row + 1] - view->U[row];
+        double part = span > 0 ? (at - view->U[row]) / span : 1;
+        const double *now = values + row * stride + (id / PROBE_COMPONENTS_MAX) * components +
+                            id % PROBE_COMPONENTS_MAX;
+        measured->computed[k] = now[0] + part * (now[stride] - now[0]);
+    }
+    describe(measured, view);
+cleanup:
+    memory_free(values);
+    return error_is_clean(err);
+}
+
 static bool compare(Measured *measured, ResultView *view, Error *err)
 {
+    if (measured->kind == MEASURED_PROBE) return compute_probes(measured, view, err);
     ViewCurve curve;
     bool area = measured->kind == MEASURED_AREA;
     if (area && !(result_view_read_slip_rate(view, err) && result_view_read_status(view, err)))
@@ -328,6 +445,25 @@ int32_t measured_key(const Measured *measured, KeyMark mark, KeyEntry *entries, 
     Color color = mark == KEY_RING ? INK : MEASURED_COLOR;
     if (measured->count > 0) entries[count++] = (KeyEntry){mark, color, measured->words};
     return count;
+}
+
+void measured_draw_probes(const Page *page, const Measured *measured, int32_t component,
+                          const Axes *axes)
+{
+    double radius = KEY_RADIUS * page->point * (measured->count > MARKS_FEW ? MARK_SMALL : 1);
+    canvas_clip(page->canvas, &axes->box);
+    for (int32_t k = 0; k < measured->count; ++k) {
+        int32_t id = (int32_t)measured->x[k];
+        if (id % PROBE_COMPONENTS_MAX != component) continue;
+        Stroke stroke = {.color = stack_color(id / PROBE_COMPONENTS_MAX),
+                         .width = 0.5 * page->point};
+        double at = measured->at[k], value = measured->value[k], error = measured->error[k];
+        if (isfinite(error))
+            draw_segment(page->canvas, &stroke, axes_place(axes, at, value - error),
+                         axes_place(axes, at, value + error));
+        draw_disc(page->canvas, stroke.color, axes_place(axes, at, value), radius);
+    }
+    canvas_clip(page->canvas, NULL);
 }
 
 void measured_draw(const Page *page, const Measured *measured, const Axes *axes)

@@ -9,6 +9,7 @@
 //     U/L, x/L                         slip-map: how far slip has come
 //     t (ms), x (mm), A/A_0            contact-density: contact area over what it was at rest
 //     F_T/F_N, l (mm)                  precursors: how long slip is at that load ratio
+//     U (mm), gauge1 strain_xx         probes: what the probe gauge1 saw; several columns
 //     x/L, v/c_R                       front-speed: how fast the front of slip runs over x
 //
 // `mu` is F_T/F_N; so are the columns F_T and F_N, each with its unit or both without. A quantity
@@ -20,6 +21,7 @@
 #include "render/canvas/axes.h"
 #include "render/canvas/key.h"
 #include "render/figures/computed.h"
+#include "render/figures/probe_data.h"
 
 enum { MEASURED_WORDS_SIZE = 200 };
 
@@ -28,10 +30,14 @@ typedef struct Measured {
     const char *path;   // borrowed
     int32_t count;
     double *at;   // [count] U; of MEASURED_LENGTH F_T/F_N, of MEASURED_SPEED x; owned, as the rest
-    double *x;   // [count] of MEASURED_AREA alone
+    double *x;   // [count] of MEASURED_AREA; of MEASURED_PROBE which column: the number of the
+        // probe times PROBE_COMPONENTS_MAX, plus that of the component
+    ProbeQuantity quantity;   // of MEASURED_PROBE
     double *value;   // [count] 1, length or velocity
     double *error;   // [count] NaN: not given
     double *computed;   // [count] NaN: not covered
+    int32_t compared;   // points that the result covers
+    double misfit, in_errors;   // as below; NaN: not known
     char words[MEASURED_WORDS_SIZE];   // for a legend: the file's name and the misfit
 } Measured;
 
@@ -49,6 +55,9 @@ bool measured_has(const char *path, MeasuredKind kind, const ResultView *view, b
 // Adds it to the entries of a key, if there is any; returns how many these are then.
 int32_t measured_key(const Measured *measured, KeyMark mark, KeyEntry *entries, int32_t count);
 // Discs with bars as long as the errors on both sides, in a colour of their own.
+// The marks of one component of MEASURED_PROBE, in the colours of their probes.
+void measured_draw_probes(const Page *page, const Measured *measured, int32_t component,
+                          const Axes *axes);
 void measured_draw(const Page *page, const Measured *measured, const Axes *axes);
 
 #endif

@@ -13,6 +13,7 @@ int command_model1d(const Command *command, int argc, char **argv);
 int command_sweep(const Command *command, int argc, char **argv);
 int command_search(const Command *command, int argc, char **argv);   // optimise, fit
 int command_render(const Command *command, int argc, char **argv);
+int command_compare(const Command *command, int argc, char **argv);
 int command_report(const Command *command, int argc, char **argv);
 int command_film(const Command *command, int argc, char **argv);
 int command_info(const Command *command, int argc, char **argv);

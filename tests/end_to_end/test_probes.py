@@ -296,6 +296,41 @@ output: {{figures: [], fields: {{every_U: 5e-4}}, probes: {{g: {{at: [0.3, 0.2, 
         self.render(folder, "--figure", "profile", "--at", "U=0.001,U=0.002")
         self.assertIn("never rises through 0.9", self.render(folder, "--figure", "profile", "--at", "mu=0.9", status=2))
 
+    def test_compare(self):
+        """Made measurements: strains off by 2 and 3 per cent, in millionths; the misfit by its definition."""
+        folder = self.run_scene(FIG1, "compare", *SMALL[:1], "time.until={U: 0.004}", "output.fields=none", "output.figures=[]",
+                                "output.probes={foot: {at: [0.2, 0.02]}, top: {at: [0.8, 0.4]}}")
+        found = self.arrays(folder)
+        with h5py.File(folder / "history.h5") as file:
+            U, mu = file["series/rod_displacement"][()], file["series/mu"][()]
+        rows = numpy.unique(numpy.searchsorted(U, numpy.linspace(0.0005, 0.0035, 20)))
+        foot, top = found["probes/strain"][rows, 0, 2], found["probes/strain"][rows, 1, 0]
+        lines = ["U,F_T/F_N,foot strain_xz (um/m),top strain_xx,top strain_xx error"]
+        lines += [",".join(repr(float(value)) for value in (U[row], mu[row] + 0.01, 1.02e6 * a, 1.03 * b, abs(b)))
+                  for row, a, b in zip(rows, foot, top)]
+        lines += ["5,0.1,0,0,1"]     # beyond the end of the run
+        measured = self.folder / "measured.csv"
+        measured.write_text("\n".join(lines) + "\n", encoding="utf-8")
+        done = subprocess.run([PROGRAM, "compare", folder, measured], capture_output=True, text=True, env=self.environment)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(folder / "figures" / "misfit.csv", encoding="utf-8", newline="") as file:
+            misfits = {row["figure"]: row for row in csv.DictReader(file)}
+        self.assertEqual(list(misfits), ["force", "probes"])
+        self.assertAlmostEqual(float(misfits["force"]["misfit"]), 0.01, delta=1e-9)
+        off = numpy.concatenate([0.02 * foot, 0.03 * top])
+        self.assertAlmostEqual(float(misfits["probes"]["misfit"]) / numpy.sqrt(numpy.mean(off ** 2)), 1, delta=1e-6)
+        self.assertEqual((misfits["probes"]["points"], misfits["probes"]["covered"]), (str(2 * len(rows) + 2), str(2 * len(rows))))
+        self.assertIn("misfit 0.01, %d of %d points" % (len(rows), len(rows) + 1), done.stdout)
+        names = {path.name for path in (folder / "figures").iterdir()}
+        self.assertLessEqual({"force.png", "probes.png", "force-compared.csv", "probes-compared.csv"}, names)
+        self.assertNotIn("slip-map.png", names)
+        with open(folder / "figures" / "probes-compared.csv", encoding="utf-8", newline="") as file:
+            self.assertEqual({row["column"] for row in csv.DictReader(file)}, {"foot strain_xz", "top strain_xx"})
+        for words, said in (([folder], "a result folder and a table"), ([folder, self.folder / "no.csv"], "no.csv")):
+            done = subprocess.run([PROGRAM, "compare", *words], capture_output=True, text=True, env=self.environment)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(said, done.stderr)
+
     def test_refused(self):
         def said(*settings):
             return self.run_scene(FIG1, "refused", *SMALL[:3], *settings, status=2)

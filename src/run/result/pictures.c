@@ -5,11 +5,14 @@
 #include "base/child_process.h"
 #include "base/decimal_point.h"
 #include "base/module.h"
+#include "io/text/csv_reader.h"
 #include "render/picture_options.h"
 #include "render/render.h"
 #include "run/result/own_file.h"
 
 #include <errno.h>
+#include <math.h>
+#include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -72,4 +75,46 @@ bool amontons_render_plot_file(const char *plot, const char *picture, const Pict
     RenderPlotFunction render =
         (RenderPlotFunction)module_function("render", "amontons_render_plot", err);
     return render && render(plot, picture, style, err);
+}
+
+// From figures/misfit.csv of `folder` (render/figure_data): a line a figure.
+static bool tell_misfits(const char *folder, char *words, int32_t size, Error *err)
+{
+    CsvTable table = {0};
+    char path[AMONTONS_PATH_SIZE + 40];
+    int32_t used = 0;
+    snprintf(path, sizeof path, "%s/figures/misfit.csv", folder);
+    TRY(csv_read(path, &table, err));
+    for (int32_t row = 0; row < table.rows && used < size; row++) {
+        double covered = csv_value(&table, row, 2), errors = csv_value(&table, row, 5);
+        const char *over = csv_cell(&table, row, 4);
+        char misfit[80] = "there is none", in_errors[60] = "";
+        if (covered > 0)
+            snprintf(misfit, sizeof misfit, "%.3g%s%s", csv_value(&table, row, 3), *over ? " " : "",
+                     over);
+        if (isfinite(errors)) snprintf(in_errors, sizeof in_errors, ", %.3g of the errors", errors);
+        used += snprintf(words + used, (size_t)(size - used),
+                         "  %-16s misfit %s%s, %s of %s points\n", csv_cell(&table, row, 0), misfit,
+                         in_errors, csv_cell(&table, row, 2), csv_cell(&table, row, 1));
+    }
+    if (used < size)
+        snprintf(
+            words + used, (size_t)(size - used),
+            "  misfit: root of the mean square of measured less computed, over the points that "
+            "the result covers\n");
+cleanup:
+    csv_destroy(&table);
+    return error_is_clean(err);
+}
+
+bool amontons_compare(const char *folder, const char *measured, const PictureStyle *style,
+                      char *words, int32_t size, Error *err)
+{
+    NUMBERS_HAVE_A_POINT;
+    static const char *const figure = "measured";
+    PictureRequest request = {.figures = &figure, .figure_count = 1};
+    if (style) request.style = *style;
+    request.style.compare = measured;
+    if (size > 0) words[0] = 0;
+    return amontons_render_result(folder, &request, err) && tell_misfits(folder, words, size, err);
 }
