@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Which part of U the zoomed pictures show: the last precursors before a sliding. From the table of
+// Which part of U the zoomed pictures show: the last precursors before a sliding, of the first
+// loading all of them. From the table of
 // events where there is one, else from the falls of mu.
 #include "render/view/zoom.h"
 
@@ -35,7 +36,8 @@ typedef struct Cycle {
     bool periodic;   // its peak counts for mu_M
 } Cycle;
 
-// Counts the bounded precursors of a cycle and finds where the first of the last few starts.
+// Counts the bounded precursors of a cycle and finds where the first of the last few starts; in the
+// first loading the first of all.
 static void cycle_count_events(const ResultView *view, Cycle *cycle)
 {
     cycle->bounded = 0;
@@ -45,7 +47,7 @@ static void cycle_count_events(const ResultView *view, Cycle *cycle)
             event->U_start < cycle->U_slide)
             ++cycle->bounded;
     }
-    int32_t passed = cycle->bounded - PRECURSORS_SHOWN;
+    int32_t passed = cycle->number == 1 ? 0 : cycle->bounded - PRECURSORS_SHOWN;
     for (int32_t k = 0; k < view->event_count && cycle->bounded > 0; ++k) {
         const ViewEvent *event = &view->events[k];
         if (event->kind != VIEW_BOUNDED || event->U_start < cycle->U_start) continue;
@@ -88,11 +90,11 @@ static bool cycle_from_events(const ResultView *view, Cycle *best, int32_t *slid
     for (int32_t k = 0; k < view->event_count; ++k) {
         const ViewEvent *event = &view->events[k];
         if (event->kind != VIEW_LEADING || !isfinite(event->U_start)) continue;
+        ++cycle.number;
         cycle.U_slide = event->U_start;
         cycle.U_stop = isfinite(event->U_stop) ? event->U_stop : high;
         cycle_count_events(view, &cycle);
         cycle_match_peak(view, &cycle);
-        ++cycle.number;
         bool better = asked > 0 ? cycle.number == asked
                                 : !found || cycle_merit(&cycle) >= cycle_merit(best);
         if (cycle.U_slide > cycle.U_start && better) {

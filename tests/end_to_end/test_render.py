@@ -162,7 +162,7 @@ class Pictures(unittest.TestCase):
     def test_all_figures_in_time(self):
         self.assertEqual(self.result, (0, ""))
         self.assertEqual(sorted(os.listdir(os.path.join(self.folder, "figures"))),
-                         sorted([name + ".png" for name in FIGURES] + ["force.csv", "slip-map.csv"]))
+                         sorted([name + ".png" for name in FIGURES] + ["events.csv", "force.csv", "slip-map.csv"]))
         self.assertLess(self.seconds, 3)   # of processor time: a second each
 
     def test_size_and_metadata(self):
