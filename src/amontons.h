@@ -132,7 +132,7 @@ typedef struct RunSummary {
     char slip_pad[64];
     // Names in the order in which pads let go before the last sliding of the whole block, "left,
     // middle with right"; empty: there was none, or the contact is one piece.
-    char pads_order[200];
+    char pads_order[200], pads_order_first[200];   // the other: before the first sliding
     // Results of a program whose velocity jumps (results.program): value and error; NaN: not known.
     int32_t velocity_steps, holds;
     double direct_effect[2], level_change[2];   // per ln(V2/V1)

@@ -302,8 +302,11 @@ static void print_answers(const RunSummary *summary)
             "nodes\n",
             INDENT, summary->slight, summary->slight == 1 ? "" : "s");
     say("  slidings        %d of the whole block\n", summary->leading);
-    if (*summary->pads_order)
-        say("  pads let go     %s: before the last of these slidings\n", summary->pads_order);
+    if (*summary->pads_order_first)
+        say("  pads let go     %s: before the first of these slidings\n",
+            summary->pads_order_first);
+    if (*summary->pads_order && summary->leading > 1)
+        say("%s%s: before the last\n", INDENT, summary->pads_order);
     if (!isnan(summary->base_slip))
         say("  base            deforms; the block slid over it by %.2g %% of the contact's "
             "length\n",

@@ -41,7 +41,7 @@ static void name_piece(const MeshBoundary *whole, int32_t count, int32_t p,
     if (count == 1)
         snprintf(name, GROUP_NAME_SIZE, "%s", whole->name);
     else
-        snprintf(name, GROUP_NAME_SIZE, "%.52s/%d", whole->name, p + 1);
+        snprintf(name, GROUP_NAME_SIZE, "%.51s/%d", whole->name, p + 1);
 }
 
 bool mesh_pieces_find(const Mesh *mesh, const MeshBoundary *whole, MeshPieces *pieces, Error *err)

@@ -31,7 +31,10 @@ bool pads_create(const Interface *interface, const Events *events, Pads *pads, E
     pads->count = interface->pad_count;
     for (int32_t p = 0; p < pads->count; p++) {
         Pad *pad = &pads->list[p];
-        *pad = (Pad){.size = pad_size(interface, p), .now = NOTHING_YET, .last = NOTHING_YET};
+        *pad = (Pad){.size = pad_size(interface, p),
+                     .now = NOTHING_YET,
+                     .first = NOTHING_YET,
+                     .last = NOTHING_YET};
         pad->length = pad->size.weight / pad->size.breadth;
         if (interface->pad_name)
             snprintf(pad->name, sizeof pad->name, "%s", interface->pad_name[p]);
@@ -130,24 +133,33 @@ bool pads_record(void *self, const Observation *seen, Error *err)
     }
     if (events->crossed) {
         pads->cycles++;
-        for (int32_t p = 0; p < pads->count; p++) pads->list[p].last = pads->list[p].now;
+        for (int32_t p = 0; p < pads->count; p++) {
+            Pad *pad = &pads->list[p];
+            pad->last = pad->now;
+            if (pads->cycles == 1) pad->first = pad->now;
+        }
     }
     if (sliding || (events->ended && events->list[events->count - 1].kind == EVENT_LEADING))
         begin_cycle(pads);
     return error_is_clean(err);
 }
 
-void pads_order(const Pads *pads, char text[PADS_ORDER_SIZE])
+static int32_t order_of(const Pad *pad, bool of_first)
+{
+    return of_first ? pad->first.order : pad->last.order;
+}
+
+void pads_order(const Pads *pads, bool of_first, char text[PADS_ORDER_SIZE])
 {
     int32_t told = 0, left = 0;
     size_t used = 0;
     *text = '\0';
-    for (int32_t p = 0; p < pads->count; p++) left += pads->list[p].last.order > 0;
+    for (int32_t p = 0; p < pads->count; p++) left += order_of(&pads->list[p], of_first) > 0;
     for (int32_t order = 1; order <= pads->count; order++) {
         bool first = true;   // of those that let go in the same step
         for (int32_t p = 0; p < pads->count; p++) {
             const Pad *pad = &pads->list[p];
-            if (pad->last.order != order) continue;
+            if (order_of(pad, of_first) != order) continue;
             const char *before = told == 0 ? "" : first ? ", " : " with ";
             if (used + strlen(before) + strlen(pad->name) + sizeof ", and 2147483647 more" >
                 PADS_ORDER_SIZE) {
@@ -182,6 +194,10 @@ void pads_write_json(const Pads *pads, JsonWriter *json)
             {"detachment_order", last->order}, {"U_rapid", last->U_rapid},
             {"t_rapid", last->t_rapid}, {"l_c", last->slow_length},
             {"l_c_over_length", last->slow_length / pad->length}, {"slidings", pad->slidings});
+        json_object_of(json, "first", {"normal_force_peak", pad->first.normal_force},
+                       {"shear_peak", pad->first.shear}, {"U_first_slip", pad->first.U_first_slip},
+                       {"U_detached", pad->first.U_detached},
+                       {"detachment_order", pad->first.order}, {"U_rapid", pad->first.U_rapid});
         json_end(json);
     }
     json_end(json);
@@ -202,6 +218,7 @@ void pads_archive(Pads *pads, Archive *archive)
         Pad *pad = &pads->list[p];
         archive_number(archive, &pad->normal_force_start);
         cycle_archive(&pad->now, archive);
+        cycle_archive(&pad->first, archive);
         cycle_archive(&pad->last, archive);
         archive_integer(archive, &pad->slidings);
         archive_flag(archive, &pad->rapid);

@@ -27,7 +27,8 @@ typedef struct Pad {
     PadSize size;
     double length;   // sum of its nodes' weights, in space over its breadth
     double normal_force_start;   // when the rod starts, force/width
-    PadCycle now, last;   // of the cycle under way; of the last one that ended in sliding
+    PadCycle now;   // of the cycle under way
+    PadCycle first, last;   // of the first one that ended in sliding, and of the last
     int32_t slidings;   // rapid events in which all of it slipped
     bool rapid;   // in the step seen last
 } Pad;
@@ -52,10 +53,11 @@ bool pads_record(void *self, const Observation *seen, Error *err);   // a Record
 
 void pads_write_json(const Pads *pads, JsonWriter *json);   // results.pads
 
-// The order in which pads let go before the last sliding of the whole block: "left, middle with
-// right". As many names as there is room for, then "and 7 more". Empty: there was no such sliding.
+// The order in which pads let go before the first or the last sliding of the whole block: "left,
+// middle with right". As many names as there is room for, then "and 7 more". Empty: there was no
+// such sliding.
 enum { PADS_ORDER_SIZE = 200 };
-void pads_order(const Pads *pads, char text[PADS_ORDER_SIZE]);
+void pads_order(const Pads *pads, bool of_first, char text[PADS_ORDER_SIZE]);
 
 void pads_archive(Pads *pads, Archive *archive);
 

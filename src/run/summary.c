@@ -271,7 +271,10 @@ void summary_fill(const Simulation *simulation, const RunCounters *counters, con
         summary->run_in = run_in_name(answers->regime.run_in);
     mesh_move_text(&simulation->model.mesh, summary->mesh_moved);
     note_slip(simulation, answers->first, summary);
-    if (simulation->pads.count > 1) pads_order(&simulation->pads, summary->pads_order);
+    if (simulation->pads.count > 1) {
+        pads_order(&simulation->pads, true, summary->pads_order_first);
+        pads_order(&simulation->pads, false, summary->pads_order);
+    }
     note_program(&simulation->readings, summary);
     memcpy(summary->mu_M_parts, &answers->mu_M_parts, sizeof summary->mu_M_parts);
     memcpy(summary->mu_hold_parts, &answers->mu_hold_parts, sizeof summary->mu_hold_parts);

@@ -430,7 +430,7 @@ static bool work_out_all(Reader *reader, const char *const *overrides, int32_t c
     for (int32_t i = 0; i < count; i++) {
         const YamlDocument *formula = reader->overrides[i];
         YamlDocument **value = &reader->overrides[reader->override_count];
-        char name[KEY_NAME_SIZE] = "", shown[2 * KEY_NAME_SIZE];
+        char name[KEY_NAME_SIZE] = "", shown[3 * KEY_NAME_SIZE];
         int32_t first = reader->setting_count;
         if (!scene_is_formula(formula, YAML_ROOT)) continue;
         memcpy(name, overrides[i], (size_t)(strchr(overrides[i], '=') - overrides[i]));

@@ -187,9 +187,21 @@ def explicit_steps(study):
     """The same scene by central differences on the same two meshes."""
     implicit = Run(study, HERE / "bodies_run.yaml", "implicit-two", {"time.tolerance": 1e-5})
     explicit = Run(study, HERE / "bodies_run.yaml", "explicit-two", {"time.scheme": "explicit"}, ledger=3e-3)
+    compare_steps(study, "explicit steps on the same meshes", implicit, explicit)
+
+
+def compare_steps(study, case, implicit, explicit):
     for name in ("mu_M", "mu_max"):
         one, other = implicit.report["results"][name], explicit.report["results"][name]
-        study.add(GROUP, "explicit steps on the same meshes", name, other, one, abs(one / other - 1), 2e-3)
+        study.add(GROUP, case, name, other, one, abs(one / other - 1), 2e-3)
+
+
+def explicit_in_space(study):
+    space = {"mesh.file": HERE / "../../meshes/base3d.geo", "mesh.set": "{nx: 4, ny: 4, nz: 2, breadth: 0.5}",
+             "load.supports": "[{group: bottom, direction: all}]"}
+    implicit = Run(study, HERE / "bodies_run.yaml", "implicit-space", {**space, "time.tolerance": 1e-5})
+    explicit = Run(study, HERE / "bodies_run.yaml", "explicit-space", {**space, "time.scheme": "explicit"}, ledger=3e-3)
+    compare_steps(study, "explicit steps on the same meshes, in space", implicit, explicit)
 
 
 def controls(study):
@@ -215,4 +227,6 @@ def run(study):
     for stiffness, nu, nu_base in ((10, 0.3, 0.3),) if study.quick else ((10, 0.3, 0.3), (0.1, 0.3, 0.3), (4, 0.2, 0.4)):
         unlike(study, stiffness, nu, nu_base)
     explicit_steps(study)
+    if not study.quick:
+        explicit_in_space(study)
     controls(study)

@@ -35,8 +35,12 @@ static bool processor_has(const char *flag)
     return found;
 }
 
+// NULL: another kind of processor, also where that is emulated and /proc/cpuinfo tells of the host.
 static const char *best_here(void)
 {
+#ifndef __x86_64__
+    return NULL;
+#endif
     if (processor_has("avx512vl") && processor_has("avx512dq") && processor_has("avx512bw"))
         return "SkylakeX";
     if (processor_has("avx2") && processor_has("fma")) return "Haswell";

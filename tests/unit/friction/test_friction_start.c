@@ -87,7 +87,7 @@ TEST(test_refusals)
     check_refused(source_of("0.3 - 0.1 * theta", &AGE, 1), "formula",
                   "at velocity 0.0001, theta 10 the coefficient is -0.7: it must not be negative");
     check_refused(source_of("0.3", &grows, 1), "state", "no state of steady slip is found");
-    check_refused(source_of("0.3", &root, 1), "state", "the rate of x is -nan");
+    check_refused(source_of("0.3", &root, 1), "state", "nan: not a finite number");
     check_refused(source_of("0.3", &steep, 1), "formula", "derivative");
     check_refused(source_of("0.3", &other, 1), "state", "`y` is no number here");
     check_refused(source_of("0.3 + 0.01 * round(theta / 20)", &AGE, 1), "formula",

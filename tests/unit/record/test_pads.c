@@ -132,7 +132,7 @@ TEST(test_lifted_corner)
     fixture.run.hand.open[0] = true;
     see(&fixture, 0.1, REST);
     assert_true(isnan(fixture.pads.list[0].now.U_first_slip));
-    pads_order(&fixture.pads, order);
+    pads_order(&fixture.pads, false, order);
     assert_string_equal(order, "");
     see(&fixture, 0.2, (double[]){0, 0.5, 0, 0, 0});   // U = 0.1
     see(&fixture, 0.3, (double[]){0, 0.5, 0.5, 0, 0});   // U = 0.2
@@ -142,8 +142,28 @@ TEST(test_lifted_corner)
     assert_near("all", left->U_detached, 0.2, 1e-15);
     assert_int_equal(left->order, 1);
     assert_int_equal(fixture.pads.list[1].last.order, 2);
-    pads_order(&fixture.pads, order);
+    pads_order(&fixture.pads, false, order);
     assert_string_equal(order, "left, right");
+    fixture_destroy(&fixture);
+}
+
+// Another order before the next sliding: what went before the first is kept.
+TEST(test_first_and_last)
+{
+    Fixture fixture;
+    char order[PADS_ORDER_SIZE];
+    fixture_build(&fixture);
+    see(&fixture, 0.1, REST);
+    see(&fixture, 0.2, (double[]){0.5, 0.5, 0.5, 0, 0});
+    see(&fixture, 0.3, ACROSS);
+    see(&fixture, 0.1, REST);
+    see(&fixture, 0.1, REST);
+    see(&fixture, 0.2, (double[]){0, 0, 0, 0.5, 0.5});
+    see(&fixture, 0.3, ACROSS);
+    pads_order(&fixture.pads, true, order);
+    assert_string_equal(order, "left, right");
+    pads_order(&fixture.pads, false, order);
+    assert_string_equal(order, "right, left");
     fixture_destroy(&fixture);
 }
 
@@ -156,7 +176,7 @@ TEST(test_foot_in_the_air)
     see(&fixture, 0.1, REST);
     see(&fixture, 0.2, ACROSS);
     assert_int_equal(fixture.pads.list[1].last.order, 0);
-    pads_order(&fixture.pads, order);
+    pads_order(&fixture.pads, false, order);
     assert_string_equal(order, "left");
     fixture_destroy(&fixture);
 }
@@ -175,11 +195,11 @@ TEST(test_order_in_words)
     list[0].last.order = 2;
     list[1].last.order = 1;
     list[2].last.order = 2;
-    pads_order(&pads, order);
+    pads_order(&pads, false, order);
     assert_string_equal(order, "contact_2, contact_1 with contact_3");
     pads.count = MANY;
     list[0].last.order = list[2].last.order = 3;
-    pads_order(&pads, order);
+    pads_order(&pads, false, order);
     assert_non_null(strstr(order, "contact_2, contact_1 with contact_3, contact_4, "));
     const char *last = strrchr(order, ',');
     int32_t told = 1, left = 0;
