@@ -32,7 +32,7 @@ CELLS = [
     ("triangle6", 22, [12, 14, 24, 13, 19, 18]),
 ]
 LINES = [[0, 1], [1, 2], [2, 3], [3, 4]]
-SERIES, STEPS, NODES = 17, 300, 5
+SERIES, STEPS, NODES = 18, 300, 5
 
 
 def read_with_vtk(reader, path):
