@@ -121,6 +121,25 @@ class Bodies(OwnCache):
         # The floor goes down by about the pressure over E times its depth.
         self.assertLess(moved[[j for _, j in pairs], 1].mean(), -0.0005)
 
+    def test_pads_on_a_base(self):
+        """Cells of the base are as those of the pads, graded ones too: nodes match; where they are asked not to, mu_M is near."""
+        pads = [f"mesh.file={SOURCE}/meshes/pads.geo", "time.until.U=0.02"]
+        mesh = "n: 2, total_height: 0.5, base_height: 0.25, size_contact: 0.05, size_bulk: 0.1, grade_contact: 4"
+        found = {}
+        for name, more in (("even", ""), ("apart", ", ratio: 1.3")):
+            report = self.compute(f"pads_{name}", *pads, f"mesh.set={{{mesh}{more}}}")
+            self.assertEqual(report["base"]["matches"], name == "even")
+            self.assertLess(report["errors"]["moment"], 1e-11)
+            self.assertEqual(sorted(pad["first"]["detachment_order"] for pad in report["results"]["pads"]), [1, 2])
+            found[name] = report["results"]["mu_max"]
+        self.assertAlmostEqual(found["apart"] / found["even"], 1, delta=0.03)   # what cells of 0.05 leave
+
+    def test_said_of_a_base(self):
+        said = self.call("run", "time.until.U=0.004", flags=("--overwrite", "-o", "said"))
+        self.assertRegex(said, r"base +deforms; the block slid over it by 0\.\d+ % of the contact's length")
+        info = subprocess.run([PROGRAM, "info", "said"], capture_output=True, text=True, cwd=self.folder, env=self.environment).stdout
+        self.assertRegex(info, r"(?s)slip over base / L +\S+.*Dundurs' alpha +0\n +Dundurs' beta +0\n +rho c_S over block +1\n")
+
     def test_a_long_way_is_told(self):
         report = self.compute("far", "time.until={U: 0.06}", "rod.velocity=2e-3")
         self.assertTrue(any("far over its base" in text for text in report["warnings"]), report["warnings"])

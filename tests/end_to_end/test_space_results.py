@@ -57,7 +57,7 @@ class Space(unittest.TestCase):
             done = call("render", "run")
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             self.assertEqual(sorted(path.name for path in Path(folder, "run/figures").iterdir()),
-                             ["contact-density.png", "field.png", "force.csv", "force.png", "slip-map.csv",
+                             ["contact-density.png", "events.csv", "field.png", "force.csv", "force.png", "slip-map.csv",
                               "slip-map.png"])
             self.assertEqual(call("render", "run", "--figure", "precursors", "--figure", "front-speed").returncode, 0)
             done = call("render", "run", "--figure", "contact-plane")

@@ -123,6 +123,7 @@ TEST(without_peaks_precursors_decide)
     ResultView view = with_events(8, 0);   // no cycle counts: the first loading, which has some
     assert_float_equal(zoom_choose(&view).U_slide, 1.0, 1e-12);
     view.events = (ViewEvent *)three_cycles + 1;
+    view.event_count = 7;
     assert_float_equal(zoom_choose(&view).U_slide, 2.0, 1e-12);
     view = with_events(2, 0);
     assert_float_equal(zoom_choose(&view).U_slide, 1.0, 1e-12);
