@@ -113,14 +113,14 @@ cleanup:
 // Least, mean and largest of the contact area over the nodes that are shown.
 static bool write_area(const char *path, ResultView *view, Error *err)
 {
-    double *area = NULL, *columns[OF_STATE] = {0};
-    TRY(contact_area_read(view, &area, err));
+    double *columns[OF_STATE] = {0};
+    TRY(computed_area_read(view, err));
     TRY(result_view_read_status(view, err));
     for (int32_t k = 0; k < OF_STATE; ++k) TRY(columns[k] = NEW_ARRAY(double, view->rows, err));
     for (int64_t row = 0; row < view->rows; ++row) {
         double least = INFINITY, sum = 0, most = -INFINITY;
         for (int64_t k = row * view->nodes; k < (row + 1) * view->nodes; ++k) {
-            double value = view->status[k] == 0 ? 0 : area[k];
+            double value = view->status[k] == 0 ? 0 : view->area[k];
             least = fmin(least, value);
             most = fmax(most, value);
             sum += value;
@@ -136,7 +136,6 @@ static bool write_area(const char *path, ResultView *view, Error *err)
                                {"largest area", NULL, columns[2], 1}};
     TRY(write_columns(path, data, 5, view->rows, view->si, err));
 cleanup:
-    memory_free(area);
     memory_free_list((void *const *)columns, OF_STATE);
     return error_is_clean(err);
 }
@@ -247,13 +246,22 @@ cleanup:
     return error_is_clean(err);
 }
 
-// MEASURED_KINDS: nothing of the figure is measured.
-static MeasuredKind kind_of(const char *figure)
+// The figure that shows what is measured; a measured area stands on that of the law's own measure,
+// where it has one.
+static const char *figure_of(MeasuredKind kind, const ResultView *view)
 {
     static const char *const figures[MEASURED_KINDS] = {
         "force", "slip-map", "contact-density", "precursors", "front-speed", "probes"};
+    return kind == MEASURED_AREA && figure_contact_area_shows(view) ? "contact-area"
+                                                                    : figures[kind];
+}
+
+// MEASURED_KINDS: nothing of the figure is measured.
+static MeasuredKind kind_of(const char *figure, const ResultView *view)
+{
     int32_t kind = 0;
-    while (kind < MEASURED_KINDS && strcmp(figures[kind], figure) != 0) ++kind;
+    while (kind < MEASURED_KINDS && strcmp(figure_of((MeasuredKind)kind, view), figure) != 0)
+        ++kind;
     return (MeasuredKind)kind;
 }
 
@@ -316,7 +324,7 @@ static bool write_compared_probes(const char *path, const Measured *measured,
 bool figure_data_write(const char *folder, const char *name, ResultView *view,
                        const FieldChoice *field, const char *compare, Error *err)
 {
-    MeasuredKind kind = kind_of(name);
+    MeasuredKind kind = kind_of(name, view);
     bool done = true;
     Measured measured = {0};
     char path[PATH_MAX];
@@ -324,7 +332,7 @@ bool figure_data_write(const char *folder, const char *name, ResultView *view,
         !(data_path(folder, "events", "", path, err) && events_table_write(path, view, err)))
         return false;
     if (!data_path(folder, name, "", path, err)) return false;
-    if (strcmp(name, "contact-area") == 0) return write_area(path, view, err);
+    if (strcmp(name, "contact-area") == 0 && !write_area(path, view, err)) return false;
     if (strcmp(name, "state-map") == 0) return write_states(path, view, err);
     if (kind == MEASURED_PROBE && !write_probes(path, view, err)) return false;
     if (strcmp(name, "profile") == 0) return write_profiles(path, view, field->at, err);
@@ -343,8 +351,6 @@ bool figure_data_write(const char *folder, const char *name, ResultView *view,
 
 bool figure_data_misfits(const char *folder, ResultView *view, const char *compare, Error *err)
 {
-    static const char *const figures[MEASURED_KINDS] = {
-        "force", "slip-map", "contact-density", "precursors", "front-speed", "probes"};
     static const char *const units[MEASURED_KINDS] = {"", "L", "", "L", "c_R", ""};
     char path[PATH_MAX];
     Measured measured = {0};
@@ -363,7 +369,7 @@ bool figure_data_misfits(const char *folder, ResultView *view, const char *compa
         if (measured.count > 0) {
             const char *unit = kind == MEASURED_PROBE ? probe_words(measured.quantity).si
                                                       : units[kind];
-            csv_text(csv, figures[kind]);
+            csv_text(csv, figure_of((MeasuredKind)kind, view));
             csv_number(csv, measured.count);
             csv_number(csv, measured.compared);
             csv_number(csv, measured.compared > 0 ? measured.misfit : NAN);
@@ -385,7 +391,7 @@ cleanup:
 bool figure_data_measured(const char *name, const char *compare, ResultView *view, bool *shows,
                           Error *err)
 {
-    MeasuredKind kind = kind_of(name);
+    MeasuredKind kind = kind_of(name, view);
     *shows = false;
     return kind == MEASURED_KINDS || !compare || measured_has(compare, kind, view, shows, err);
 }

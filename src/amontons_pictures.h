@@ -73,8 +73,9 @@ extern "C" {
       "y=Y",                                                                                       \
       "Of a block in space: the line along the drive that is shown against U; by default in the "  \
       "middle")                                                                                    \
-    X(compare, TEXT, 0, 0, "force slip-map contact-density precursors front-speed probes plot",    \
-      "", "FILE.csv", "Measurements to draw beside what was computed")                             \
+    X(compare, TEXT, 0, 0,                                                                         \
+      "force slip-map contact-density contact-area precursors front-speed probes plot", "",        \
+      "FILE.csv", "Measurements to draw beside what was computed")                                 \
     X(depth, NUMBER, 1e-12, 1e12, "field field-strip", "", "LENGTH",                               \
       "Of a base that deforms: how far below its floor it is drawn; by default all of it")         \
     X(warnings, WORD, 0, 0, "", "below none", "WHERE",                                             \

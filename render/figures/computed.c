@@ -2,6 +2,7 @@
 #include "render/figures/computed.h"
 
 #include "base/memory.h"
+#include "render/figures/figures.h"
 #include "render/view/zoom.h"
 
 #include <math.h>
@@ -184,15 +185,29 @@ bool computed_curve(ResultView *view, MeasuredKind kind, ViewCurve *curve, Error
 
 // --- area ----------------------------------------------------------------------------------------
 
-// Contact density of the node nearest to x at that row; open contact has none.
-static double density_at(const ResultView *view, int64_t row, double x)
+bool computed_area_read(ResultView *view, Error *err)
+{
+    double critical = view->number[NUMBER_CRITICAL_VELOCITY];
+    if (view->area) return true;
+    if (result_file_has_series(view->file, SERIES_AREA))
+        return result_view_read(view, SERIES_AREA, false, &view->area, err);
+    if (!(critical > 0)) return REFUSE(err, FIGURE_NO_DENSITY);
+    if (!result_view_read_slip_rate(view, err) || !result_view_read_status(view, err)) return false;
+    int64_t count = view->rows * view->nodes;
+    if (!(view->area = NEW_ARRAY(double, count, err))) return false;
+    for (int64_t k = 0; k < count; ++k)
+        view->area[k] = fmax(1 - fabs(view->slip_rate[k]) / critical, 0);
+    return true;
+}
+
+// Contact area, over that at rest, of the node nearest to x at that row; open contact has none.
+static double area_at(const ResultView *view, int64_t row, double x)
 {
     int32_t nearest = 0;
     for (int32_t i = 1; i < view->nodes; ++i)
         if (fabs(view->x[i] - x) < fabs(view->x[nearest] - x)) nearest = i;
     int64_t k = row * view->nodes + nearest;
-    double density = 1 - fabs(view->slip_rate[k]) / view->number[NUMBER_CRITICAL_VELOCITY];
-    return view->status[k] == 0 ? 0 : fmax(density, 0);
+    return view->status[k] == 0 ? 0 : view->area[k];
 }
 
 double computed_area(const ResultView *view, double U, double x)
@@ -203,8 +218,8 @@ double computed_area(const ResultView *view, double U, double x)
     for (int64_t row = 0; row + 1 < view->rows; ++row) {
         double from = view->U[row], to = view->U[row + 1];
         if (!(U >= from && U <= to)) continue;
-        double part = to > from ? (U - from) / (to - from) : 1, before = density_at(view, row, x);
-        return before + part * (density_at(view, row + 1, x) - before);
+        double part = to > from ? (U - from) / (to - from) : 1, before = area_at(view, row, x);
+        return before + part * (area_at(view, row + 1, x) - before);
     }
     return NAN;
 }

@@ -33,8 +33,11 @@ bool computed_precursor(ResultView *view, const ViewEvent *event, double *mu, do
 // also after a failure; there may be no points.
 bool computed_front_speed(ResultView *view, const ViewEvent *event, ViewCurve *curve, Error *err);
 
-// Contact density when the rod was at U, of the node nearest to x, linear between steps; NaN:
-// beyond the block. Slip rates and statuses have been read.
+// Reads view->area: the law's own measure, which the history holds, else the contact density.
+// ERROR_INPUT: there is neither.
+bool computed_area_read(ResultView *view, Error *err);
+// Contact area over that at rest when the rod was at U, of the node nearest to x, linear between
+// steps; NaN: beyond the block. view->area and statuses have been read.
 double computed_area(const ResultView *view, double U, double x);
 
 #endif

@@ -9,9 +9,11 @@
 #include "base/memory.h"
 #include "render/figures/color_scale.h"
 #include "render/figures/map_page.h"
+#include "render/figures/measured.h"
 #include "render/view/zoom.h"
 
 #include <math.h>
+#include <string.h>
 
 enum { COUNTED_MOST = 200000 };   // of a long history every second row, or third, ...
 
@@ -22,23 +24,9 @@ bool figure_contact_area_shows(const ResultView *view)
     return result_file_has_series(view->file, SERIES_AREA);
 }
 
-bool contact_area_read(ResultView *view, double **area, Error *err)
-{
-    double critical = view->number[NUMBER_CRITICAL_VELOCITY];
-    if (figure_contact_area_shows(view))
-        return result_view_read(view, SERIES_AREA, false, area, err);
-    if (!(critical > 0)) return REFUSE(err, FIGURE_NO_DENSITY);
-    if (!result_view_read_slip_rate(view, err) || !result_view_read_status(view, err)) return false;
-    int64_t count = view->rows * view->nodes;
-    if (!(*area = NEW_ARRAY(double, count, err))) return false;
-    for (int64_t k = 0; k < count; ++k)
-        (*area)[k] = fmax(1 - fabs(view->slip_rate[k]) / critical, 0);
-    return true;
-}
-
 // Fits the bar to the area of what touches, from U[0] to U[1].
-static bool fit_bar(const ResultView *view, const double U[2], const double *area,
-                    const PictureStyle *style, Colorbar *bar, Error *err)
+static bool fit_bar(const ResultView *view, const double U[2], const PictureStyle *style,
+                    Colorbar *bar, Error *err)
 {
     const ValueWords words = {.words = "contact area ~{A} / ~{A}_{0}", .si = "", .normalised = ""};
     int64_t total = view->rows * view->nodes, every = 1 + total / COUNTED_MOST, count = 0;
@@ -47,7 +35,7 @@ static bool fit_bar(const ResultView *view, const double U[2], const double *are
     for (int64_t row = 0; row < view->rows; row += every)
         for (int32_t i = 0; i < view->nodes && view->U[row] >= U[0] && view->U[row] <= U[1]; ++i)
             if (view->status[row * view->nodes + i] != 0)
-                values[count++] = (WeighedValue){area[row * view->nodes + i], 1};
+                values[count++] = (WeighedValue){view->area[row * view->nodes + i], 1};
     TRY(value_bar_fit(values, count, &words, style, bar, err));
     bar->falling = true;
 cleanup:
@@ -59,8 +47,9 @@ bool figure_contact_area(const Page *whole, ResultView *view, Error *err)
 {
     Page page = *whole;
     double *area = NULL;
+    Measured measured = {0};
     ViewRange shown = {0};
-    KeyEntry entries[3];
+    KeyEntry entries[4];
     Zoom zoom = zoom_choose(view);
     MapPage map = {.sign = -1};
     bool asked = page.style.from || page.style.to, open = false;
@@ -74,8 +63,12 @@ bool figure_contact_area(const Page *whole, ResultView *view, Error *err)
     double calm[2] = {shown.low, shown.high};
     if (zoom.found && !asked && zoom.U_slide > shown.low) calm[1] = zoom.U_slide;
     TRY(result_view_read_status(view, err));
-    TRY(contact_area_read(view, &area, err));
-    TRY(fit_bar(view, calm, area, &page.style, &map.bar, err));
+    TRY(computed_area_read(view, err));
+    TRY(fit_bar(view, calm, &page.style, &map.bar, err));
+    if (figure_contact_area_shows(view))
+        TRY(measured_read(page.style.compare, MEASURED_AREA, view, &measured, err));
+    TRY(area = NEW_ARRAY(double, view->rows * view->nodes, err));
+    memcpy(area, view->area, (size_t)(view->rows * view->nodes) * sizeof *area);
 
     // Open contact has a colour of its own.
     for (int64_t k = 0; k < view->rows * view->nodes; ++k) {
@@ -90,10 +83,13 @@ bool figure_contact_area(const Page *whole, ResultView *view, Error *err)
     map.bar.neutral_color = OPEN;
     int32_t count = map_page_key(view, NULL, entries);
     if (!asked && zoom.words[0]) entries[count++] = (KeyEntry){.words = zoom.words};
+    count = measured_key(&measured, KEY_RING, entries, count);
     key_draw(&page, entries, count);
     TRY(map_page_draw(&page, view, (double[]){shown.low, shown.high}, &map, err));
+    map_page_draw_areas(&page, &measured, &map);
     map_page_draw_frame(&page, view, &map);
 cleanup:
+    measured_destroy(&measured);
     memory_free(area);
     map_page_destroy(&map);
     return error_is_clean(err);

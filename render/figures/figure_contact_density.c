@@ -12,7 +12,6 @@
 enum { RANGES = 5 };
 
 static const double RANGE_LOW[RANGES] = {0.9, 0.75, 0.5, 0.25, 0};   // where the scale may start
-static const double AREA_RADIUS = 1.6;   // points: of measured areas
 static const Color OPEN = {0.55f, 0.56f, 0.58f, 1};
 
 typedef struct Precursors {
@@ -53,25 +52,6 @@ static void key_of_map(Page *page, const ResultView *view, const Zoom *zoom,
     key_draw(page, entries, measured_key(measured, KEY_RING, entries, count));
 }
 
-// Discs in the colours of the map, so that one that agrees does not stand out but for its rim.
-static void areas_draw(const Page *page, const Measured *measured, const MapPage *map)
-{
-    uint8_t colors[MAP_SIZE * 3];
-    double radius = AREA_RADIUS * page->point;
-    color_map_fill(colors);
-    canvas_clip(page->canvas, &map->axes.box);
-    for (int32_t k = 0; k < measured->count; ++k) {
-        Point at = axes_place(&map->axes, measured->at[k], measured->x[k]);
-        double lost = (1 - measured->value[k]) / (1 - map->bar.low);
-        const uint8_t *color = colors + 3 * (int32_t)lround(255 * fmin(fmax(lost, 0), 1));
-        Color inside = {(float)color[0] / 255, (float)color[1] / 255, (float)color[2] / 255, 1};
-        draw_disc(page->canvas, PAPER, at, radius + 0.8 * page->point);
-        draw_disc(page->canvas, INK, at, radius + 0.4 * page->point);
-        draw_disc(page->canvas, inside, at, radius);
-    }
-    canvas_clip(page->canvas, NULL);
-}
-
 bool figure_contact_density(const Page *whole, ResultView *view, Error *err)
 {
     Page page = *whole;
@@ -93,11 +73,12 @@ bool figure_contact_density(const Page *whole, ResultView *view, Error *err)
     map.bar.clipped = map.bar.low > 0;
     map.bar.neutral = seen.open ? "open" : NULL;
     map.bar.neutral_color = OPEN;
-    TRY(measured_read(page.style.compare, MEASURED_AREA, view, &measured, err));
+    if (!figure_contact_area_shows(view))   // else that figure has them
+        TRY(measured_read(page.style.compare, MEASURED_AREA, view, &measured, err));
     key_of_map(&page, view, &zoom, &measured);
     TRY(map_page_draw(&page, view, (double[]){zoom.U_low, zoom.U_high}, &map, err));
     map_page_draw_front(&page, view, &map);
-    areas_draw(&page, &measured, &map);
+    map_page_draw_areas(&page, &measured, &map);
     if (zoom.found && page.zoom_name) map.axes.color = ZOOM_DENSITY;
     map_page_draw_frame(&page, view, &map);
 cleanup:

@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+static const double AREA_RADIUS = 1.6;   // points: of measured areas
 static const double BAR_GAP = 6;   // points: frame to colour bar
 static const double HATCH_SPACING = 4;   // points
 static const double FRONT_WIDTH = 0.6;   // points
@@ -292,4 +293,23 @@ void map_page_draw_frame(const Page *page, const ResultView *view, const MapPage
 void map_page_destroy(MapPage *map)
 {
     pixel_grid_destroy(&map->grid);
+}
+
+// Discs in the colours of the map, so that one that agrees does not stand out but for its rim.
+void map_page_draw_areas(const Page *page, const Measured *measured, const MapPage *map)
+{
+    uint8_t colors[MAP_SIZE * 3];
+    double radius = AREA_RADIUS * page->point;
+    color_map_fill(colors);
+    canvas_clip(page->canvas, &map->axes.box);
+    for (int32_t k = 0; k < measured->count; ++k) {
+        Point at = axes_place(&map->axes, measured->at[k], measured->x[k]);
+        double lost = (map->bar.high - measured->value[k]) / (map->bar.high - map->bar.low);
+        const uint8_t *color = colors + 3 * (int32_t)lround(255 * fmin(fmax(lost, 0), 1));
+        Color inside = {(float)color[0] / 255, (float)color[1] / 255, (float)color[2] / 255, 1};
+        draw_disc(page->canvas, PAPER, at, radius + 0.8 * page->point);
+        draw_disc(page->canvas, INK, at, radius + 0.4 * page->point);
+        draw_disc(page->canvas, inside, at, radius);
+    }
+    canvas_clip(page->canvas, NULL);
 }

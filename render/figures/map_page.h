@@ -8,6 +8,7 @@
 #include "render/canvas/colorbar.h"
 #include "render/canvas/key.h"
 #include "render/figures/figures.h"
+#include "render/figures/measured.h"
 #include "render/view/space_time.h"
 #include "render/view/range.h"
 
@@ -40,6 +41,8 @@ int32_t map_page_key(const ResultView *view, const ViewRange *shown, KeyEntry en
 void map_page_draw_field(const Page *page, const ResultView *view, const MapPage *map);
 // The front l(U) of each pad as a thin line; the statuses have been read.
 void map_page_draw_front(const Page *page, const ResultView *view, const MapPage *map);
+// Measured areas, in the colours of the map.
+void map_page_draw_areas(const Page *page, const Measured *measured, const MapPage *map);
 // Frame, axes, the pads' names and bar: last.
 void map_page_draw_frame(const Page *page, const ResultView *view, const MapPage *map);
 void map_page_destroy(MapPage *map);   // zeroed is fine

@@ -399,7 +399,7 @@ static bool compare(Measured *measured, ResultView *view, Error *err)
     if (measured->kind == MEASURED_PROBE) return compute_probes(measured, view, err);
     ViewCurve curve;
     bool area = measured->kind == MEASURED_AREA;
-    if (area && !(result_view_read_slip_rate(view, err) && result_view_read_status(view, err)))
+    if (area && !(computed_area_read(view, err) && result_view_read_status(view, err)))
         return false;
     if (!computed_curve(view, measured->kind, &curve, err)) return false;
     for (int32_t k = 0; k < measured->count; ++k)

@@ -54,10 +54,10 @@ bool measured_has(const char *path, MeasuredKind kind, const ResultView *view, b
 
 // Adds it to the entries of a key, if there is any; returns how many these are then.
 int32_t measured_key(const Measured *measured, KeyMark mark, KeyEntry *entries, int32_t count);
-// Discs with bars as long as the errors on both sides, in a colour of their own.
 // The marks of one component of MEASURED_PROBE, in the colours of their probes.
 void measured_draw_probes(const Page *page, const Measured *measured, int32_t component,
                           const Axes *axes);
+// Discs with bars as long as the errors on both sides, in a colour of their own.
 void measured_draw(const Page *page, const Measured *measured, const Axes *axes);
 
 #endif

@@ -399,7 +399,7 @@ void result_view_close(ResultView *view)
     memory_free_all(view->title, view->t, view->U, view->mu, view->x, view->pad, view->line,
                     view->pad_names, view->warnings, view->slip_rate, view->slip, view->front,
                     view->status, view->contact_status, view->state_names, view->state_unit,
-                    view->probe_names, view->events, view->peaks, view->rapid);
+                    view->probe_names, view->events, view->peaks, view->rapid, view->area);
     memory_free_all(view->precursors.at, view->precursors.value, view->front_speed.at,
                     view->front_speed.value);
     contact_plane_destroy(&view->plane);

@@ -60,6 +60,8 @@ typedef struct ResultView {
     double *slip;   // [rows * nodes] length, or NULL: not read yet; owned
     double *front;   // [rows] x, or NULL: not read yet; owned
     double *status;   // [rows * nodes] 0: open, or NULL: not read yet; owned
+    double *area;   // [rows * nodes] of the real contacts over that at rest, or NULL: not read yet;
+        // owned
     ViewCurve precursors;   // of that figure; `at` NULL: not computed yet; owned
     ViewCurve front_speed;   // likewise
     ContactPlane plane;   // in space; patch_count 0: not read yet; owned

@@ -135,6 +135,23 @@ class Compared(unittest.TestCase):
         np.testing.assert_allclose(found["computed"], expected, atol=1e-6)
         self.expect_misfit(said, 0.01)
 
+    def test_areas_of_contacts_that_age(self):
+        """1 + beta ln(1 + theta/theta_0) over its value at the start, from theta in the history; the same file in every figure."""
+        call(self.folder, "run", "scene.yaml", "-o", "ages", "--quiet", "--set", "mesh.set.nx=16", "mesh.set.nz=8", "time.until.U=0.004",
+             "friction={law: ageing, mu_static: 0.35, mu_kinetic: 0.1, critical_velocity: 3.4e-4, healing: 0.05, healing_time: 10, "
+             "slip_distance: 1e-4, rest: 100}")
+        with h5py.File(self.folder / "ages/history.h5") as file:
+            U, x, theta, status = (file[name][:] for name in ("series/rod_displacement", "nodes/x", "interface/state", "interface/status"))
+        area = (1 + 0.05 * np.log(1 + theta / 10)) / (1 + 0.05 * np.log(1 + theta[0] / 10))
+        places = [(row, i) for row in (len(U) // 3, len(U) // 2, len(U) - 2) for i in (2, 7, 12) if status[row, i] != 0]
+        self.assertGreater(len(places), 3)
+        (self.folder / "areas.csv").write_text("U,x,A/A_0\n" + "".join(f"{U[r]:.17g},{x[i]},{area[r, i] + 0.01}\n" for r, i in places))
+        said = call(self.folder, "compare", "ages", "areas.csv").stdout
+        self.assertRegex(said, rf"contact-area +misfit 0\.0(1|099)\d*, {len(places)} of {len(places)} points")
+        self.assertNotIn("contact-density", said)
+        found = table(self.folder / "ages/figures/contact-area-compared.csv")
+        np.testing.assert_allclose(found["computed"], [area[r, i] for r, i in places], atol=2e-6)   # stored with 24 bits
+
     def test_front_speeds(self):
         """The times at which the front came to each station stand in run.json, found while the run went on."""
         call(self.folder, "render", "out", "--figure", "front-speed")
