@@ -2,7 +2,6 @@
 #include "render/figures/computed.h"
 
 #include "base/memory.h"
-#include "render/figures/figures.h"
 #include "render/view/zoom.h"
 
 #include <math.h>

@@ -6,6 +6,9 @@
 
 #include "render/view/result_view.h"
 
+#define FIGURE_NO_DENSITY                                                                          \
+    "the result has no critical velocity, which the contact density is defined by"
+
 typedef enum MeasuredKind {
     MEASURED_MU,   // F_T/F_N over U
     MEASURED_FRONT,   // how far slip has come, x, over U

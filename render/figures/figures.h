@@ -8,8 +8,6 @@
 #include "render/figures/measured.h"
 
 #define FIGURE_MU "~{F}_{T} / ~{F}_{N}"
-#define FIGURE_NO_DENSITY                                                                          \
-    "the result has no critical velocity, which the contact density is defined by"
 static const Color FIGURE_CURVE = {0.05f, 0.27f, 0.55f, 1};
 static const Color FIGURE_LEVEL = {0.45f, 0.45f, 0.47f, 1};   // of what a curve is measured by
 
