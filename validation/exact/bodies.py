@@ -208,6 +208,7 @@ def controls(study):
     for mistake, broken, compute in (
             ("none", "no mistake: nothing may break", glued_in_time),
             ("floor-beside", "each contact node over the floor of its neighbour", glued_bodies),
+            ("floor-weight", "what floor nodes give adds up to 1, not what contact nodes take", limit_of_meshes),
             ("one-sided", "displacements of the block without the floor's", glued_bodies),
             ("light-base", "a base without mass", glued_in_time),
             ("mass-apart", "inertia that does not couple jumps to the floor", explicit_steps)):

@@ -91,6 +91,18 @@ bool __wrap_bulk_assemble(const Mesh *mesh, const Material *materials, Bulk *bul
     return true;
 }
 
+// Weights of the floor's side: what is shared out of each of its nodes adds up to 1, instead of what
+// each contact node takes.
+static void weigh_by_floor(Floor *floor, int32_t nodes)
+{
+    int32_t count = floor->start[nodes];
+    double *sum = calloc((size_t)nodes, sizeof *sum);
+    for (int32_t k = 0; sum && k < count; k++) sum[floor->node[k]] += floor->share[k];
+    for (int32_t k = 0; sum && k < count; k++)
+        if (sum[floor->node[k]] != 0) floor->share[k] /= sum[floor->node[k]];
+    free(sum);
+}
+
 // Each row has the node of the row that follows it in the list.
 bool __wrap_floor_find(const char (*names)[GROUP_NAME_SIZE], int32_t count, const char *floor,
                        Mesh *mesh, Error *err)
@@ -99,6 +111,8 @@ bool __wrap_floor_find(const char (*names)[GROUP_NAME_SIZE], int32_t count, cons
     int32_t *node = mesh->floor.node, *start = mesh->floor.start;
     if (mistake_made() == MISTAKE_FLOOR_BESIDE && start && mesh->floor.matches)
         memmove(node, node + 1, (size_t)(start[mesh->node_count] - 1) * sizeof *node);
+    if (mistake_made() == MISTAKE_FLOOR_WEIGHT && start && !mesh->floor.matches)
+        weigh_by_floor(&mesh->floor, mesh->node_count);
     return true;
 }
 

@@ -26,6 +26,7 @@
     X(MISTAKE_NO_ACROSS, "no-across") /* no friction across the drive */                           \
     X(MISTAKE_HALF_WEIGHT, "half-weight") /* of one contact node */                                \
     X(MISTAKE_FLOOR_BESIDE, "floor-beside") /* P of the neighbour */                               \
+    X(MISTAKE_FLOOR_WEIGHT, "floor-weight") /* P weighed by the floor in place of the contact */   \
     X(MISTAKE_LIGHT_BASE, "light-base") /* a base without mass */                                  \
     X(MISTAKE_MASS_APART, "mass-apart") /* M of jumps without what couples them to the floor */    \
     X(MISTAKE_ONE_SIDED, "one-sided") /* displacements of the block without the floor's */         \
