@@ -12,7 +12,8 @@
 static char path[] = "/tmp/amontons_measured_XXXXXX";
 static double U[3] = {0, 1e-3, 3e-3}, mu[3] = {0, 0.2, 0.4}, front[3] = {0, 0.01, 0.05};
 static double t[3] = {0, 2, 6};   // s: V is 0.5 mm/s
-static double x[2] = {0, 0.1}, rates[6], statuses[6] = {1, 1, 1, 1, 1, 1};
+static double x[2] = {0, 0.1}, rates[6], statuses[6] = {1, 1, 1, 1, 1, 1},
+              areas[6] = {1, 1, 1, 1, 1, 1};
 static ResultView view = {.si = true,
                           .rows = 3,
                           .t = t,
@@ -22,7 +23,8 @@ static ResultView view = {.si = true,
                           .nodes = 2,
                           .x = x,
                           .slip_rate = rates,
-                          .status = statuses};
+                          .status = statuses,
+                          .area = areas};
 
 FIXTURE(begin)
 {
