@@ -90,10 +90,7 @@ bool events_table_write(const char *path, ResultView *view, Error *err)
         if (!(sliding || event->kind == VIEW_BOUNDED)) continue;
         if (!isfinite(event->U_start + event->U_stop)) continue;
         int64_t first = 0, last = 0;   // the step before, and that of its end
-        for (int64_t row = 0; row < view->rows; ++row) {
-            if (view->U[row] < event->U_start) first = row;
-            if (view->U[row] <= event->U_stop) last = row;
-        }
+        result_view_event_rows(view, event->U_start, event->U_stop, &first, &last);
         csv_number(csv, cycle);
         csv_text(csv, sliding ? "sliding" : "precursor");
         csv_rounded(csv, event->U_start);

@@ -67,13 +67,13 @@ static bool write_curve(const char *path, ResultView *view, MeasuredKind kind, E
 // How long slip was, of each cycle that is shown, one behind the other.
 static bool write_lengths(const char *path, ResultView *view, Error *err)
 {
-    int32_t asked = view->cycle, slidings = zoom_slidings(view);
-    bool all = asked == VIEW_CYCLE_ALL && slidings > 0;
+    int32_t asked = view->cycle, first = 0, last = 0;
     int64_t rows = 0;
     double *mu = NEW_ARRAY(double, view->rows, err), *length = NEW_ARRAY(double, view->rows, err);
     double *cycle = NEW_ARRAY(double, view->rows, err);
     TRY(mu && length && cycle);
-    for (int32_t k = all ? 1 : asked; k <= (all ? slidings : asked); ++k) {
+    zoom_cycles(view, &first, &last);
+    for (int32_t k = first; k <= last; ++k) {
         ViewCurve curve;
         computed_choose_cycle(view, k);
         TRY(computed_curve(view, MEASURED_LENGTH, &curve, err));
@@ -168,28 +168,31 @@ cleanup:
     return error_is_clean(err);
 }
 
+// The name of a probe's column, with its unit where the result is in SI.
+static void csv_probe_column(CsvWriter *csv, const ResultView *view, int32_t probe,
+                             ProbeQuantity quantity, int32_t c)
+{
+    char name[PROBE_COLUMN_SIZE], text[PROBE_COLUMN_SIZE + 20];
+    const char *unit = view->si ? probe_words(quantity).si : "";
+    probe_column(view, probe, quantity, c, name);
+    snprintf(text, sizeof text, *unit ? "%s (%s)" : "%s", name, unit);
+    csv_text(csv, text);
+}
+
 // U, t, then each component of each quantity of each probe: "gauge1 strain_xx".
 static bool write_probes(const char *path, ResultView *view, Error *err)
 {
     CsvWriter *csv = NULL;
     double *values[PROBE_QUANTITY_COUNT] = {0};
-    char name[NAME_SIZE + 40], probe[PROBE_NAME_SIZE];
     for (int32_t q = 0; q < PROBE_QUANTITY_COUNT; ++q)
         TRY(probe_read(view, (ProbeQuantity)q, &values[q], err));
     TRY(csv = csv_create(path, err));
     csv_text(csv, view->si ? "U (m)" : "U");
     csv_text(csv, view->si ? "t (s)" : "t");
     for (int32_t k = 0; k < view->probes; ++k)
-        for (int32_t q = 0; q < PROBE_QUANTITY_COUNT; ++q) {
-            ProbeWords words = probe_words((ProbeQuantity)q);
-            bool has_unit = view->si && words.si[0];
-            probe_name(view, k, probe);
-            for (int32_t c = 0; c < probe_components(view, (ProbeQuantity)q); ++c) {
-                snprintf(name, sizeof name, has_unit ? "%s %s_%s (%s)" : "%s %s_%s", probe,
-                         words.name, probe_component(view, (ProbeQuantity)q, c), words.si);
-                csv_text(csv, name);
-            }
-        }
+        for (int32_t q = 0; q < PROBE_QUANTITY_COUNT; ++q)
+            for (int32_t c = 0; c < probe_components(view, (ProbeQuantity)q); ++c)
+                csv_probe_column(csv, view, k, (ProbeQuantity)q, c);
     csv_end_row(csv);
     for (int64_t row = 0; row < view->rows; ++row) {
         csv_rounded(csv, view->U[row]);
@@ -202,11 +205,8 @@ static bool write_probes(const char *path, ResultView *view, Error *err)
             }
         csv_end_row(csv);
     }
-    CsvWriter *whole = csv;
-    csv = NULL;
-    TRY(csv_finish(whole, err));
+    TRY(csv_finish(csv, err));
 cleanup:
-    csv_abandon(csv);
     memory_free_list((void *const *)values, PROBE_QUANTITY_COUNT);
     return error_is_clean(err);
 }
@@ -237,11 +237,8 @@ static bool write_profiles(const char *path, ResultView *view, const char *at, E
             csv_rounded(csv, profiles.status[at_node]);
             csv_end_row(csv);
         }
-    CsvWriter *whole = csv;
-    csv = NULL;
-    TRY(csv_finish(whole, err));
+    TRY(csv_finish(csv, err));
 cleanup:
-    csv_abandon(csv);
     profiles_destroy(&profiles);
     return error_is_clean(err);
 }
@@ -298,8 +295,6 @@ static bool write_compared(const char *path, const Measured *measured, bool si, 
 static bool write_compared_probes(const char *path, const Measured *measured,
                                   const ResultView *view, Error *err)
 {
-    ProbeWords words = probe_words(measured->quantity);
-    char name[NAME_SIZE + 40], probe[PROBE_NAME_SIZE];
     CsvWriter *csv = csv_create(path, err);
     if (!csv) return false;
     const char *const names[] = {view->si ? "U (m)" : "U", "column", "value", "error", "computed"};
@@ -307,12 +302,9 @@ static bool write_compared_probes(const char *path, const Measured *measured,
     csv_end_row(csv);
     for (int32_t k = 0; k < measured->count; ++k) {
         int32_t id = (int32_t)measured->x[k];
-        bool has_unit = view->si && words.si[0];
-        probe_name(view, id / PROBE_COMPONENTS_MAX, probe);
-        snprintf(name, sizeof name, has_unit ? "%s %s_%s (%s)" : "%s %s_%s", probe, words.name,
-                 probe_component(view, measured->quantity, id % PROBE_COMPONENTS_MAX), words.si);
         csv_rounded(csv, measured->at[k]);
-        csv_text(csv, name);
+        csv_probe_column(csv, view, id / PROBE_COMPONENTS_MAX, measured->quantity,
+                         id % PROBE_COMPONENTS_MAX);
         csv_rounded(csv, measured->value[k]);
         csv_rounded(csv, measured->error[k]);
         csv_rounded(csv, measured->computed[k]);

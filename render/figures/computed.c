@@ -117,28 +117,19 @@ static double arrival_at(const ResultView *view, const double *times, double x)
     return NAN;
 }
 
-static void event_rows(const ResultView *view, double start, double stop, int64_t *first,
-                       int64_t *end)
-{
-    *first = *end = 0;
-    for (int64_t row = 0; row < view->rows; ++row) {
-        if (view->U[row] < start) *first = row;
-        if (view->U[row] <= stop) *end = row + 1;
-    }
-}
-
 // Between stations a twentieth of the block apart, by the times at which slip there first gets
 // faster than twice the rod, as in record/front_path. Where slip was slow before the front is one
 // of speeding up, and may run faster than any wave.
 static bool find_speeds(ResultView *view, double start, double stop, ViewCurve *curve, Error *err)
 {
     double *times = NULL, V = fabs(view->number[NUMBER_ROD_VELOCITY]);
-    int64_t first = 0, end = 0;
+    int64_t first = 0, last = 0;
     TRY(result_view_read_slip_rate(view, err));
     TRY(times = NEW_ARRAY(double, view->nodes, err));
     TRY(curve_make(curve, STATIONS, err));
-    event_rows(view, start, stop, &first, &end);
-    for (int32_t i = 0; i < view->nodes; ++i) times[i] = arrival(view, i, first, end, RAPID * V);
+    result_view_event_rows(view, start, stop, &first, &last);
+    for (int32_t i = 0; i < view->nodes; ++i)
+        times[i] = arrival(view, i, first, last + 1, RAPID * V);
     double low = view->x[0], step = (view->x[view->nodes - 1] - low) / (STATIONS - 1);
     for (int32_t k = 0; k + 1 < STATIONS; ++k) {
         double took = arrival_at(view, times, low + (k + 1) * step) -

@@ -17,8 +17,6 @@
 
 enum { COUNTED_MOST = 200000 };   // of a long history every second row, or third, ...
 
-static const Color OPEN = {0.55f, 0.56f, 0.58f, 1};
-
 bool figure_contact_area_shows(const ResultView *view)
 {
     return result_file_has_series(view->file, SERIES_AREA);
@@ -80,7 +78,7 @@ bool figure_contact_area(const Page *whole, ResultView *view, Error *err)
     map.states = area;
     map.bar.clipped = map.bar.clipped || calm[1] < shown.high;   // in sliding less is left
     map.bar.neutral = open ? "open" : NULL;
-    map.bar.neutral_color = OPEN;
+    map.bar.neutral_color = MAP_OPEN;
     int32_t count = map_page_key(view, NULL, entries);
     if (!asked && zoom.words[0]) entries[count++] = (KeyEntry){.words = zoom.words};
     count = measured_key(&measured, KEY_RING, entries, count);

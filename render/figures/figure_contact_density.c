@@ -12,8 +12,6 @@
 enum { RANGES = 5 };
 
 static const double RANGE_LOW[RANGES] = {0.9, 0.75, 0.5, 0.25, 0};   // where the scale may start
-static const Color OPEN = {0.55f, 0.56f, 0.58f, 1};
-
 typedef struct Precursors {
     double density_min;   // the least phi before sliding starts, where in contact
     bool open;   // some node has lifted off
@@ -72,7 +70,7 @@ bool figure_contact_density(const Page *whole, ResultView *view, Error *err)
     map.bar.low = range_low(seen.density_min);
     map.bar.clipped = map.bar.low > 0;
     map.bar.neutral = seen.open ? "open" : NULL;
-    map.bar.neutral_color = OPEN;
+    map.bar.neutral_color = MAP_OPEN;
     if (!figure_contact_area_shows(view))   // else that figure has them
         TRY(measured_read(page.style.compare, MEASURED_AREA, view, &measured, err));
     key_of_map(&page, view, &zoom, &measured);

@@ -11,7 +11,7 @@ static bool read_block(const FigureInput *input, BlockQuantity quantity, Block *
     BlockSource source = {.folder = input->folder,
                           .view = input->view,
                           .quantity = quantity,
-                          .depth = input->def.style ? input->def.style->depth : 0};
+                          .depth = input->def.style->depth};
     TRY(block_source_open(&source, err));
     Zoom zoom = zoom_choose(input->view);
     int32_t index = zoom.found ? block_time_before(&source, zoom.U_slide) : source.count - 1;

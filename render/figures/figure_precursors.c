@@ -39,15 +39,6 @@ static void key_of(Page *page, ResultView *view, int32_t precursors, const Measu
     key_draw(page, entries, measured_key(measured, KEY_DISC, entries, count));
 }
 
-// The cycles that are shown, from *first to *last.
-static void find_cycles(const ResultView *view, int32_t *first, int32_t *last)
-{
-    int32_t slidings = zoom_slidings(view);
-    bool all = view->cycle == VIEW_CYCLE_ALL && slidings > 0;
-    *first = all ? 1 : view->cycle;
-    *last = all ? slidings : view->cycle;
-}
-
 // The largest load ratio of the cycles, and how many rapid precursors they have.
 static bool find_extent(ResultView *view, double *top, int32_t *precursors, Error *err)
 {
@@ -55,7 +46,7 @@ static bool find_extent(ResultView *view, double *top, int32_t *precursors, Erro
     ViewCurve curve;
     *top = 0;
     *precursors = 0;
-    find_cycles(view, &first, &last);
+    zoom_cycles(view, &first, &last);
     for (int32_t k = first; k <= last; ++k) {
         computed_choose_cycle(view, k);
         if (!computed_curve(view, MEASURED_LENGTH, &curve, err)) break;
@@ -72,7 +63,7 @@ static bool cycles_draw(const Page *page, ResultView *view, const Axes *axes, Er
     int32_t asked = view->cycle, first = 0, last = 0;
     Stroke stroke = {.color = FIGURE_CURVE, .width = CURVE_WIDTH * page->point};
     ViewCurve curve;
-    find_cycles(view, &first, &last);
+    zoom_cycles(view, &first, &last);
     for (int32_t k = first; k <= last; ++k) {
         computed_choose_cycle(view, k);
         if (!computed_curve(view, MEASURED_LENGTH, &curve, err)) break;

@@ -95,7 +95,7 @@ static bool read_strip(const FigureInput *input, Strip *strip, BlockQuantity qua
     BlockSource source = {.folder = input->folder,
                           .view = input->view,
                           .quantity = quantity,
-                          .depth = input->def.style ? input->def.style->depth : 0};
+                          .depth = input->def.style->depth};
     const ViewEvent *event = NULL;
     int32_t chosen[FRAMES_MAX];
     TRY(block_source_open(&source, err));

@@ -61,7 +61,6 @@ bool figure_contact_density(const Page *page, ResultView *view, Error *err);
 bool figure_contact_area(const Page *page, ResultView *view, Error *err);
 // The history holds the law's own measure of it.
 bool figure_contact_area_shows(const ResultView *view);
-// That area, [rows * nodes], the caller's: the law's own measure, else the contact density.
 
 // How long slip was when the load ratio first came so far, in the cycle that is enlarged.
 bool figure_precursors(const Page *page, ResultView *view, Error *err);

@@ -290,11 +290,6 @@ void map_page_draw_frame(const Page *page, const ResultView *view, const MapPage
     colorbar_draw(page, &map->bar, &map->axes.box, BAR_GAP + map->pads_width + map->mark_width);
 }
 
-void map_page_destroy(MapPage *map)
-{
-    pixel_grid_destroy(&map->grid);
-}
-
 // Discs in the colours of the map, so that one that agrees does not stand out but for its rim.
 void map_page_draw_areas(const Page *page, const Measured *measured, const MapPage *map)
 {
@@ -312,4 +307,9 @@ void map_page_draw_areas(const Page *page, const Measured *measured, const MapPa
         draw_disc(page->canvas, inside, at, radius);
     }
     canvas_clip(page->canvas, NULL);
+}
+
+void map_page_destroy(MapPage *map)
+{
+    pixel_grid_destroy(&map->grid);
 }

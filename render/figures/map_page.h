@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Parts that the maps of U against x share: the frame, the field itself with the gaps between pads,
-// lines on it, the colour bar. Called by figure_slip_map, figure_state_map and
-// figure_contact_density.
+// lines on it, the colour bar. Called by figure_slip_map, figure_state_map, figure_contact_density
+// and figure_contact_area.
 #ifndef AMONTONS_RENDER_FIGURES_MAP_PAGE_H
 #define AMONTONS_RENDER_FIGURES_MAP_PAGE_H
 
@@ -11,6 +11,8 @@
 #include "render/figures/measured.h"
 #include "render/view/space_time.h"
 #include "render/view/range.h"
+
+static const Color MAP_OPEN = {0.55f, 0.56f, 0.58f, 1};   // contact that has lifted off
 
 typedef struct MapPage {
     Axes axes;

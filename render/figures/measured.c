@@ -159,12 +159,10 @@ static bool find_probe(const CsvTable *table, const ResultView *view, ProbeQuant
 {
     static const char *const dimensions[PROBE_QUANTITY_COUNT] = {
         [PROBE_STRESS] = "stress", [PROBE_DISPLACEMENT] = "length", [PROBE_VELOCITY] = "velocity"};
-    char name[PROBE_NAME_SIZE + NAME_SIZE], own[PROBE_NAME_SIZE];
+    char name[PROBE_COLUMN_SIZE];
     CsvUnit unit;
     *column = NONE;
-    probe_name(view, probe, own);
-    snprintf(name, sizeof name, "%s %s_%s", own, probe_words(quantity).name,
-             probe_component(view, quantity, c));
+    probe_column(view, probe, quantity, c, name);
     if (!csv_find(table, name, &column->index, &unit, err)) return false;
     if (column->index < 0) return true;
     if (quantity == PROBE_STRAIN) return strain_factor(table, unit, column, err);

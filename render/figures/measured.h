@@ -7,7 +7,7 @@
 //
 //     U (mm), F_T/F_N, error          force: the load ratio over the rod's way, or over `t (s)`
 //     U/L, x/L                         slip-map: how far slip has come
-//     t (ms), x (mm), A/A_0            contact-density: contact area over what it was at rest
+//     t (ms), x (mm), A/A_0            contact-area, or contact-density: area over that at rest
 //     F_T/F_N, l (mm)                  precursors: how long slip is at that load ratio
 //     U (mm), gauge1 strain_xx         probes: what the probe gauge1 saw; several columns
 //     x/L, v/c_R                       front-speed: how fast the front of slip runs over x

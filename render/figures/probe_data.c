@@ -64,6 +64,15 @@ void probe_name(const ResultView *view, int32_t probe, char name[PROBE_NAME_SIZE
     snprintf(name, PROBE_NAME_SIZE, "%.*s", (int)strcspn(at, "\n"), at);
 }
 
+void probe_column(const ResultView *view, int32_t probe, ProbeQuantity quantity, int32_t c,
+                  char name[PROBE_COLUMN_SIZE])
+{
+    char own[PROBE_NAME_SIZE];
+    probe_name(view, probe, own);
+    snprintf(name, PROBE_COLUMN_SIZE, "%s %s_%s", own, QUANTITIES[quantity].words.name,
+             probe_component(view, quantity, c));
+}
+
 bool probe_read(ResultView *view, ProbeQuantity quantity, double **values, Error *err)
 {
     int64_t rows = 0;

@@ -35,6 +35,11 @@ const char *probe_component(const ResultView *view, ProbeQuantity quantity, int3
 
 void probe_name(const ResultView *view, int32_t probe, char name[PROBE_NAME_SIZE]);
 
+// What a column of a table is called that has component c of a probe: "gauge1 strain_xx".
+enum { PROBE_COLUMN_SIZE = PROBE_NAME_SIZE + 24 };
+void probe_column(const ResultView *view, int32_t probe, ProbeQuantity quantity, int32_t c,
+                  char name[PROBE_COLUMN_SIZE]);
+
 // *values [rows][probes][components], the caller's; `rows` may shrink. ERROR_INPUT: there are no
 // probes.
 bool probe_read(ResultView *view, ProbeQuantity quantity, double **values, Error *err);

@@ -11,14 +11,6 @@
 
 enum { MOMENT_SIZE = 40 };
 
-static int64_t nearest_row(const ResultView *view, const double *values, double value)
-{
-    int64_t nearest = 0;
-    for (int64_t row = 1; row < view->rows; ++row)
-        if (fabs(values[row] - value) < fabs(values[nearest] - value)) nearest = row;
-    return nearest;
-}
-
 // words: what is said of it before U and F_T/F_N; may be empty.
 static void add_row(const ResultView *view, int64_t row, const char *words, Profiles *profiles)
 {
@@ -60,7 +52,7 @@ static bool add_asked(const ResultView *view, const char *at, Profiles *profiles
         if (profiles->count == PROFILES_MAX)
             return REFUSE(err, "profile shows %d moments at most", PROFILES_MAX);
         if (!block_moment_read(word, &by_U, &value, err)) return false;
-        add_row(view, nearest_row(view, by_U ? view->U : view->t, value), "", profiles);
+        add_row(view, result_view_nearest_row(view, by_U ? view->U : view->t, value), "", profiles);
     }
     return profiles->count > 0 || REFUSE(err, "no moment is named");
 }
@@ -82,7 +74,7 @@ static void add_event(const ResultView *view, Profiles *profiles)
         add_row(view, view->rows - 1, "end", profiles);
         return;
     }
-    int64_t before = 0, after = nearest_row(view, view->U, chosen->U_stop);
+    int64_t before = 0, after = result_view_nearest_row(view, view->U, chosen->U_stop);
     for (int64_t row = 0; row < view->rows && view->U[row] < chosen->U_start; ++row) before = row;
     while (after + 1 < view->rows && view->U[after + 1] <= chosen->U_stop) ++after;
     int64_t equal = before;
@@ -123,12 +115,12 @@ bool profiles_read(ResultView *view, const char *at, Profiles *profiles, Error *
         add_event(view, profiles);
     TRY(take_series(view, SERIES_PRESSURE, profiles, &values[PROFILE_PRESSURE], err));
     TRY(take_series(view, SERIES_SHEAR, profiles, &values[PROFILE_SHEAR], err));
-    TRY(take_series(view, SERIES_SHEAR, profiles, &values[PROFILE_RATIO], err));
     TRY(take_series(view, SERIES_SLIP, profiles, &values[PROFILE_SLIP], err));
     TRY(take_series(view, SERIES_STATUS, profiles, &profiles->status, err));
     if (result_file_has_series(view->file, SERIES_GAP))
         TRY(take_series(view, SERIES_GAP, profiles, &values[PROFILE_GAP], err));
     int32_t nodes = profiles->nodes;
+    TRY(values[PROFILE_RATIO] = NEW_ARRAY(double, (int64_t)profiles->count *nodes, err));
     for (int32_t k = profiles->count - 1; k >= 0; --k)
         for (int32_t i = 0; i < nodes; ++i) {
             int64_t at_node = (int64_t)k * nodes + i;

@@ -7,8 +7,6 @@
 #include <math.h>
 #include <stddef.h>
 
-static const double BEHIND = 0.04;   // of a cycle: shown after its sliding
-
 FilmMoment film_moment(const ResultView *view, double t)
 {
     int64_t low = curve_place(view->t, view->rows, t), high = low + 1;
@@ -63,7 +61,7 @@ static bool find_cycle(const ResultView *view, const char *words, double t[2], E
     if (!sliding) return REFUSE(err, "no bulk sliding is in this history, so there is no cycle");
     Zoom zoom = zoom_choose(&asked);
     t[0] = time_of_U(view, zoom.U_start);
-    t[1] = time_of_U(view, zoom.U_stop + BEHIND * (zoom.U_stop - zoom.U_start));
+    t[1] = time_of_U(view, zoom.U_behind);
     return true;
 }
 

@@ -19,14 +19,6 @@ enum { SLOW_PARTS = 3, RAPID_PARTS = 2, MOMENT_SIZE = 64 };
 static const double RAPID = 2, SLIPS = 0.01;   // of the rod's velocity
 static const double ROUNDING = 1e-9;   // of sums of areas
 
-static int64_t nearest_row(const ResultView *view, const double *values, double wanted)
-{
-    int64_t best = 0;
-    for (int64_t row = 0; row < view->rows; ++row)
-        if (fabs(values[row] - wanted) < fabs(values[best] - wanted)) best = row;
-    return best;
-}
-
 static bool take_asked(const ResultView *view, const char *at, ContactMoments *moments, Error *err)
 {
     char word[MOMENT_SIZE];
@@ -37,7 +29,8 @@ static bool take_asked(const ResultView *view, const char *at, ContactMoments *m
             return REFUSE(err, "a figure shows %d moments at most", MOMENTS_MAX);
         snprintf(word, sizeof word, "%.*s", (int)strcspn(at, ","), at);
         if (!block_moment_read(word, &by_U, &value, err)) return false;
-        moments->row[moments->count++] = nearest_row(view, by_U ? view->U : view->t, value);
+        moments->row[moments->count++] =
+            result_view_nearest_row(view, by_U ? view->U : view->t, value);
     }
     qsort(moments->row, (size_t)moments->count, sizeof *moments->row, order_int64);
     moments->asked = true;
@@ -69,7 +62,7 @@ static bool take_event(const ResultView *view, const char *at, ContactMoments *m
     double wanted = 0;
     if (at) {
         if (!block_moment_read(at, &by_U, &wanted, err)) return false;
-        if (!by_U) wanted = view->U[nearest_row(view, view->t, wanted)];
+        if (!by_U) wanted = view->U[result_view_nearest_row(view, view->t, wanted)];
     }
     const ViewEvent *event = at ? NULL : zoom_sliding(view);
     if (!event || !isfinite(event->U_stop)) event = find_event(view, at ? &wanted : NULL);
@@ -77,12 +70,12 @@ static bool take_event(const ResultView *view, const char *at, ContactMoments *m
         return REFUSE(err,
                       "no rapid slip has been seen from start to end: say when, as --at U=%.4g",
                       view->U[view->rows / 2]);
-    moments->first = nearest_row(view, view->U, event->U_start);
-    moments->last = nearest_row(view, view->U, event->U_stop);
+    moments->first = result_view_nearest_row(view, view->U, event->U_start);
+    moments->last = result_view_nearest_row(view, view->U, event->U_stop);
     while (moments->first > 0 && view->U[moments->first] >= event->U_start) --moments->first;
     for (int32_t k = 0; k < view->rapid_count; ++k)
         if (view->rapid[k][1] < event->U_start)
-            moments->before = nearest_row(view, view->U, view->rapid[k][1]);
+            moments->before = result_view_nearest_row(view, view->U, view->rapid[k][1]);
     return true;
 }
 

@@ -7,8 +7,6 @@
 #include <math.h>
 #include <stdio.h>
 
-static const double BEHIND = 0.04;   // of a cycle: shown after its sliding
-
 enum { SLIDINGS_MOST = 40, SLIDINGS_SHOWN = 20 };   // each has 3 mm of a column then
 
 // The end of the sliding behind which the last SLIDINGS_SHOWN of `count` lie.
@@ -46,7 +44,7 @@ bool view_range_find(const ResultView *view, const PictureStyle *style, ViewRang
     Zoom zoom = view->cycle != VIEW_CYCLE_CHOSEN ? zoom_choose(view) : (Zoom){0};
     if (zoom.found) {
         shown->low = zoom.U_start;
-        shown->high = zoom.U_stop + BEHIND * (zoom.U_stop - zoom.U_start);
+        shown->high = zoom.U_behind;
         snprintf(shown->words, sizeof shown->words, "%s", zoom.words);
     } else if (isfinite(start) && !style->from && !style->to && view->cycle != VIEW_CYCLE_ALL) {
         shown->low = start;

@@ -76,6 +76,24 @@ void result_view_mu_range(const ResultView *view, const double U[2], double rang
     }
 }
 
+int64_t result_view_nearest_row(const ResultView *view, const double *values, double value)
+{
+    int64_t nearest = 0;
+    for (int64_t row = 1; row < view->rows; ++row)
+        if (fabs(values[row] - value) < fabs(values[nearest] - value)) nearest = row;
+    return nearest;
+}
+
+void result_view_event_rows(const ResultView *view, double start, double stop, int64_t *before,
+                            int64_t *last)
+{
+    *before = *last = 0;
+    for (int64_t row = 0; row < view->rows; ++row) {
+        if (view->U[row] < start) *before = row;
+        if (view->U[row] <= stop) *last = row;
+    }
+}
+
 void result_view_range(const ResultView *view, double *low, double *high)
 {
     *low = INFINITY;

@@ -117,6 +117,11 @@ void result_view_mu_range(const ResultView *view, const double U[2], double rang
 
 double result_view_trailing_end(const ResultView *view);   // x, length
 // The block where its length is known, all contact nodes in any case.
+// The row whose entry of `values` [rows], U or t, is nearest to `value`.
+int64_t result_view_nearest_row(const ResultView *view, const double *values, double value);
+// The last row before the rod is at `start`, and the last one up to `stop`; 0 where there is none.
+void result_view_event_rows(const ResultView *view, double start, double stop, int64_t *before,
+                            int64_t *last);
 void result_view_x_extent(const ResultView *view, double *low, double *high);
 
 #endif

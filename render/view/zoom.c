@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Which part of U the zoomed pictures show: the last precursors before a sliding, of the first
-// loading all of them. From the table of
-// events where there is one, else from the falls of mu.
+// loading all of them. From the table of events where there is one, else from the falls of mu.
 #include "render/view/zoom.h"
 
 #include <math.h>
@@ -12,6 +11,7 @@
 // A run of so few slidings, or less, is one of the first loading.
 enum { PRECURSORS_SHOWN = 8, FEW_SLIDINGS = 2 };
 
+static const double BEHIND = 0.04;   // of a cycle: shown after its sliding
 static const double PAD = 0.08;   // beside the precursors, over what they span
 static const double CYCLE_SHOWN = 0.15;   // of a cycle without rapid precursors
 static const double SPAN_MIN = 0.01;   // of a cycle: one precursor close to sliding
@@ -160,6 +160,7 @@ Zoom zoom_choose(const ResultView *view)
     if (!zoom.found) return zoom;
     zoom.cycle = cycle.number;
     zoom.U_stop = cycle.U_stop;
+    zoom.U_behind = cycle.U_stop + BEHIND * (cycle.U_stop - cycle.U_start);
     if (cycle.number == 1)
         snprintf(zoom.words, sizeof zoom.words, "first loading");
     else if (cycle.number > 1)
@@ -174,6 +175,14 @@ Zoom zoom_choose(const ResultView *view)
     zoom.U_low = fmax(low, cycle.U_slide - (1 + PAD) * span);
     zoom.U_high = fmin(high, cycle.U_slide + PAD * span);
     return zoom;
+}
+
+void zoom_cycles(const ResultView *view, int32_t *first, int32_t *last)
+{
+    int32_t slidings = zoom_slidings(view);
+    bool all = view->cycle == VIEW_CYCLE_ALL && slidings > 0;
+    *first = all ? 1 : view->cycle;
+    *last = all ? slidings : view->cycle;
 }
 
 bool zoom_choose_cycle(ResultView *view, const char *words, Error *err)

@@ -15,6 +15,7 @@ typedef struct Zoom {
     int32_t cycle, cycles;   // its number, from 1, of how many; 0: found by a fall of mu
     char words[ZOOM_WORDS_SIZE];   // "first loading", "cycle 5 of 6"; also "all cycles"; may be ""
     double U_stop;   // where the sliding ended, or the history does; length
+    double U_behind;   // a little behind the sliding, for what shows the whole cycle; length
     double U_start;   // where the sliding before that ended, or the history begins, length
     bool smooth;   // no rapid precursor is in it: there is nothing that enlarging would show
     double U_slide;   // where bulk sliding starts, length
@@ -29,6 +30,9 @@ Zoom zoom_choose(const ResultView *view);
 
 // Slidings of the whole block: as many cycles have ended.
 int32_t zoom_slidings(const ResultView *view);
+
+// The cycles that are shown one by one, from *first to *last, as view->cycle may be.
+void zoom_cycles(const ResultView *view, int32_t *first, int32_t *last);
 
 // Reads "first", "last", "all" or a number into view->cycle. ERROR_INPUT: it is none of these, or
 // the block slid less often. Where it never slid, all of the history is the first loading.

@@ -81,18 +81,15 @@ int command_render(const Command *command, int argc, char **argv)
     Error err = {0};
     const Option options[] = {
         {"figure", 'f', "NAME",
-         "Draw only this picture: force, slip-map, contact-density, contact-area (over that "
-         "at rest), state-map (of friction that "
-         "remembers), contact-plane (of a block in space), precursors (slip over F_T/F_N), "
-         "front-speed, probes, profile (p, tau, slip and gap along x), field or field-strip (up to "
-         "six "
-         "frames of one sliding). May be given often; "
+         "Draw only this picture: force, slip-map, contact-density, contact-area (over that at "
+         "rest), state-map (of friction that remembers), contact-plane (of a block in space), "
+         "precursors (slip over F_T/F_N), front-speed, probes, profile (p, tau, slip and gap along "
+         "x), field or field-strip (up to six frames of one sliding). May be given often; "
          "without it those that the result has fields, events, states or --compare has data for",
          .words = &figures},
         {"panels", 0, "NAME,NAME",
          "Draw these of force, slip-map, contact-density, contact-area and state-map below each "
-         "other, as "
-         "panels.png",
+         "other, as panels.png",
          .word = &request.panels},
         {"format", 0, "png|pdf|svg", "Of the files; png by default", .word = &request.style.format},
 #define X(name, kind, low, high, figures, allowed, argument, meaning)                              \
@@ -107,13 +104,11 @@ int command_render(const Command *command, int argc, char **argv)
          "velocity, displacement, strain_energy or dissipation; "
          "`contact-plane`: slip_rate (default), contact_density, pressure, shear, "
          "shear_over_pressure, slip, gap, arrival or a state by its name, as in theta; `probes`: "
-         "strain "
-         "(default), stress, displacement, velocity",
+         "strain (default), stress, displacement, velocity",
          .word = &request.field.of},
         {"at", 0, "U=U",
          "When: the stored time nearest to it; or t=TIME. Of contact-plane and profile several, as "
-         "in "
-         "U=0.01,U=0.02; of profile also mu=0.2, where F_T/F_N rises through it",
+         "in U=0.01,U=0.02; of profile also mu=0.2, where F_T/F_N rises through it",
          .word = &request.field.at},
         {"cut", 0, "y=Y",
          "Cut a block in space open: what lies before this plane, or before up to three as in "
