@@ -83,6 +83,15 @@ static bool check_coefficient(const ContactArrays *arrays, const Observation *se
         seen->state->reaction[interface_normal(interface, i)] / interface->weight[i], states);
 }
 
+double seen_contact_area(const Observation *seen, const Friction *friction, int32_t i)
+{
+    const State *state = seen->state;
+    if (state->status[i] == CONTACT_OPEN) return 0;
+    return friction_contact_area(friction_at(friction, i),
+                                 slip_size(seen->interface, i, state->slip_rate),
+                                 state->theta + (int64_t)i * STATES_MAX);
+}
+
 bool contact_arrays_record(void *self, const Observation *seen, Error *err)
 {
     ContactArrays *arrays = self;
@@ -102,12 +111,7 @@ bool contact_arrays_record(void *self, const Observation *seen, Error *err)
                                          slip_size(seen->interface, i, state->slip_rate));
     }
     for (int32_t i = 0; arrays->area && i < arrays->count; i++)
-        arrays->area[i] =
-            arrays->status[i] == CONTACT_OPEN
-                ? 0
-                : friction_contact_area(friction_at(arrays->friction, i),
-                                        slip_size(seen->interface, i, state->slip_rate),
-                                        state->theta + (int64_t)i * STATES_MAX);
+        arrays->area[i] = seen_contact_area(seen, arrays->friction, i);
     arrays->started = true;
     return true;
 }

@@ -13,6 +13,7 @@
 #include "contact/slip.h"
 #include "fem/floor.h"
 #include "io/files/folder.h"
+#include "record/contact_arrays.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -165,11 +166,7 @@ static void copy_line(const Fields *fields, const Observation *seen, double *lin
                          ? 0
                          : friction_contact_density(friction_at(fields->friction, i),
                                                     slip_size(interface, i, state->slip_rate));
-        area[i] = state->status[i] == CONTACT_OPEN
-                      ? 0
-                      : friction_contact_area(friction_at(fields->friction, i),
-                                              slip_size(interface, i, state->slip_rate),
-                                              state->theta + (int64_t)i * STATES_MAX);
+        area[i] = seen_contact_area(seen, fields->friction, i);
     }
 }
 

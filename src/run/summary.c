@@ -245,7 +245,7 @@ void summary_fill(const Simulation *simulation, const RunCounters *counters, con
                      .slight = kinds[EVENT_SLIGHT],
                      .normal_force = model->scales.load *
                                      scene_whole_force(&simulation->scene, model->interface.dim),
-                     .base_slip = NAN,
+                     .base_slip = base_slip(model, &simulation->control.now),
                      .critical_length = answers->critical_length / length,
                      .first_mu = answers->first_loading.mu.value,
                      .first_U = answers->first_loading.U,
@@ -266,7 +266,6 @@ void summary_fill(const Simulation *simulation, const RunCounters *counters, con
                      .warnings = simulation->warnings,
                      .field_files = simulation->fields.written,
                      .figures = simulation->figures};
-    summary->base_slip = base_slip(model, &simulation->control.now);
     if (answers->regime.run_in != RUN_IN_OVER)
         summary->run_in = run_in_name(answers->regime.run_in);
     mesh_move_text(&simulation->model.mesh, summary->mesh_moved);

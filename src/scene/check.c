@@ -177,9 +177,8 @@ static bool check_relaxation(const Check *check, const SceneMaterial *region, co
         for (int32_t i = 0; i < k; i++)
             if (relaxation->branch[i].time == branch->time)
                 return blame(check, key,
-                             "%s%srelaxation: the time %g stands twice; add up the "
-                             "moduli",
-                             name, dot, branch->time);
+                             "%s%srelaxation: the time %g stands twice; add up the moduli", name,
+                             dot, branch->time);
     }
     if (!scene_material_is_short(scene, region)) return true;
     for (int32_t k = 0; k < relaxation->count; k++) {
