@@ -121,6 +121,11 @@ class Bodies(OwnCache):
         # The floor goes down by about the pressure over E times its depth.
         self.assertLess(moved[[j for _, j in pairs], 1].mean(), -0.0005)
 
+    def test_cases_are_those_laid_down(self):
+        folder = SOURCE / "validation/bodies"
+        listed = subprocess.run([folder / "cases.py", "--list"], capture_output=True, text=True, check=True).stdout
+        self.assertEqual(listed.splitlines()[-1], (folder / "cases.sha256").read_text().strip())
+
     def test_pads_on_a_base(self):
         """Cells of the base are as those of the pads, graded ones too: nodes match; where they are asked not to, mu_M is near."""
         pads = [f"mesh.file={SOURCE}/meshes/pads.geo", "time.until.U=0.02"]
