@@ -3,6 +3,8 @@
 // where the last one ended. Rest is stepped by the midpoint rule, in steps that grow with time.
 #include "friction/friction_start.h"
 
+#include "friction/friction_response.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -78,6 +80,30 @@ bool friction_find_steady(FrictionNode *node, double speed)
     node->reach = 0;
     if (!found) memcpy(node->from, began, sizeof began);
     return found;
+}
+
+FrictionRates friction_steady_rates(const FrictionNode *node, double speed, double *state)
+{
+    FrictionNode steady = *node;
+    FrictionRates rates;
+    friction_start_state(&steady, state);
+    if (steady.law->remembers) {
+        memcpy(steady.from, steady.law->start, sizeof steady.from);
+        friction_find_steady(&steady, speed);
+        memcpy(state, steady.from, (size_t)steady.law->states * sizeof(double));
+    }
+    friction_rates(&steady, speed, state, &rates);
+    return rates;
+}
+
+double friction_forgets(const FrictionNode *node, double speed)
+{
+    double state[STATES_MAX], re[STATES_MAX], im[STATES_MAX], slowest = INFINITY;
+    FrictionRates rates = friction_steady_rates(node, speed, state);
+    friction_own_rates(&rates, re, im);
+    for (int32_t k = 0; k < rates.states; k++)
+        if (re[k] < 0) slowest = fmin(slowest, -re[k]);
+    return slowest;
 }
 
 int32_t friction_count_steady(const FrictionNode *node, double speed, double states[2])

@@ -30,4 +30,12 @@ int32_t friction_count_steady(const FrictionNode *node, double speed, double sta
 // leaves it as it was.
 bool friction_find_steady(FrictionNode *node, double speed);
 
+// mu, g and their derivatives at steady slip at this speed under node->pressure, and its states
+// [states]. Where no steady slip is found: in the states with which the rod begins to move.
+FrictionRates friction_steady_rates(const FrictionNode *node, double speed, double *state);
+
+// The slowest rate at which steady slip at this speed forgets what the contact remembers, 1/time;
+// INFINITY: nothing is remembered.
+double friction_forgets(const FrictionNode *node, double speed);
+
 #endif

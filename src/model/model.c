@@ -2,6 +2,7 @@
 #include "model/model.h"
 
 #include "base/memory.h"
+#include "friction/friction_start.h"
 #include "scene/materials.h"
 
 #include <math.h>
@@ -90,6 +91,15 @@ double model_friction_slip(const Model *model)
 {
     double pressure = model->scales.load / (model->length * model->breadth);
     return friction_slip(&model->friction, pressure, model->height, model->materials.mean.young);
+}
+
+double model_fading_slip(const Model *model)
+{
+    double slowest = INFINITY, speed = model->scales.slip_velocity;
+    if (!friction_remembers(&model->friction, model->interface.contact_count)) return 0;
+    for (int32_t i = 0; i < model->interface.contact_count; i++)
+        slowest = fmin(slowest, friction_forgets(friction_at(&model->friction, i), speed));
+    return speed / slowest;
 }
 
 double model_slip_per_mu(const Model *model)

@@ -74,6 +74,10 @@ Model model_of(const Scene *scene);
 // Tolerances of slip are measured by it, so that they hold for any load and any units.
 double model_friction_slip(const Model *model);
 
+// The slip over which steady slip at the rod's velocity forgets the slowest of what the contact
+// remembers to 1/e, length; 0: nothing is remembered.
+double model_fading_slip(const Model *model);
+
 // The slip that a fall of the coefficient by 1 can drive, p H / E, length.
 double model_slip_per_mu(const Model *model);
 

@@ -8,8 +8,9 @@ static const double STEADY_RANGE = 2e-3;
 
 static const Estimate NONE = {NAN, NAN};
 
-Steady steady_of(const Events *events, double way)
+Steady steady_of(const Events *events, double way, double fading)
 {
+    way = fmax(way, -log(STEADY_RANGE) * fading);
     return (Steady){.events = events, .way = way, .from = NAN, .to = NAN, .before = NONE};
 }
 

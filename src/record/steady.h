@@ -3,7 +3,8 @@
 // slides slowly after the rod and the load never drops. What it then holds is F_T/F_N at which it
 // slides. Steady is a state in which every node of the contact slips (or is open), none fast, and
 // mu keeps within STEADY_RANGE while the drive goes as far as the slip that the drop of friction
-// drives. Fed after record/events; read by answers/steady_answer.
+// drives, and as what the contact remembers takes to fall below STEADY_RANGE: before, mu is on its
+// way, or turns back for a moment. Fed after record/events; read by answers/steady_answer.
 #ifndef AMONTONS_RECORD_STEADY_H
 #define AMONTONS_RECORD_STEADY_H
 
@@ -19,7 +20,9 @@ typedef struct Steady {
     Estimate before;   // of the way before `from`, where mu drifted out of the range; NaN: none
 } Steady;
 
-Steady steady_of(const Events *events, double way);
+// way: the slip that the drop of friction drives. fading: the slip over which the slowest of
+// friction's states falls to 1/e, 0 without states. Both lengths.
+Steady steady_of(const Events *events, double way, double fading);
 bool steady_record(void *self, const Observation *seen, Error *err);   // a Recorder
 
 // The mean of mu since it is steady, and half its range; NaN: the run does not end so.

@@ -104,15 +104,16 @@ static bool slides_steadily(const Accuracy *accuracy, const Simulation *simulati
            !isnan(steady_mu(&simulation->steady).value) && !is_steered(accuracy->scene);
 }
 
-// A run that comes to its end in the middle of its run-in goes on, once. What a program does may
-// well look like a run-in, for ever.
+// A run that comes to its end in the middle of its run-in, or slides slowly and is not steady yet,
+// goes on, once. What a program does may well look like a run-in, for ever.
 static bool goes_on(const Accuracy *accuracy, Simulation *simulation)
 {
     const Scene *scene = accuracy->scene;
     bool once = simulation->scene.time.until_U > LONGER * scene->time.until_U ||
                 simulation->scene.time.until_t > LONGER * scene->time.until_t;
-    if (once || is_steered(scene) || regime_of(&simulation->drops).run_in == RUN_IN_OVER)
-        return false;
+    bool is_steady_soon = simulation->steady.slides && simulation->drops.count == 0;
+    bool runs_in = regime_of(&simulation->drops).run_in != RUN_IN_OVER;
+    if (once || is_steered(scene) || !(runs_in || is_steady_soon)) return false;
     simulation->scene.time.until_U *= LONGER;
     simulation->scene.time.until_t *= LONGER;
     simulation->t_end = step_rule_end(&simulation->scene);

@@ -44,7 +44,7 @@ static bool report_step(void *self, const Observation *seen, Error *err)
 static void note_nothing(Simulation *simulation)
 {
     simulation->drops = drops_none();
-    simulation->steady = steady_of(NULL, 0);
+    simulation->steady = steady_of(NULL, 0, 0);
     simulation->errors = (RunErrors){NAN, NAN, NAN, NAN, NAN, NAN, NAN};
 }
 
@@ -69,7 +69,8 @@ static bool open_recorders(Simulation *simulation, Error *err)
         return false;
     bool remembers = simulation->control.scheme.memory.node != NULL;
     simulation->drops.mu_static = remembers ? NAN : model->friction.mu_static;
-    simulation->steady = steady_of(events, model_friction_slip(model) + model_machine_yield(model));
+    simulation->steady = steady_of(events, model_friction_slip(model) + model_machine_yield(model),
+                                   model_fading_slip(model));
     if (program_jumps(&simulation->rod_course))
         simulation->readings.course = &simulation->rod_course;
     simulation->turning.contact = &simulation->contact;

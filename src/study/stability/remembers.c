@@ -48,34 +48,18 @@ void stability_look(StabilityPath *path)
     if (path->nodes) change_clock(1 / path->pace, &path->last);
 }
 
-// mu and g of node i at steady slip at V under this pressure; its states. Where none is found: in
-// the states with which the rod began to move.
 static FrictionRates steady_rates(const StabilityPath *path, int32_t i, double pressure,
                                   double *state)
 {
     FrictionNode node = *friction_at(&path->model->friction, i);
-    double speed = path->model->scales.slip_velocity;
-    FrictionRates rates;
-    friction_start_state(&node, state);
-    if (node.law->remembers) {
-        node.pressure = pressure;
-        memcpy(node.from, node.law->start, sizeof node.from);
-        friction_find_steady(&node, speed);
-        memcpy(state, node.from, (size_t)node.law->states * sizeof(double));
-    }
-    friction_rates(&node, speed, state, &rates);
-    return rates;
+    if (node.law->remembers) node.pressure = pressure;
+    return friction_steady_rates(&node, path->model->scales.slip_velocity, state);
 }
 
 double stability_forgets(const StabilityPath *path, int32_t i)
 {
-    double state[STATES_MAX], re[STATES_MAX], im[STATES_MAX], slowest = INFINITY;
-    double pressure = friction_at(&path->model->friction, i)->pressure;
-    FrictionRates rates = steady_rates(path, i, pressure, state);
-    friction_own_rates(&rates, re, im);
-    for (int32_t k = 0; k < rates.states; k++)
-        if (re[k] < 0) slowest = fmin(slowest, -re[k]);
-    return slowest;
+    const Model *model = path->model;
+    return friction_forgets(friction_at(&model->friction, i), model->scales.slip_velocity);
 }
 
 void stability_let_slip(const StabilityPath *path, State *trial, int32_t i)

@@ -16,7 +16,7 @@ typedef struct Slide {
 static void begin(Slide *slide)
 {
     hand_run_begin(&slide->run, 1);
-    slide->steady = steady_of(&slide->run.events, 0.5);
+    slide->steady = steady_of(&slide->run.events, 0.5, 0);
     recorders_add(&slide->run.recorders, &slide->steady, steady_record);
 }
 

@@ -17,7 +17,7 @@ typedef struct Slide {
 static void begin(Slide *slide)
 {
     hand_run_begin(&slide->run, 1);
-    slide->steady = steady_of(&slide->run.events, 0.5);
+    slide->steady = steady_of(&slide->run.events, 0.5, 0);
     recorders_add(&slide->run.recorders, &slide->steady, steady_record);
 }
 
@@ -76,5 +76,28 @@ TEST(test_begins_anew)
     assert_true(isnan(mu_of(&slide)));
     go(&slide, 400, 0.33, SLIDES);   // 0.008 %: within the range over the way
     assert_near("the mean of the last stretch", mu_of(&slide), 0.33, 0.002 * 0.33);
+    events_destroy(&slide.run.events);
+}
+
+// What is remembered falls to 0.2 %, the range, over ln(500) = 6.2 times the slip over which it
+// falls to 1/e: with 0.2 that is a way of 1.24, 13 steps after the first. Where mu swings it is not
+// steady where it turns.
+TEST(test_memory_fades)
+{
+    Slide slide;
+    begin(&slide);
+    slide.steady = steady_of(&slide.run.events, 0.5, 0.2);
+    slide.now = 0.3;
+    go(&slide, 13, 0.3, SLIDES);
+    assert_true(isnan(mu_of(&slide)));
+    go(&slide, 1, 0.3, SLIDES);
+    assert_near("mu", mu_of(&slide), 0.3, 1e-12);
+    go(&slide, 5, 0.31, SLIDES);
+    for (int32_t k = 0; k < 4; k++) {
+        go(&slide, 8, 0.31, SLIDES);
+        go(&slide, 5, k % 2 ? 0.31 : 0.315, SLIDES);
+    }
+    go(&slide, 8, 0.315, SLIDES);
+    assert_true(isnan(mu_of(&slide)));
     events_destroy(&slide.run.events);
 }
