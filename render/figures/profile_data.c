@@ -51,7 +51,7 @@ static bool add_asked(const ResultView *view, const char *at, Profiles *profiles
         }
         if (profiles->count == PROFILES_MAX)
             return REFUSE(err, "profile shows %d moments at most", PROFILES_MAX);
-        if (!block_moment_read(word, &by_U, &value, err)) return false;
+        if (!block_moment_seen(view, word, &by_U, &value, err)) return false;
         add_row(view, result_view_nearest_row(view, by_U ? view->U : view->t, value), "", profiles);
     }
     return profiles->count > 0 || REFUSE(err, "no moment is named");

@@ -53,7 +53,7 @@ void stack_widen(double value, double *low, double *high)
 
 Axis stack_axis(double low, double high)
 {
-    if (!(low <= high)) low = 0, high = 1;
+    if (!(low <= high) || (low == 0 && high == 0)) low = 0, high = 1;
     if (low > 0 && low < 0.5 * high) low = 0;
     if (high < 0 && high > 0.5 * low) high = 0;
     double room = ROOM * (high - low);

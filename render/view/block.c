@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 static const double FOLDED = 0.2;   // of an element's size at a corner that must be left when drawn
+static const double MOMENT_SLACK = 0.01;   // of the history, by which a moment may be outside
 static const double SHOWN = 0.05;   // largest drawn deformation over the block's larger extent
 
 BlockWords block_words(BlockQuantity quantity)
@@ -84,11 +85,27 @@ bool block_moment_read(const char *at, bool *is_U, double *value, Error *err)
     return true;
 }
 
+bool block_moment_seen(const ResultView *view, const char *at, bool *is_U, double *value,
+                       Error *err)
+{
+    double low = INFINITY, high = -INFINITY;
+    if (!block_moment_read(at, is_U, value, err)) return false;
+    for (int64_t row = 0; row < view->rows; ++row) {
+        double here = *is_U ? view->U[row] : view->t[row];
+        low = fmin(low, here);
+        high = fmax(high, here);
+    }
+    double slack = MOMENT_SLACK * (high - low);
+    if (*value >= low - slack && *value <= high + slack) return true;
+    return REFUSE(err, "%.40s is outside of the history, which goes from %.6g to %.6g", at, low,
+                  high);
+}
+
 bool block_time_find(const BlockSource *source, const char *at, int32_t *index, Error *err)
 {
     bool by_U = false;
     double wanted = 0, nearest = INFINITY;
-    if (!block_moment_read(at, &by_U, &wanted, err)) return false;
+    if (!block_moment_seen(source->view, at, &by_U, &wanted, err)) return false;
     for (int32_t k = 0; k < source->count; ++k) {
         double away = fabs((by_U ? source->view->U[source->row[k]] : source->times[k].t) - wanted);
         if (!(away < nearest)) continue;

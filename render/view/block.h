@@ -51,6 +51,10 @@ bool block_is_stored(const char *folder);   // whether there are fields
 
 // "U=0.0117" or "t=120" as a number of one of the two; ERROR_INPUT: neither of them.
 bool block_moment_read(const char *at, bool *is_U, double *value, Error *err);
+// The same; ERROR_INPUT also where it lies outside of the history by more than 1 % of it: the last
+// step may end short of what the scene says.
+bool block_moment_seen(const ResultView *view, const char *at, bool *is_U, double *value,
+                       Error *err);
 // The index of the time nearest to such a moment.
 bool block_time_find(const BlockSource *source, const char *at, int32_t *index, Error *err);
 // The last one up to this displacement of the rod; the first where there is none.

@@ -28,7 +28,7 @@ static bool take_asked(const ResultView *view, const char *at, ContactMoments *m
         if (moments->count == MOMENTS_MAX)
             return REFUSE(err, "a figure shows %d moments at most", MOMENTS_MAX);
         snprintf(word, sizeof word, "%.*s", (int)strcspn(at, ","), at);
-        if (!block_moment_read(word, &by_U, &value, err)) return false;
+        if (!block_moment_seen(view, word, &by_U, &value, err)) return false;
         moments->row[moments->count++] =
             result_view_nearest_row(view, by_U ? view->U : view->t, value);
     }
@@ -61,7 +61,7 @@ static bool take_event(const ResultView *view, const char *at, ContactMoments *m
     bool by_U = true;
     double wanted = 0;
     if (at) {
-        if (!block_moment_read(at, &by_U, &wanted, err)) return false;
+        if (!block_moment_seen(view, at, &by_U, &wanted, err)) return false;
         if (!by_U) wanted = view->U[result_view_nearest_row(view, view->t, wanted)];
     }
     const ViewEvent *event = at ? NULL : zoom_sliding(view);

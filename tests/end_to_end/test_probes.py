@@ -295,6 +295,8 @@ output: {{figures: [], fields: {{every_U: 5e-4}}, probes: {{g: {{at: [0.3, 0.2, 
         self.assertLess(numpy.max(numpy.abs(shown["F_T/F_N"] - 0.2)), 0.02)
         self.render(folder, "--figure", "profile", "--at", "U=0.001,U=0.002")
         self.assertIn("never rises through 0.9", self.render(folder, "--figure", "profile", "--at", "mu=0.9", status=2))
+        for moment in "U=0.5", "t=-20":
+            self.assertIn("outside of the history", self.render(folder, "--figure", "profile", "--at", moment, status=2))
 
     def test_compare(self):
         """Made measurements: strains off by 2 and 3 per cent, in millionths; the misfit by its definition."""

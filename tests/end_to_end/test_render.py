@@ -776,7 +776,7 @@ class Fields(unittest.TestCase):
 
     def test_colors_are_the_data(self):
         last = len(os.listdir(os.path.join(self.result, "fields"))) // 2 - 1
-        done = self.call("render", self.result, "--figure", "field", "--of", "stress_xz", "--at", "t=1e9")
+        done = self.call("render", self.result, "--figure", "field", "--of", "stress_xz", "--at", "U=0.0037")
         self.assertEqual(done.returncode, 0, done.stderr)
         picture, data = read_picture(self.result, "field-stress_xz"), self.read_frame(last)
         frame = Frame(picture)
@@ -814,7 +814,7 @@ class Fields(unittest.TestCase):
     def test_rod_is_as_high_as_it_is(self):
         """Its mark reaches from where the face is at the rod's lower end to where it is at its upper end, between nodes, too:
         of this mesh one node lies within."""
-        done = self.call("render", self.result, "--figure", "field", "--at", "t=1e9")
+        done = self.call("render", self.result, "--figure", "field", "--at", "U=0.0037")
         self.assertEqual(done.returncode, 0, done.stderr)
         picture, data = read_picture(self.result, "field").astype(int), self.read_frame(len(os.listdir(os.path.join(self.result, "fields"))) // 2 - 1)
         moved = data["displacement"] - [data["displacement"][:, 0].mean(), 0, 0]
@@ -856,7 +856,8 @@ class Fields(unittest.TestCase):
         self.assertAlmostEqual(shown[-1], slidings[-1]["U_stop"], delta=1e-6)
 
     def test_errors(self):
-        cases = {("--of", "von-mises"): "von_mises, stress_xx", ("--at", "0.003"): "U=0.0117"}
+        cases = {("--of", "von-mises"): "von_mises, stress_xx", ("--at", "0.003"): "U=0.0117",
+                 ("--at", "U=5"): "outside of the history, which goes from 0 to "}
         for words, expected in cases.items():
             done = self.call("render", self.result, "--figure", "field", *words)
             self.assertEqual(done.returncode, 2, done.stderr)

@@ -263,14 +263,14 @@ TEST(times_are_found)
 {
     FieldTime stored[4] = {{.t = 0}, {.t = 10}, {.t = 20}, {.t = 40}};
     int64_t rows[4] = {0, 1, 2, 3};
-    double U[4] = {0, 0.1, 0.2, 0.4};
-    ResultView view = {.U = U};
+    double U[4] = {0, 0.1, 0.2, 0.4}, t[4] = {0, 10, 20, 40};
+    ResultView view = {.U = U, .t = t, .rows = 4};
     const BlockSource source = {.view = &view, .count = 4, .times = stored, .row = rows};
     const struct {
         const char *at;
         int32_t index;
-    } good[] = {{"U=0.14", 1}, {"U=1", 3}, {"t=31", 3}, {"t=-5", 0}};
-    const char *const bad[] = {"0.1", "U=", "U=x", "t=1 s", "u=1", "U=nan"};
+    } good[] = {{"U=0.14", 1}, {"U=0.403", 3}, {"t=31", 3}, {"t=-0.1", 0}};
+    const char *const bad[] = {"0.1", "U=", "U=x", "t=1 s", "u=1", "U=nan", "U=1", "t=-5"};
     int32_t index = -1;
     for (size_t k = 0; k < sizeof good / sizeof *good; k++) {
         Error err = {0};
