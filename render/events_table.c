@@ -33,6 +33,15 @@ static double friction_work(const ResultView *view, const Friction *friction, in
     return work;
 }
 
+// How much slipped from the trailing end on at one moment, at most, behind row `first` up to `last`.
+static double longest_front(const ResultView *view, int64_t first, int64_t last)
+{
+    double longest = 0;
+    for (int64_t row = first + 1; row <= last && row < view->rows; ++row)
+        longest = fmax(longest, view->front[row] - result_view_trailing_end(view));
+    return longest;
+}
+
 static bool read_friction(ResultView *view, Friction *friction, Error *err)
 {
     int32_t count = 0;
@@ -62,7 +71,8 @@ static void name_columns(CsvWriter *csv, const ResultView *view, bool whole)
     name_column(csv, "F_T/F_N after", NULL);
     name_column(csv, "F_T before", view->si ? force : NULL);
     name_column(csv, "F_T after", view->si ? force : NULL);
-    name_column(csv, "reach", view->si ? "m" : NULL);
+    name_column(csv, "length", view->si ? "m" : NULL);
+    name_column(csv, "front", view->si ? "m" : NULL);
     name_column(csv, "largest slip rate", view->si ? "m/s" : NULL);
     name_column(csv, "duration", view->si ? "s" : NULL);
     name_column(csv, "work of friction", view->si ? energy : NULL);
@@ -81,6 +91,7 @@ bool events_table_write(const char *path, ResultView *view, Error *err)
     double load = view->number[NUMBER_LOAD] * times;
     CsvWriter *csv = NULL;
     TRY(read_friction(view, &friction, err));
+    TRY(result_view_read_front(view, err));
     TRY(result_file_read_table(view->file, EVENTS_PEAK_RATE, &peak, &peaks, err));
     TRY(csv = csv_create(path, err));
     name_columns(csv, view, whole);
@@ -100,6 +111,7 @@ bool events_table_write(const char *path, ResultView *view, Error *err)
         csv_rounded(csv, load * view->mu[first]);
         csv_rounded(csv, load * view->mu[last]);
         csv_rounded(csv, event->reach - result_view_trailing_end(view));
+        csv_rounded(csv, longest_front(view, first, last));
         csv_rounded(csv, k < peaks ? peak[k] : NAN);
         csv_rounded(csv, view->t[last] - view->t[first]);
         csv_rounded(csv, times * friction_work(view, &friction, first, last));

@@ -51,7 +51,6 @@ static bool write_curve(const char *path, ResultView *view, MeasuredKind kind, E
 {
     ViewCurve curve;
     if (!computed_curve(view, kind, &curve, err)) return false;
-    double over_L = 1 / view->number[NUMBER_LENGTH], over_c = 1 / view->number[NUMBER_C_RAYLEIGH];
     const DataColumn columns[MEASURED_KINDS][3] = {
         [MEASURED_MU] = {{"U", "m", curve.at, 1},
                          {"t", "s", view->t, 1},
@@ -59,37 +58,96 @@ static bool write_curve(const char *path, ResultView *view, MeasuredKind kind, E
         [MEASURED_FRONT] = {{"U", "m", curve.at, 1},
                             {"t", "s", view->t, 1},
                             {"x", "m", curve.value, 1}},
-        [MEASURED_SPEED] = {{"x/L", NULL, curve.at, over_L}, {"v/c_R", NULL, curve.value, over_c}}};
-    int32_t count = columns[kind][2].name ? 3 : 2;
-    return write_columns(path, columns[kind], count, curve.count, view->si, err);
+    };
+    return write_columns(path, columns[kind], 3, curve.count, view->si, err);
 }
 
-// How long slip was, of each cycle that is shown, one behind the other.
+static const char *event_word(const ViewEvent *event)
+{
+    return event->kind == VIEW_LEADING ? MEASURED_SLIDING : MEASURED_PRECURSOR;
+}
+
+static void write_length(CsvWriter *csv, double mu, double part, int32_t cycle, const char *event)
+{
+    csv_rounded(csv, mu);
+    csv_rounded(csv, part);
+    csv_number(csv, cycle);
+    csv_text(csv, event);
+    csv_end_row(csv);
+}
+
+// Loads and lengths of the events of each cycle that is shown, then the farthest slip so far.
 static bool write_lengths(const char *path, ResultView *view, Error *err)
 {
+    static const char *const names[] = {"F_T/F_N", "l/L", "cycle", "event"};
     int32_t asked = view->cycle, first = 0, last = 0;
-    int64_t rows = 0;
-    double *mu = NEW_ARRAY(double, view->rows, err), *length = NEW_ARRAY(double, view->rows, err);
-    double *cycle = NEW_ARRAY(double, view->rows, err);
-    TRY(mu && length && cycle);
+    double L = view->number[NUMBER_LENGTH];
+    CsvWriter *csv = csv_create(path, err);
+    if (!csv) return false;
+    for (int32_t c = 0; c < 4; ++c) csv_text(csv, names[c]);
+    csv_end_row(csv);
     zoom_cycles(view, &first, &last);
     for (int32_t k = first; k <= last; ++k) {
         ViewCurve curve;
         computed_choose_cycle(view, k);
         TRY(computed_curve(view, MEASURED_LENGTH, &curve, err));
-        for (int64_t i = 0; i < curve.count && rows < view->rows; ++i, ++rows) {
-            mu[rows] = curve.at[i];
-            length[rows] = curve.value[i];
-            cycle[rows] = zoom_choose(view).cycle;
+        int32_t cycle = zoom_choose(view).cycle;
+        for (int32_t i = 0; i < view->event_count; ++i) {
+            double mu = NAN, length = NAN;
+            if (computed_event(view, &view->events[i], &mu, &length))
+                write_length(csv, mu, length / L, cycle, event_word(&view->events[i]));
+        }
+        for (int64_t i = 0; i < curve.count; ++i)
+            write_length(csv, curve.at[i], curve.value[i] / L, cycle, MEASURED_FARTHEST);
+    }
+    CsvWriter *whole = csv;
+    csv = NULL;
+    TRY(csv_finish(whole, err));
+cleanup:
+    csv_abandon(csv);
+    computed_choose_cycle(view, asked);
+    return error_is_clean(err);
+}
+
+// Speeds of the fronts of the events of each cycle that is shown, below 0 towards the trailing end.
+// U, where the rod was when it began, says which row of events.csv an event is.
+static bool write_speeds(const char *path, ResultView *view, Error *err)
+{
+    int32_t asked = view->cycle, first = 0, last = 0;
+    ViewCurve curve = {0};
+    CsvWriter *csv = csv_create(path, err);
+    if (!csv) return false;
+    const char *const names[] = {"x/L", "v/c_R", "cycle", "event", view->si ? "U (m)" : "U"};
+    for (int32_t c = 0; c < 5; ++c) csv_text(csv, names[c]);
+    csv_end_row(csv);
+    zoom_cycles(view, &first, &last);
+    for (int32_t k = first; k <= last; ++k) {
+        computed_choose_cycle(view, k);
+        Zoom zoom = zoom_choose(view);
+        for (int32_t e = 0; e < view->event_count; ++e) {
+            const ViewEvent *event = &view->events[e];
+            bool counts = event->kind == VIEW_BOUNDED || event->kind == VIEW_LEADING;
+            if (!counts || !zoom_covers(&zoom, event->U_start)) continue;
+            TRY(computed_front_speed(view, event, &curve, err));
+            for (int64_t i = 0; i < curve.count; ++i) {
+                csv_rounded(csv, curve.at[i] / view->number[NUMBER_LENGTH]);
+                csv_rounded(csv, curve.value[i] / view->number[NUMBER_C_RAYLEIGH]);
+                csv_number(csv, zoom.cycle);
+                csv_text(csv, event_word(event));
+                csv_rounded(csv, event->U_start);
+                csv_end_row(csv);
+            }
+            memory_free_all(curve.at, curve.value);
+            curve = (ViewCurve){0};
         }
     }
-    const DataColumn columns[] = {{"F_T/F_N", NULL, mu, 1},
-                                  {"l/L", NULL, length, 1 / view->number[NUMBER_LENGTH]},
-                                  {"cycle", NULL, cycle, 1}};
-    TRY(write_columns(path, columns, 3, rows, view->si, err));
+    CsvWriter *whole = csv;
+    csv = NULL;
+    TRY(csv_finish(whole, err));
 cleanup:
+    csv_abandon(csv);
+    memory_free_all(curve.at, curve.value);
     computed_choose_cycle(view, asked);
-    memory_free_all(mu, length, cycle);
     return error_is_clean(err);
 }
 
@@ -288,6 +346,8 @@ static bool write_compared(const char *path, const Measured *measured, bool si, 
     columns[count++] = (DataColumn){kinds[kind].value, unit, measured->value, 1};
     columns[count++] = (DataColumn){"error", unit, measured->error, 1};
     columns[count++] = (DataColumn){"computed", unit, measured->computed, 1};
+    if (measured->matched)
+        columns[count++] = (DataColumn){"computed F_T/F_N", NULL, measured->x, 1};
     return write_columns(path, columns, count, measured->count, si, err);
 }
 
@@ -330,7 +390,8 @@ bool figure_data_write(const char *folder, const char *name, ResultView *view,
     if (strcmp(name, "profile") == 0) return write_profiles(path, view, field->at, err);
     if (kind == MEASURED_KINDS) return true;
     if (kind == MEASURED_LENGTH && !write_lengths(path, view, err)) return false;
-    bool curve = kind != MEASURED_AREA && kind != MEASURED_LENGTH && kind != MEASURED_PROBE;
+    if (kind == MEASURED_SPEED && !write_speeds(path, view, err)) return false;
+    bool curve = kind == MEASURED_MU || kind == MEASURED_FRONT;
     if (curve && !write_curve(path, view, kind, err)) return false;
     if (!measured_read(compare, kind, view, &measured, err)) return false;
     if (measured.count > 0)

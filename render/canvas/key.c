@@ -17,6 +17,14 @@ static double sample_width(const Page *page, const KeyEntry *entry)
     return width * page->point;
 }
 
+void key_draw_back(Canvas *canvas, Color color, Point centre, double radius)
+{
+    Point corners[] = {{centre.x - 1.6 * radius, centre.y},
+                       {centre.x + 1.1 * radius, centre.y - 1.5 * radius},
+                       {centre.x + 1.1 * radius, centre.y + 1.5 * radius}};
+    draw_polygon(canvas, color, corners, 3);
+}
+
 static void mark_draw(const Page *page, const KeyEntry *entry, Point at)
 {
     double point = page->point, width = SAMPLE * point;
@@ -35,6 +43,9 @@ static void mark_draw(const Page *page, const KeyEntry *entry, Point at)
         draw_disc(page->canvas, entry->color, middle, KEY_RADIUS * point);
         if (entry->mark == KEY_RING)
             draw_disc(page->canvas, PAPER, middle, 0.6 * KEY_RADIUS * point);
+        break;
+    case KEY_BACK:
+        key_draw_back(page->canvas, entry->color, middle, KEY_RADIUS * point);
         break;
     case KEY_HATCH:
         stroke.width = 0.4 * point;

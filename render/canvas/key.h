@@ -12,6 +12,7 @@ typedef enum KeyMark {
     KEY_DASHED,
     KEY_DISC,
     KEY_RING,
+    KEY_BACK,   // a triangle that points left
     KEY_HATCH,
     KEY_PATCH
 } KeyMark;
@@ -21,6 +22,9 @@ typedef struct KeyEntry {
     Color color;
     const char *words;
 } KeyEntry;
+
+// The triangle of KEY_BACK as large as a disc of this radius, pixels.
+void key_draw_back(Canvas *canvas, Color color, Point centre, double radius);
 
 // Draws the entries at the foot of the page's room, which becomes lower by that; nothing where the
 // style wants no legend.

@@ -52,8 +52,21 @@ static void cycle_rows(const ResultView *view, const Zoom *zoom, int64_t *first,
     }
 }
 
-// From the trailing end to the farthest point that slip has come to since the sliding before,
-// against the largest F_T/F_N since then.
+// The largest length of the precursors of the cycle that began up to U.
+static double longest_until(const ResultView *view, const Zoom *zoom, double U)
+{
+    double longest = 0;
+    for (int32_t k = 0; k < view->event_count; ++k) {
+        const ViewEvent *event = &view->events[k];
+        bool counts = event->kind == VIEW_BOUNDED && event->U_start <= U;
+        if (counts && zoom_covers(zoom, event->U_start))
+            longest = fmax(longest, event->reach - result_view_trailing_end(view));
+    }
+    return longest;
+}
+
+// From the trailing end to the farthest point that slip has come to since the sliding before, be it
+// slow or in a precursor, against the largest F_T/F_N since then.
 static bool find_lengths(ResultView *view, Error *err)
 {
     int64_t first = 0, end = 0;
@@ -67,26 +80,37 @@ static bool find_lengths(ResultView *view, Error *err)
         if (!isfinite(view->mu[row] + view->front[row])) continue;
         mu = fmax(mu, view->mu[row]);
         length = fmax(length, view->front[row] - result_view_trailing_end(view));
+        length = fmax(length, longest_until(view, &zoom, view->U[row]));
         curve_add(&view->precursors, mu, length);
     }
     return true;
 }
 
-bool computed_precursor(ResultView *view, const ViewEvent *event, double *mu, double *length,
-                        Error *err)
+bool computed_event(const ResultView *view, const ViewEvent *event, double *mu, double *length)
 {
-    int64_t first = 0, end = 0;
+    int64_t before = 0, last = 0;
     Zoom zoom = zoom_choose(view);
-    *mu = -INFINITY;
-    *length = 0;
-    if (event->kind != VIEW_BOUNDED || !result_view_read_front(view, err)) return false;
-    cycle_rows(view, &zoom, &first, &end);
-    for (int64_t row = first; row < end && view->U[row] <= event->U_stop; ++row) {
-        if (view->U[row] <= event->U_start) *mu = fmax(*mu, view->mu[row]);
-        if (view->U[row] >= event->U_start)
-            *length = fmax(*length, view->front[row] - result_view_trailing_end(view));
-    }
+    bool sliding = event->kind == VIEW_LEADING;
+    if (!(sliding || event->kind == VIEW_BOUNDED)) return false;
+    if (!isfinite(event->U_start + event->U_stop) || !zoom_covers(&zoom, event->U_start))
+        return false;
+    result_view_event_rows(view, event->U_start, event->U_stop, &before, &last);
+    *mu = view->mu[before];
+    *length = sliding ? view->number[NUMBER_LENGTH] : event->reach - result_view_trailing_end(view);
     return isfinite(*mu) && *length > 0;
+}
+
+bool computed_events(const ResultView *view, ViewEventKind kind, ViewCurve *events, Error *err)
+{
+    *events = (ViewCurve){0};
+    if (!curve_make(events, view->event_count, err)) return false;
+    for (int32_t k = 0; k < view->event_count; ++k) {
+        double mu = NAN, length = NAN;
+        if (view->events[k].kind == (int32_t)kind &&
+            computed_event(view, &view->events[k], &mu, &length))
+            curve_add(events, mu, length);
+    }
+    return true;
 }
 
 // --- speed over place ----------------------------------------------------------------------------
@@ -103,6 +127,12 @@ static double arrival(const ResultView *view, int32_t i, int64_t first, int64_t 
                        : view->t[row];
     }
     return NAN;
+}
+
+// Between two stations, length.
+static double station_step(const ResultView *view)
+{
+    return (view->x[view->nodes - 1] - view->x[0]) / (STATIONS - 1);
 }
 
 // At x; NaN in gaps between pads and where a neighbour was not reached.
@@ -130,12 +160,12 @@ static bool find_speeds(ResultView *view, double start, double stop, ViewCurve *
     result_view_event_rows(view, start, stop, &first, &last);
     for (int32_t i = 0; i < view->nodes; ++i)
         times[i] = arrival(view, i, first, last + 1, RAPID * V);
-    double low = view->x[0], step = (view->x[view->nodes - 1] - low) / (STATIONS - 1);
+    double low = view->x[0], step = station_step(view);
     for (int32_t k = 0; k + 1 < STATIONS; ++k) {
         double took = arrival_at(view, times, low + (k + 1) * step) -
                       arrival_at(view, times, low + k * step);
         if (step / fabs(took) < MOST_SHOWN * view->number[NUMBER_C_LONGITUDINAL])
-            curve_add(curve, low + (k + 0.5) * step, step / fabs(took));
+            curve_add(curve, low + (k + 0.5) * step, step / took);
     }
 cleanup:
     memory_free(times);
@@ -146,6 +176,25 @@ bool computed_front_speed(ResultView *view, const ViewEvent *event, ViewCurve *c
 {
     *curve = (ViewCurve){0};
     return find_speeds(view, event->U_start, event->U_stop, curve, err);
+}
+
+bool computed_speeds_join(const ResultView *view, const ViewCurve *curve, int64_t k)
+{
+    return curve->at[k + 1] - curve->at[k] < 1.5 * station_step(view) &&
+           curve->value[k] * curve->value[k + 1] > 0;
+}
+
+double computed_speed(const ResultView *view, const ViewCurve *curve, double x)
+{
+    for (int64_t k = 0; k + 1 < curve->count; ++k) {
+        double from = curve->at[k], to = curve->at[k + 1];
+        if (!(x >= from && x <= to) || !computed_speeds_join(view, curve, k)) continue;
+        double part = (x - from) / (to - from);
+        return fabs(curve->value[k] + part * (curve->value[k + 1] - curve->value[k]));
+    }
+    for (int64_t k = 0; k < curve->count; ++k)
+        if (fabs(curve->at[k] - x) <= 0.5 * station_step(view)) return fabs(curve->value[k]);
+    return NAN;
 }
 
 // That of the sliding of the cycle.

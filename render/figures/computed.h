@@ -13,8 +13,8 @@ typedef enum MeasuredKind {
     MEASURED_MU,   // F_T/F_N over U
     MEASURED_FRONT,   // how far slip has come, x, over U
     MEASURED_AREA,   // contact area over what it was at rest, over U and x: no curve
-    MEASURED_LENGTH,   // how long slip was when F_T/F_N first came so far, in the cycle of the zoom
-    MEASURED_SPEED,   // how fast the front of the sliding of the zoom ran, over x
+    MEASURED_LENGTH,   // how far slip had come when F_T/F_N first came so far, in the cycle of the zoom
+    MEASURED_SPEED,   // how fast the front of the sliding of the zoom ran over x; below 0: backwards
     MEASURED_PROBE,   // what probes saw, over U, several columns: no curve
     MEASURED_KINDS
 } MeasuredKind;
@@ -26,15 +26,24 @@ bool computed_curve(ResultView *view, MeasuredKind kind, ViewCurve *curve, Error
 // Another cycle is shown from now on (render/view/zoom); curves of the one before are forgotten.
 void computed_choose_cycle(ResultView *view, int32_t cycle);
 
-// Where a precursor stands in the curve of MEASURED_LENGTH: the largest F_T/F_N of the cycle up to
-// its start, and how long slip from the trailing end was in it at most. false: it is in another
+// Load and length of a precursor or sliding of the cycle that is shown: F_T/F_N in the step before
+// it, and how far slip came from the trailing end in it, L in a sliding. false: it is none of the
 // cycle, or slip did not come from the trailing end.
-bool computed_precursor(ResultView *view, const ViewEvent *event, double *mu, double *length,
-                        Error *err);
+bool computed_event(const ResultView *view, const ViewEvent *event, double *mu, double *length);
 
-// Speed of the front of a rapid event over x, as of MEASURED_SPEED. The arrays are the caller's,
-// also after a failure; there may be no points.
+// Lengths over loads of all events of that kind, in order of their starts; the arrays are the
+// caller's, also after a failure.
+bool computed_events(const ResultView *view, ViewEventKind kind, ViewCurve *events, Error *err);
+
+// Speed of the front of a rapid event over x, as of MEASURED_SPEED; below 0 where it ran towards the
+// trailing end. The arrays are the caller's, also after a failure; there may be no points.
 bool computed_front_speed(ResultView *view, const ViewEvent *event, ViewCurve *curve, Error *err);
+
+// Whether points k and k + 1 of such a curve are neighbours, and the front ran the same way in both.
+bool computed_speeds_join(const ResultView *view, const ViewCurve *curve, int64_t k);
+// Size of the speed at x: linear between points that join, else that of the point whose interval it
+// lies in; NaN: there is none.
+double computed_speed(const ResultView *view, const ViewCurve *curve, double x);
 
 // Reads view->area: the law's own measure, which the history holds, else the contact density.
 // ERROR_INPUT: there is neither.

@@ -1,77 +1,107 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// How long slip is over the load ratio, as experiments show it; and each rapid precursor at the
-// load at which it began, with the length that slip from the trailing end had in it: on the curve,
-// or below it where slip had come farther before.
+// Lengths of precursors over the load ratio, as experiments show them: each at the load at which it
+// began, with how far slip came from the trailing end in it. The curve is the farthest that slip
+// had come by then, slow slip included.
+#include "render/figures/cycle_colors.h"
 #include "render/figures/figures.h"
 
 #include "render/view/zoom.h"
 
 #include <math.h>
 
+enum { ENTRIES = 6 + CYCLE_KEYS };
+
 static const double RIGHT_MARGIN = 10;   // points: half a number, and the name l_c
 static const double HEADROOM = 1.02;   // of the load ratio
 
-// Each bounded precursor of the cycle; returns how many. page: NULL: they are counted.
-static int32_t precursors_draw(const Page *page, ResultView *view, const Axes *axes)
+// What the cycles hold that are shown.
+typedef struct Extent {
+    double top;   // the largest load ratio
+    int32_t precursors, slidings;
+} Extent;
+
+// Discs are precursors, rings slidings, of the cycle that is chosen. page NULL: they are counted.
+static void events_draw(const Page *page, const ResultView *view, const Axes *axes, Color color,
+                        Extent *extent)
 {
-    int32_t count = 0;
-    Zoom zoom = zoom_choose(view);
     for (int32_t k = 0; k < view->event_count; ++k) {
-        const ViewEvent *event = &view->events[k];
         double mu = NAN, length = NAN;
-        Error ignored = {0};   // the curve has read the front
-        bool inside = event->U_start >= zoom.U_start && event->U_start < zoom.U_slide;
-        if (!inside || !computed_precursor(view, event, &mu, &length, &ignored)) continue;
-        ++count;
-        if (page)
-            draw_disc(page->canvas, INK, axes_place(axes, mu, length), KEY_RADIUS * page->point);
+        bool sliding = view->events[k].kind == VIEW_LEADING;
+        if (!computed_event(view, &view->events[k], &mu, &length)) continue;
+        extent->top = fmax(extent->top, mu);
+        *(sliding ? &extent->slidings : &extent->precursors) += 1;
+        if (!page) continue;
+        Point at = axes_place(axes, mu, length);
+        draw_disc(page->canvas, color, at, KEY_RADIUS * page->point);
+        if (sliding) draw_disc(page->canvas, PAPER, at, 0.6 * KEY_RADIUS * page->point);
     }
-    return count;
 }
 
-static void key_of(Page *page, ResultView *view, int32_t precursors, const Measured *measured)
-{
-    KeyEntry entries[4] = {{KEY_LINE, FIGURE_CURVE, "farthest slip so far"},
-                           {KEY_DISC, INK, "rapid precursor"}};
-    int32_t count = 1 + (precursors > 0);
-    Zoom zoom = zoom_choose(view);
-    if (zoom.words[0]) entries[count++] = (KeyEntry){.words = zoom.words};
-    key_draw(page, entries, measured_key(measured, KEY_DISC, entries, count));
-}
-
-// The largest load ratio of the cycles, and how many rapid precursors they have.
-static bool find_extent(ResultView *view, double *top, int32_t *precursors, Error *err)
+static bool find_extent(ResultView *view, Extent *extent, Error *err)
 {
     int32_t asked = view->cycle, first = 0, last = 0;
     ViewCurve curve;
-    *top = 0;
-    *precursors = 0;
     zoom_cycles(view, &first, &last);
     for (int32_t k = first; k <= last; ++k) {
         computed_choose_cycle(view, k);
         if (!computed_curve(view, MEASURED_LENGTH, &curve, err)) break;
-        if (curve.count > 0) *top = fmax(*top, curve.at[curve.count - 1]);
-        *precursors += precursors_draw(NULL, view, NULL);
+        if (curve.count > 0) extent->top = fmax(extent->top, curve.at[curve.count - 1]);
+        events_draw(NULL, view, NULL, INK, extent);
     }
     computed_choose_cycle(view, asked);
     return error_is_clean(err);
 }
 
-// Their curves and precursors.
+static void key_of(Page *page, const ResultView *view, const Extent *extent,
+                   const Measured *measured)
+{
+    KeyEntry entries[ENTRIES] = {{KEY_LINE, FIGURE_CURVE, "farthest slip so far"}};
+    CycleWords words;
+    int32_t count = 1, first = 0, last = 0;
+    Zoom zoom = zoom_choose(view);
+    zoom_cycles(view, &first, &last);
+    if (extent->precursors > 0)
+        entries[count++] = (KeyEntry){KEY_DISC, INK, "length of a rapid precursor"};
+    if (extent->slidings > 0)
+        entries[count++] = (KeyEntry){KEY_RING, INK, last > first ? "slidings" : "sliding"};
+    if (last > first)
+        count = cycle_key(last, words, entries, count);
+    else if (zoom.words[0])
+        entries[count++] = (KeyEntry){.words = zoom.words};
+    count = measured_key(measured, KEY_DISC, entries, count);
+    if (measured->matched)
+        entries[count++] = (KeyEntry){KEY_LINE, FIGURE_LEVEL, "to the precursor nearest in load"};
+    key_draw(page, entries, count);
+}
+
 static bool cycles_draw(const Page *page, ResultView *view, const Axes *axes, Error *err)
 {
     int32_t asked = view->cycle, first = 0, last = 0;
-    Stroke stroke = {.color = FIGURE_CURVE, .width = CURVE_WIDTH * page->point};
     ViewCurve curve;
     zoom_cycles(view, &first, &last);
     for (int32_t k = first; k <= last; ++k) {
+        Color color = last > first ? cycle_color(k, last) : FIGURE_CURVE;
+        Stroke stroke = {.color = color, .width = CURVE_WIDTH * page->point};
         computed_choose_cycle(view, k);
         if (!computed_curve(view, MEASURED_LENGTH, &curve, err)) break;
         axes_curve(page, axes, &stroke, curve.at, curve.value, curve.count);
-        precursors_draw(page, view, axes);
+        events_draw(page, view, axes, last > first ? color : INK, &(Extent){0});
     }
     computed_choose_cycle(view, asked);
     return error_is_clean(err);
+}
+
+// A line from each measured length to the event that it stands beside.
+static void matches_draw(const Page *page, const Axes *axes, const Measured *measured)
+{
+    Stroke stroke = {.color = FIGURE_LEVEL, .width = 0.5 * page->point};
+    canvas_clip(page->canvas, &axes->box);
+    for (int32_t k = 0; k < measured->count && measured->matched; ++k)
+        if (isfinite(measured->computed[k]))
+            draw_segment(page->canvas, &stroke,
+                         axes_place(axes, measured->at[k], measured->value[k]),
+                         axes_place(axes, measured->x[k], measured->computed[k]));
+    canvas_clip(page->canvas, NULL);
 }
 
 static Axes axes_layout(const Page *page, const ResultView *view, double top,
@@ -92,17 +122,18 @@ bool figure_precursors(const Page *whole, ResultView *view, Error *err)
 {
     Page page = *whole;
     Measured measured = {0};
-    int32_t precursors = 0;
-    double critical = view->number[NUMBER_L_C], top = 0;
+    Extent extent = {0};
+    double critical = view->number[NUMBER_L_C];
     Stroke dashed = dashed_stroke(&page, INK, 0.5);
     if (!(view->number[NUMBER_LENGTH] > 0))
         return REFUSE(err, "the result does not say how long the block is");
-    if (!find_extent(view, &top, &precursors, err)) return false;
+    if (!find_extent(view, &extent, err)) return false;
     if (!measured_read(page.style.compare, MEASURED_LENGTH, view, &measured, err)) return false;
-    key_of(&page, view, precursors, &measured);
-    Axes axes = axes_layout(&page, view, top, &measured);
+    key_of(&page, view, &extent, &measured);
+    Axes axes = axes_layout(&page, view, extent.top, &measured);
     if (isfinite(critical)) axes_level(&page, &axes, &dashed, critical, 1.6, "~{l}_{c}");
     if (cycles_draw(&page, view, &axes, err)) {
+        matches_draw(&page, &axes, &measured);
         measured_draw(&page, &measured, &axes);
         axes_draw(&page, &axes);
     }

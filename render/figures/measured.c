@@ -2,17 +2,20 @@
 #include "render/figures/measured.h"
 
 #include "base/memory.h"
+#include "base/order.h"
 #include "base/units.h"
 #include "io/text/csv_reader.h"
 #include "render/figures/stack.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { NAME_SIZE = 32, MARKS_FEW = 40 };
 
 static const double MARK_SMALL = 0.45;   // of the radius of one among few
+static const double WHOLE_CONTACT = 0.995;   // of L: a length of slip that is a sliding
 
 static const Color MEASURED_COLOR = {0.80f, 0.36f, 0.00f, 1};
 
@@ -279,6 +282,20 @@ static bool take_probes(const CsvTable *table, const Columns *found, const Resul
     return true;
 }
 
+// A column `event` says what a row belongs to, as in figures/precursors.csv and front-speed.csv.
+// Speeds of precursors stand beside no sliding; the farthest slip so far stands beside no event,
+// where the table has events.
+static bool shows_event(const CsvTable *table, int32_t row, MeasuredKind kind)
+{
+    int32_t column = csv_column(table, "event");
+    const char *event = csv_cell(table, row, column);
+    if (kind == MEASURED_SPEED) return !*event || strcmp(event, MEASURED_SLIDING) == 0;
+    if (kind != MEASURED_LENGTH || strcmp(event, MEASURED_FARTHEST) != 0) return true;
+    for (int32_t k = 0; k < table->rows; ++k)
+        if (strcmp(csv_cell(table, k, column), MEASURED_FARTHEST) != 0) return false;
+    return true;
+}
+
 static bool take_rows(const CsvTable *table, const Columns *found, const ResultView *view,
                       Measured *measured, Error *err)
 {
@@ -295,10 +312,12 @@ static bool take_rows(const CsvTable *table, const Columns *found, const ResultV
         if (is_time) measured->at[k] = curve_value(&way, measured->at[k]);
         measured->x[k] = read_cell(table, row, &found->x);
         measured->value[k] = read_cell(table, row, &value);
+        if (measured->kind == MEASURED_SPEED) measured->value[k] = fabs(measured->value[k]);
         measured->error[k] = read_cell(table, row, &error);
         measured->computed[k] = NAN;
         bool placed = measured->kind != MEASURED_AREA || isfinite(measured->x[k]);
-        if (isfinite(measured->at[k] + measured->value[k]) && placed) ++measured->count;
+        bool shown = shows_event(table, row, measured->kind);
+        if (isfinite(measured->at[k] + measured->value[k]) && placed && shown) ++measured->count;
     }
     return true;
 }
@@ -368,6 +387,47 @@ static void describe(Measured *measured, const ResultView *view)
                  sqrt(parts / count));
 }
 
+// How far the loads of neighbouring events lie apart at most; infinite: there is one.
+static bool widest_gap(const ViewCurve *events, double *gap, Error *err)
+{
+    double *loads = NEW_ARRAY(double, events->count, err);
+    *gap = events->count > 1 ? 0 : INFINITY;
+    if (!loads) return false;
+    for (int64_t k = 0; k < events->count; ++k) loads[k] = events->at[k];
+    qsort(loads, (size_t)events->count, sizeof *loads, order_doubles);
+    for (int64_t k = 0; k + 1 < events->count; ++k) *gap = fmax(*gap, loads[k + 1] - loads[k]);
+    memory_free(loads);
+    return true;
+}
+
+// Beside each measured length that of the precursor whose load is nearest, whose load becomes `x`;
+// no farther from it than neighbouring precursors are apart. What slipped over the whole contact is
+// a sliding, and stands beside one. Without precursors nothing is done.
+static bool match_events(Measured *measured, ResultView *view, Error *err)
+{
+    ViewCurve precursors = {0}, slidings = {0};
+    double gap = 0;
+    TRY(computed_events(view, VIEW_BOUNDED, &precursors, err));
+    TRY(computed_events(view, VIEW_LEADING, &slidings, err));
+    TRY(widest_gap(&precursors, &gap, err));
+    measured->matched = precursors.count > 0;
+    for (int32_t k = 0; k < measured->count && measured->matched; ++k) {
+        bool whole = measured->value[k] >= WHOLE_CONTACT * view->number[NUMBER_LENGTH];
+        const ViewCurve *events = whole ? &slidings : &precursors;
+        double nearest = whole ? INFINITY : nextafter(gap, INFINITY);
+        for (int64_t i = 0; i < events->count; ++i) {
+            double away = fabs(events->at[i] - measured->at[k]);
+            if (!(away < nearest)) continue;
+            nearest = away;
+            measured->x[k] = events->at[i];
+            measured->computed[k] = events->value[i];
+        }
+    }
+cleanup:
+    memory_free_all(precursors.at, precursors.value, slidings.at, slidings.value);
+    return error_is_clean(err);
+}
+
 // Of each measurement what its probe saw then, linear between steps.
 static bool compute_probes(Measured *measured, ResultView *view, Error *err)
 {
@@ -399,10 +459,15 @@ static bool compare(Measured *measured, ResultView *view, Error *err)
     bool area = measured->kind == MEASURED_AREA;
     if (area && !(computed_area_read(view, err) && result_view_read_status(view, err)))
         return false;
+    if (measured->kind == MEASURED_LENGTH && !match_events(measured, view, err)) return false;
     if (!computed_curve(view, measured->kind, &curve, err)) return false;
-    for (int32_t k = 0; k < measured->count; ++k)
-        measured->computed[k] = area ? computed_area(view, measured->at[k], measured->x[k])
-                                     : curve_value(&curve, measured->at[k]);
+    for (int32_t k = 0; k < measured->count && !measured->matched; ++k) {
+        double at = measured->at[k];
+        measured->computed[k] = area ? computed_area(view, at, measured->x[k])
+                                : measured->kind == MEASURED_SPEED
+                                    ? computed_speed(view, &curve, at)
+                                    : curve_value(&curve, at);
+    }
     describe(measured, view);
     return true;
 }

@@ -25,17 +25,24 @@
 
 enum { MEASURED_WORDS_SIZE = 200 };
 
+// Words of the column `event`.
+#define MEASURED_PRECURSOR "precursor"
+#define MEASURED_SLIDING "sliding"
+#define MEASURED_FARTHEST "farthest so far"
+
 typedef struct Measured {
     MeasuredKind kind;
     const char *path;   // borrowed
     int32_t count;
     double *at;   // [count] U; of MEASURED_LENGTH F_T/F_N, of MEASURED_SPEED x; owned, as the rest
-    double *x;   // [count] of MEASURED_AREA; of MEASURED_PROBE which column: the number of the
+    double *x;   // [count] of MEASURED_AREA; of MEASURED_LENGTH the load of the event beside which
+        // it stands; of MEASURED_PROBE which column: the number of the
         // probe times PROBE_COMPONENTS_MAX, plus that of the component
     ProbeQuantity quantity;   // of MEASURED_PROBE
     double *value;   // [count] 1, length or velocity
     double *error;   // [count] NaN: not given
     double *computed;   // [count] NaN: not covered
+    bool matched;   // lengths stand beside events, those nearest in load; else beside the curve
     int32_t compared;   // points that the result covers
     double misfit, in_errors;   // as below; NaN: not known
     char words[MEASURED_WORDS_SIZE];   // for a legend: the file's name and the misfit

@@ -177,6 +177,11 @@ Zoom zoom_choose(const ResultView *view)
     return zoom;
 }
 
+bool zoom_covers(const Zoom *zoom, double U)
+{
+    return !zoom->found || (U >= zoom->U_start && U <= zoom->U_slide);
+}
+
 void zoom_cycles(const ResultView *view, int32_t *first, int32_t *last)
 {
     int32_t slidings = zoom_slidings(view);

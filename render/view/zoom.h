@@ -28,6 +28,10 @@ typedef struct Zoom {
 // Without tables (a run that did not end) the last large drop of mu.
 Zoom zoom_choose(const ResultView *view);
 
+// Whether an event that began when the rod was at U belongs to the cycle, its sliding included; all
+// do where no sliding bounds it.
+bool zoom_covers(const Zoom *zoom, double U);
+
 // Slidings of the whole block: as many cycles have ended.
 int32_t zoom_slidings(const ResultView *view);
 

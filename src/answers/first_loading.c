@@ -103,7 +103,7 @@ void first_loading_write_json(const FirstLoading *first, const LaterCycles *late
     for (int32_t k = 0; k < sliding; k++) {
         const Event *event = &events->list[k];
         if (event->kind != EVENT_BOUNDED) continue;
-        json_object_of(json, NULL, {"U", event->U_start},
+        json_object_of(json, NULL, {"U", event->U_start}, {"mu", event->mu_start},
                        {"length_over_L", precursor_length(events, event) / length},
                        {"slipped_over_A", event->slipped / events->size},
                        {"peak_slip_rate", event->peak_slip_rate});

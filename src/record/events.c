@@ -53,6 +53,7 @@ bool events_create(const Interface *interface, double rate_scale, Events *events
                        .in_space = interface->dim > 2,
                        .rapid = -1,
                        .slow = -1,
+                       .mu_before = NAN,
                        .front_before = interface_line_x(interface, 0),
                        .room = FIRST_ROOM};
     events->list = NEW_ARRAY(Event, FIRST_ROOM, err);
@@ -85,6 +86,7 @@ static bool start_event(Events *events, EventKind kind, const Observation *seen,
     events->list[*index] = (Event){.kind = kind,
                                    .U_start = seen->U,
                                    .t_start = seen->t,
+                                   .mu_start = events->mu_before,
                                    .front_start = events->front_before,
                                    .front_slips = events->front_slips_before,
                                    .reach = seen->front,
@@ -166,18 +168,42 @@ static double pad_reach(const Events *events, const Interface *interface, int32_
     return reach;
 }
 
-// The farthest that a pad has slipped of those that take part: some node of theirs was fast. A node
-// or two at the ends of the other pads creep.
+// Some node of pad p was fast in the event. A node or two at the ends of the other pads creep.
+static bool takes_part(const Events *events, const Interface *interface, int32_t p)
+{
+    for (int32_t i = 0; i < interface->contact_count; i++)
+        if (interface->pad[i] == p && !isnan(events->path.arrival[i])) return true;
+    return false;
+}
+
+// The farthest that a pad has slipped of those that take part.
 static double farthest_reach(const Events *events, const Interface *interface)
 {
     double farthest = interface_line_x(interface, 0);
-    for (int32_t p = 0; p < interface->pad_count; p++) {
-        bool takes_part = false;
-        for (int32_t i = 0; i < interface->contact_count && !takes_part; i++)
-            takes_part = interface->pad[i] == p && !isnan(events->path.arrival[i]);
-        if (takes_part) farthest = fmax(farthest, pad_reach(events, interface, p));
-    }
+    for (int32_t p = 0; p < interface->pad_count; p++)
+        if (takes_part(events, interface, p))
+            farthest = fmax(farthest, pad_reach(events, interface, p));
     return farthest;
+}
+
+// Part of the line of the contact that has slipped without a gap from the trailing ends of the pads
+// that take part; 1: none of these is on the line.
+static double part_from_ends(const Events *events, const Interface *interface)
+{
+    double from_ends = 0, all = 0;
+    bool on_line = false;
+    for (int32_t p = 0; p < interface->pad_count; p++) {
+        bool part = takes_part(events, interface, p), slips = part;
+        for (int32_t k = 0; k < interface_line_count(interface); k++) {
+            int32_t i = interface_line_node(interface, k);
+            if (interface->pad[i] != p) continue;
+            on_line = on_line || part;
+            slips = slips && events->slipped[i];
+            if (slips) from_ends += interface->weight[i];
+            all += interface->weight[i];
+        }
+    }
+    return on_line ? from_ends / all : 1;
 }
 
 // The farthest node of a pad that slips fast.
@@ -244,7 +270,9 @@ static void follow_front(Events *events, const Observation *seen)
     events->fast_reach = reach;
 }
 
-// Slip was rapid over LEAST_RAPID of the contact by now, or a pad has slid over all its length.
+// Slip was rapid over LEAST_RAPID of the contact by now, and has run as far from the trailing end of
+// the block or of a pad; or a pad has slid over all its length. What rings behind a precursor, about
+// the place where that stopped, is not connected with a trailing end.
 static bool is_wide(const Events *events, const Interface *interface)
 {
     double rapid = 0;
@@ -253,7 +281,8 @@ static bool is_wide(const Events *events, const Interface *interface)
         if (!isnan(events->path.arrival[i])) rapid += interface->weight[i];
     for (int32_t p = 0; interface->pad_count > 1 && p < interface->pad_count; p++)
         pad_slid = pad_slid || events_pad_slid(events, interface, p);
-    return rapid >= LEAST_RAPID * events->size || pad_slid;
+    bool wide = rapid >= LEAST_RAPID * events->size;
+    return pad_slid || (wide && part_from_ends(events, interface) >= LEAST_RAPID);
 }
 
 static void raise_kind(Events *events, Event *event, EventKind kind)
@@ -323,6 +352,7 @@ bool events_record(void *self, const Observation *seen, Error *err)
     bool followed = follow_step(events, seen, err);
     events->trailing = seen->trailing;
     events->front_before = seen->front;
+    events->mu_before = seen->mu;
     events->front_slips_before = seen->front_slips;
     front_path_keep(&events->path, seen);
     return followed;
@@ -352,8 +382,8 @@ static void event_archive(Event *event, int32_t pad_count, Archive *archive)
     archive_index(archive, &kind, EVENT_QUASI_STATIC, EVENT_KIND_COUNT);
     event->kind = (EventKind)kind;
     archive_numbers_of(archive, &event->U_start, &event->U_stop, &event->t_start, &event->t_stop,
-                       &event->front_start, &event->reach, &event->slipped, &event->peak_slip_rate,
-                       &event->front_speed, &event->area_front_speed);
+                       &event->mu_start, &event->front_start, &event->reach, &event->slipped,
+                       &event->peak_slip_rate, &event->front_speed, &event->area_front_speed);
     archive_flag(archive, &event->front_slips);
     archive_index(archive, &event->pad, -1, pad_count);
     archive_numbers_of(archive, &event->slip_length, &event->slip_cells, &event->slip_before);
@@ -372,7 +402,7 @@ bool events_archive(Events *events, const Interface *interface, Archive *archive
     archive_indices(archive, events->kinds, EVENT_KIND_COUNT, 0, events->count + 1);
     archive_index(archive, &events->rapid, -1, events->count);
     archive_index(archive, &events->slow, -1, events->count);
-    archive_numbers_of(archive, &events->trailing, &events->front_before);
+    archive_numbers_of(archive, &events->trailing, &events->front_before, &events->mu_before);
     archive_flag(archive, &events->front_slips_before);
     archive_flag(archive, &events->began);
     archive_flag(archive, &events->ended);

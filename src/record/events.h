@@ -3,8 +3,9 @@
 // or below; a rapid event begins when some contact node slips faster than `rate_start` and ends
 // when all are below `rate_stop`. It is leading when it carried the whole interface (every node
 // slipped from the trailing to the leading edge). Otherwise it is bounded, and counts as a
-// precursor, if it came to `rate_counts` and was rapid over LEAST_RAPID of the contact or slid a
-// whole pad; if not, it is slight: slow slip that rings, or a node or two that jump. Between
+// precursor, if it came to `rate_counts`, was rapid over LEAST_RAPID of the contact and ran as far
+// from the trailing end of the block or of a pad, or slid a whole pad; if not, it is slight: slow
+// slip or after-slip that rings, or a node or two that jump. Between
 // slidings the slow growth of the front is one quasi-static event. Read by record/drops,
 // record/pads, record/fields and run/report.
 #ifndef AMONTONS_RECORD_EVENTS_H
@@ -31,6 +32,7 @@ typedef struct Event {
     EventKind kind;
     double U_start, U_stop;   // length
     double t_start, t_stop;   // time
+    double mu_start;   // F_T/F_N in the step before it began; NaN: in the first step of all
     double front_start;   // front when it began, length
     bool front_slips;   // some node up to it slipped then (record/observation)
     double reach;   // slow: the farthest front; rapid: largest x up to which a pad that took part
@@ -62,6 +64,7 @@ typedef struct Events {
     int32_t slow;   // index of the quasi-static event under way; -1: none
     double trailing;   // x of the block's trailing end, length
     double front_before;   // front in the step seen before, length
+    double mu_before;   // F_T/F_N in it; NaN: none was
     bool front_slips_before;   // some node up to it slipped
     bool began, ended, crossed;   // of a rapid event, in the step seen last; crossed: it became
         // leading in this step
@@ -77,8 +80,8 @@ typedef struct Events {
     PadSum *pads, *pads_before;   // [pad_count] of the step seen last, and before it; owned
 } Events;
 
-// Part of the contact over which slip is rapid at least in an event that counts as a bounded
-// precursor.
+// Part of the contact over which slip is rapid at least, and runs from a trailing end, in an event
+// that counts as a bounded precursor.
 extern const double LEAST_RAPID;
 
 const char *event_name(EventKind kind);   // static storage

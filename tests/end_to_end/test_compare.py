@@ -107,21 +107,53 @@ class Compared(unittest.TestCase):
     def test_lengths_over_the_load_ratio(self):
         """The farthest that slip had come, and the largest load, since the sliding before the last that counts."""
         call(self.folder, "render", "out", "--figure", "precursors")
-        curve = table(self.folder / "out/figures/precursors.csv")
+        curve = self.farthest()
         ratios = np.array([0.2, 0.25, 0.29])
         theirs = np.interp(ratios, curve["F_T/F_N"], curve["l/L"])
         away = [np.abs(theirs - self.reached(before["U_stop"], after["U_start"], ratios)).max()
                 for before, after in zip(self.slide, self.slide[1:])]
         self.assertLess(min(away), 1.1 / 40, "to an element, in one of the cycles")
         self.assertTrue((np.diff(curve["l/L"]) >= 0).all() and (np.diff(curve["F_T/F_N"]) >= 0).all())
-        found, said = self.compare("precursors", "F_T/F_N,l/L,error\n0.2,0.5,0.1\n0.25,0.6,0.1\n")
+
+    def test_lengths_beside_precursors(self):
+        """A measured precursor stands beside the computed one nearest in load; one over the whole contact beside a sliding; one
+        farther from all than they are apart beside none. A run beside itself has no misfit."""
+        call(self.folder, "render", "out", "--figure", "precursors", "--cycle", "all")
+        stored = self.folder / "out/figures/precursors.csv"
+        rows = self.rows(stored)
+        loads, lengths = (np.array([float(row[name]) for row in rows if row["event"] == "precursor"]) for name in ("F_T/F_N", "l/L"))
+        self.assertGreater(len(loads), 2)
+        counted = [event for event in self.events if event["kind"] == "bounded rapid"]
+        np.testing.assert_allclose(lengths, [event["reach"] for event in counted], rtol=1e-8)
+        np.testing.assert_allclose(loads, [self.mu[np.searchsorted(self.U, event["U_start"]) - 1] for event in counted], rtol=1e-8)
+        gap = np.diff(np.sort(loads)).max()
+        measured = [(loads[0] + 1e-5, 0.5), (loads.max() + 0.9 * gap, 0.6), (loads.min() - 1.1 * gap, 0.1), (0.3, 1)]
+        found, said = self.compare("precursors", "F_T/F_N,l/L,error\n" + "".join(f"{a},{b},0.1\n" for a, b in measured), "--cycle", "all")
+        np.testing.assert_allclose(found["computed"], [lengths[0], lengths[np.argmax(loads)], np.nan, 1], rtol=1e-8)
+        np.testing.assert_allclose(found["computed F_T/F_N"][:2], [loads[0], loads.max()], rtol=1e-8)
         self.expect_misfit(said, misfit(found["l"], found["computed"]), misfit(found["l"], found["computed"], 0.1))
-        np.testing.assert_allclose(found["computed"], np.interp([0.2, 0.25], curve["F_T/F_N"], curve["l/L"]), atol=1e-6)
+        found, said = self.compare("precursors", stored.read_text(), "--cycle", "all")
+        self.assertEqual(len(found["l"]), len([row for row in rows if row["event"] != "farthest so far"]))
+        self.assertIn("misfit", said)
+        self.assertLess(misfit(found["l"], found["computed"]), 1e-6)
+
+    def rows(self, path):
+        with open(path, newline="") as file:
+            return list(csv.DictReader(file))
+
+    def farthest(self):
+        """Of the table of lengths: what is no event."""
+        rows = [row for row in self.rows(self.folder / "out/figures/precursors.csv") if row["event"] == "farthest so far"]
+        return {name: np.array([float(row[name]) for row in rows]) for name in ("F_T/F_N", "l/L", "cycle")}
 
     def reached(self, low, high, ratios):
         inside = np.flatnonzero((self.U >= low) & (self.U <= high))
         inside = inside[inside >= inside[np.argmin(self.front[inside])]]
-        load, length = (np.maximum.accumulate(values[inside]) for values in (self.mu, self.front))
+        front = self.front.copy()
+        for event in self.events:
+            if event["kind"] == "bounded rapid" and low <= event["U_start"] <= high:
+                front[self.U >= event["U_start"]] = np.maximum(front[self.U >= event["U_start"]], event["reach"])
+        load, length = (np.maximum.accumulate(values[inside]) for values in (self.mu, front))
         return length[np.minimum(np.searchsorted(load, ratios), len(length) - 1)]   # the first row at or beyond each
 
     def test_areas(self):
@@ -155,7 +187,9 @@ class Compared(unittest.TestCase):
     def test_front_speeds(self):
         """The times at which the front came to each station stand in run.json, found while the run went on."""
         call(self.folder, "render", "out", "--figure", "front-speed")
-        curve = table(self.folder / "out/figures/front-speed.csv")
+        rows = self.rows(self.folder / "out/figures/front-speed.csv")
+        sliding = [row["event"] == "sliding" for row in rows]
+        curve = {name: np.abs([float(row[name]) for row, kept in zip(rows, sliding) if kept]) for name in ("x/L", "v/c_R")}
         best = min(self.slide, key=lambda event: self.away(event, curve))
         self.assertLess(self.away(best, curve), 0.02)
         (self.folder / "measured.csv").write_text("")
@@ -163,6 +197,24 @@ class Compared(unittest.TestCase):
         np.testing.assert_allclose(found["computed"], np.interp(0.7, curve["x/L"], curve["v/c_R"]) * self.c_R, rtol=1e-6)
         self.expect_misfit(said, abs(1 - found["computed"][0] / self.c_R))
         self.assertIn("R", said)
+        found, _ = self.compare("front-speed", (self.folder / "out/figures/front-speed.csv").read_text())
+        self.assertEqual(len(found["v"]), sum(sliding), "precursors stand beside no sliding")
+        np.testing.assert_allclose(found["computed"], found["v"], rtol=1e-6)
+
+    def test_front_speeds_of_all_events(self):
+        """Each event by its cycle, kind and U; speeds below 0 ran towards the trailing end."""
+        call(self.folder, "render", "out", "--figure", "front-speed", "--cycle", "all")
+        rows = self.rows(self.folder / "out/figures/front-speed.csv")
+        counted = {event["U_start"]: event for event in self.events if event["kind"] in ("bounded rapid", "leading rapid")}
+        starts = sorted(counted)
+        self.assertTrue(rows and {row["event"] for row in rows} == {"precursor", "sliding"})
+        for row in rows:
+            start = min(starts, key=lambda U: abs(U - float(row["U"])))
+            event, cycle = counted[start], 1 + sum(slide["U_start"] < start for slide in self.slide)
+            self.assertEqual((row["event"], int(row["cycle"])), ({"bounded rapid": "precursor"}.get(event["kind"], "sliding"), cycle))
+            of_run = event["front_speeds"][round((float(row["x/L"]) - 0.025) / 0.05)]
+            if of_run is not None and abs(of_run) < self.c_R:
+                self.assertGreater(float(row["v/c_R"]) * of_run, 0)
 
     def test_events(self):
         """A row for each event that counts: load ratios beside it, and the work of friction in it, worked out once more."""
@@ -182,7 +234,7 @@ class Compared(unittest.TestCase):
             part = slice(first, last + 1)
             work = (weight * (shear[part][1:] + shear[part][:-1]) / 2 * np.diff(slip[part], axis=0)).sum()
             wanted = {"U": event["U_start"], "t": event["t_start"], "F_T/F_N before": self.mu[first], "F_T/F_N after": self.mu[last],
-                      "F_T before": load * self.mu[first], "reach": event["reach"], "largest slip rate": event["peak_slip_rate"],
+                      "F_T before": load * self.mu[first], "length": event["reach"], "front": self.front[first + 1:last + 1].max(), "largest slip rate": event["peak_slip_rate"],
                       "work of friction": work, "steps": last - first, "resolved": last - first >= 8}
             for name, value in wanted.items():
                 np.testing.assert_allclose(float(row[name]), value, rtol=1e-6, err_msg=name)
@@ -190,11 +242,11 @@ class Compared(unittest.TestCase):
     def test_cycles(self):
         """The precursors of the first loading, and of all cycles one behind the other."""
         call(self.folder, "render", "out", "--figure", "precursors", "--cycle", "first")
-        first = table(self.folder / "out/figures/precursors.csv")
+        first = self.farthest()
         self.assertEqual(set(first["cycle"]), {1})
         self.assertLess(abs(first["F_T/F_N"][-1] / self.mu[self.U <= self.slide[0]["U_start"]].max() - 1), 1e-6)
         call(self.folder, "render", "out", "--figure", "precursors", "--cycle", "all")
-        self.assertEqual(set(table(self.folder / "out/figures/precursors.csv")["cycle"]), set(range(1, len(self.slide) + 1)))
+        self.assertEqual(set(self.farthest()["cycle"]), set(range(1, len(self.slide) + 1)))
 
     def away(self, event, curve):
         times = np.array([np.nan if value is None else value for value in event["front_times"]])

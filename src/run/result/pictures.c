@@ -83,12 +83,14 @@ static bool tell_misfits(const char *folder, char *words, int32_t size, Error *e
     CsvTable table = {0};
     char path[AMONTONS_PATH_SIZE + 40];
     int32_t used = 0;
+    bool lengths = false;
     snprintf(path, sizeof path, "%s/figures/misfit.csv", folder);
     TRY(csv_read(path, &table, err));
     for (int32_t row = 0; row < table.rows && used < size; row++) {
         double covered = csv_value(&table, row, 2), errors = csv_value(&table, row, 5);
         const char *over = csv_cell(&table, row, 4);
         char misfit[80] = "there is none", in_errors[60] = "";
+        lengths = lengths || strcmp(csv_cell(&table, row, 0), "precursors") == 0;
         if (covered > 0)
             snprintf(misfit, sizeof misfit, "%.3g%s%s", csv_value(&table, row, 3), *over ? " " : "",
                      over);
@@ -98,10 +100,13 @@ static bool tell_misfits(const char *folder, char *words, int32_t size, Error *e
                          in_errors, csv_cell(&table, row, 2), csv_cell(&table, row, 1));
     }
     if (used < size)
-        snprintf(
+        used += snprintf(
             words + used, (size_t)(size - used),
             "  misfit: root of the mean square of measured less computed, over the points that "
             "the result covers\n");
+    if (lengths && used < size)
+        snprintf(words + used, (size_t)(size - used),
+                 "          a measured precursor stands beside the computed one nearest in load\n");
 cleanup:
     csv_destroy(&table);
     return error_is_clean(err);

@@ -306,6 +306,40 @@ TEST_BETWEEN(test_slight, setup, teardown)
     assert_int_equal(events.kinds[EVENT_BOUNDED], 1);
 }
 
+// Slip that rings about the place where a precursor stopped, or in the middle of the contact, does
+// not run from a trailing end: it has no length, and is no precursor.
+TEST_BETWEEN(test_after_slip, setup, teardown)
+{
+    see(1, 9, 9, 9, 0, 0);
+    see(2, 0, 0, 0, 0, 0);
+    expect_kinds(0, 1, 0);
+    see(3, 0, 0, 9, 9, 0);
+    see(4, 0, 0, 0, 0, 0);
+    assert_int_equal(events.kinds[EVENT_SLIGHT], 1);
+    assert_int_equal(events.kinds[EVENT_BOUNDED], 1);
+    expect_event(1, EVENT_SLIGHT, 3, 4, 0);
+    see(5, 9, 9, 9, 9, 0);
+    see(6, 0, 0, 0, 0, 0);
+    assert_int_equal(events.kinds[EVENT_BOUNDED], 2);
+    split(2);
+    see(7, 0, 0, 0, 9, 0);   // from the trailing end of a pad
+    see(8, 0, 0, 0, 0, 0);
+    assert_int_equal(events.kinds[EVENT_BOUNDED], 1);
+}
+
+// The load of an event is that of the step before it.
+TEST_BETWEEN(test_load, setup, teardown)
+{
+    see(1, 9, 0, 0, 0, 0);
+    see(2, 0, 0, 0, 0, 0);
+    assert_true(isnan(events.list[0].mu_start));
+    hand.seen.mu = 0.3;
+    see(3, 0, 0, 0, 0, 0);
+    hand.seen.mu = 0.2;
+    see(4, 9, 0, 0, 0, 0);
+    assert_near("load", events.list[1].mu_start, 0.3, 0);
+}
+
 // More events than there was room for at first; none is lost, none moves.
 TEST_BETWEEN(test_many, setup, teardown)
 {
