@@ -40,23 +40,23 @@ bool scene_number(const void *context, const char *name, double *value)
     return true;
 }
 
-// 15 digits: what is shown in messages and in tables is what is computed with.
-bool scene_formula_value(const SceneSetting *formula, const char *name, FormulaLookUp look_up,
-                         const void *context, YamlDocument **value, Error *err)
+bool scene_formula_number(const SceneSetting *formula, FormulaLookUp look_up, const void *context,
+                          char text[SCENE_NUMBER_SIZE], Error *err)
 {
-    char number[40];
     double result = 0;
     Error found = {0};
-    const char *text = yaml_text(formula->document, formula->node) + 1;
-    if (!formula_value(text, look_up, context, &result, &found))
+    const char *sum = yaml_text(formula->document, formula->node) + 1;
+    if (!formula_value(sum, look_up, context, &result, &found))
         return yaml_error(formula->document, formula->node, err, "%s: %s", formula->key,
                           found.message);
-    snprintf(number, sizeof number, "%.15g", result);
-    return yaml_scalar(name, number, value, err);
+    snprintf(text, SCENE_NUMBER_SIZE, "%.15g", result);
+    return true;
 }
 
 bool scene_work_out(const Scene *scene, const SceneSetting *formula, const char *name,
                     YamlDocument **value, Error *err)
 {
-    return scene_formula_value(formula, name, scene_number, scene, value, err);
+    char text[SCENE_NUMBER_SIZE];
+    return scene_formula_number(formula, scene_number, scene, text, err) &&
+           yaml_scalar(name, text, value, err);
 }

@@ -13,11 +13,13 @@ bool scene_is_formula(const YamlDocument *document, YamlNode node);
 // A FormulaLookUp over a scene: its numbers, and those of the mesh's parameters and of materials.
 bool scene_number(const void *scene, const char *name, double *value);
 
-// The value of a formula over the numbers that `look_up` gives, as a document of its own, called
-// `name` in errors. Owned by the caller.
-bool scene_formula_value(const SceneSetting *formula, const char *name, FormulaLookUp look_up,
-                         const void *context, YamlDocument **value, Error *err);
-// The same over `scene`.
+enum { SCENE_NUMBER_SIZE = 40 };   // of a number with 15 digits
+
+// The value of a formula over the numbers that `look_up` gives, written with 15 digits: what
+// messages and tables show is what is computed with.
+bool scene_formula_number(const SceneSetting *formula, FormulaLookUp look_up, const void *context,
+                          char text[SCENE_NUMBER_SIZE], Error *err);
+// The same over `scene`, as a document of its own, called `name` in errors. Owned by the caller.
 bool scene_work_out(const Scene *scene, const SceneSetting *formula, const char *name,
                     YamlDocument **value, Error *err);
 

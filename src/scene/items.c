@@ -3,7 +3,6 @@
 // are those of keys.
 #include "scene/items.h"
 
-#include "scene/formulas.h"
 #include "scene/states.h"
 
 #include <string.h>
@@ -52,6 +51,12 @@ static const ScenePart *find_part(const SceneItems *items, const char *word)
     for (const ScenePart *part = items->parts; part->word; part++)
         if (strcmp(part->word, word) == 0) return part;
     return NULL;
+}
+
+bool scene_part_has_numbers(const SceneItems *items, const char *word)
+{
+    const ScenePart *part = find_part(items, word);
+    return !part || scene_key_has_numbers(scene_part_key(items, part, 0, "").type);
 }
 
 // "load.tractions", or of items with names "materials.pads".
@@ -104,8 +109,6 @@ static bool set_word(const SceneKey *key, int32_t k, const SceneValue *value, Sc
     if (!part) return report_word(key, path, value, err);
     snprintf(name, sizeof name, "%s.%s", path, word);
     SceneKey own = scene_part_key(items, part, k, name);
-    if (items == &scene_material_items && scene_is_formula(value->document, value->node))
-        return true;   // worked out afterwards
     if (own.type == KEY_TEXT && !*yaml_text(value->document, value->node))
         return yaml_refuse(value->document, value->node, name, "a text", err);
     if (part->given) *(bool *)(item + part->given) = true;

@@ -18,6 +18,8 @@ const char *scene_item(const SceneItems *items, const Scene *scene, int32_t k);
 // The key of a part of item number k, called `name`: its place is in Scene.
 SceneKey scene_part_key(const SceneItems *items, const ScenePart *part, int32_t k,
                         const char *name);
+// Returns false for words that take texts, in which `=` means nothing.
+bool scene_part_has_numbers(const SceneItems *items, const char *word);
 bool scene_part_is_there(const SceneItems *items, const ScenePart *part, const Scene *scene,
                          int32_t k);
 

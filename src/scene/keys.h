@@ -85,6 +85,13 @@ struct SceneItems {
 extern const SceneItems scene_traction_items, scene_support_items, scene_contact_items,
     scene_state_items, scene_material_items, scene_probe_items;
 
+// Returns true for types in whose place or below it numbers, and so formulas, may stand.
+static inline bool scene_key_has_numbers(SceneKeyType type)
+{
+    return type == KEY_NUMBER || type == KEY_NUMBERS || type == KEY_PARAMETERS ||
+           type == KEY_ITEMS || type == KEY_BRANCHES;
+}
+
 static inline bool scene_key_may_lack(const SceneKey *key)
 {
     return !key->standard && !key->must_be_given;

@@ -3,8 +3,9 @@
 // checks. Settings are gathered first and stored after, because `units` must be known before any
 // number is.
 //
-// A value that is a formula (`= 6 * load.pressure`) is worked out when all plain values are stored,
-// each formula after those that it depends on.
+// A value that is a formula (`= 6 * load.pressure`), wherever a number may stand, is left out when
+// settings are stored first. Formulas are then worked out, each after those that it depends on,
+// what they give stands in for their texts, and all settings are stored again.
 //
 // A later setting wins, key by key; a map given whole (--set time.until={t: 3}) first gives its
 // keys their defaults back. `sources` remembers where each value stands, for errors of the checks.
@@ -24,7 +25,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { SETTINGS_MAX = 4 * SCENE_KEYS_MAX, KEY_NAME_SIZE = 96, FORMULAS_MAX = 64 };
+enum { SETTINGS_MAX = 4 * SCENE_KEYS_MAX, KEY_NAME_SIZE = 96, FORMULAS_MAX = 256 };
 
 typedef struct Setting {
     int32_t key;   // of scene_keys(); -1: give `group` its defaults back
@@ -32,12 +33,11 @@ typedef struct Setting {
     char group[KEY_NAME_SIZE];
 } Setting;
 
-// A key whose value is a formula over the others.
+// A formula over the others, in the place of a number.
 typedef struct FormulaSetting {
-    char name[KEY_NAME_SIZE];   // as after --set: "mesh.set.height"
+    char name[KEY_NAME_SIZE];   // as after --set: "mesh.set.height"; in a list "load.program.t.0"
     SceneValue value;
     int32_t before;   // settings that were gathered before it; later ones replace it
-    YamlDocument *result;   // its value, NULL: not worked out; owned
 } FormulaSetting;
 
 typedef struct Reader {
@@ -105,26 +105,38 @@ static bool add_formula(Reader *reader, const char *name, const SceneValue *valu
     return true;
 }
 
-// Formulas in the maps and lists of a key that has names of one's own, or branches, below it:
-// "mesh.set.height", "materials.pads.young", "material.relaxation.0.shear". What reads the map
-// leaves them out.
-static bool gather_formulas_below(Reader *reader, const char *name, const SceneValue *value,
-                                  Error *err)
+// Formulas in the value of a key, at whatever depth of its lists and maps: "load.pressure",
+// "materials.pads.young", "material.relaxation.0.shear", "load.tractions.1.x". Words of items that
+// take texts have none.
+static bool gather_formulas(Reader *reader, const SceneItems *items, const char *name,
+                            const SceneValue *value, Error *err)
 {
-    bool list = yaml_kind(value->document, value->node) == YAML_LIST;
+    YamlKind kind = yaml_kind(value->document, value->node);
     int32_t number = 0;
-    YAML_EACH (item, value->document, value->node) {
+    if (scene_is_formula(value->document, value->node))
+        return add_formula(reader, name, value, err);
+    if (kind != YAML_LIST && kind != YAML_MAP) return true;
+    YAML_EACH (node, value->document, value->node) {
         char path[KEY_NAME_SIZE], place[16];
-        SceneValue child = {.document = value->document, .node = item};
+        SceneValue child = {.document = value->document, .node = node};
+        const char *word = yaml_key(value->document, node);
         snprintf(place, sizeof place, "%d", number++);
-        snprintf(path, sizeof path, "%.60s.%.30s", name,
-                 list ? place : yaml_key(value->document, item));
-        bool done = scene_is_formula(value->document, item)
-                        ? add_formula(reader, path, &child, err)
-                        : gather_formulas_below(reader, path, &child, err);
-        if (!done) return false;
+        snprintf(path, sizeof path, "%.60s.%.30s", name, kind == YAML_LIST ? place : word);
+        bool is_text = kind == YAML_MAP && items &&
+                       yaml_kind(value->document, node) == YAML_SCALAR &&
+                       !scene_part_has_numbers(items, word);
+        if (!is_text && !gather_formulas(reader, items, path, &child, err)) return false;
     }
     return true;
+}
+
+// Adds the setting of a key, with the formulas that are in it.
+static bool gather_key(Reader *reader, const char *name, const Setting *setting, Error *err)
+{
+    const SceneKey *key = &reader->keys[setting->key];
+    if (!add_setting(reader, setting, err)) return false;
+    return !scene_key_has_numbers(key->type) ||
+           gather_formulas(reader, key->items, name, &setting->value, err);
 }
 
 // Turns the value standing under `name` into settings of keys.
@@ -132,13 +144,7 @@ static bool gather(Reader *reader, const char *name, const SceneValue *value, Er
 {
     Setting setting = {.key = scene_key_index(name), .value = *value};
     if (setting.key >= 0) {
-        const SceneKey *key = &reader->keys[setting.key];
-        bool open = key->type == KEY_PARAMETERS || key->type == KEY_BRANCHES ||
-                    key->items == &scene_material_items;
-        if (key->type == KEY_NUMBER && scene_is_formula(value->document, value->node))
-            return add_formula(reader, name, value, err);
-        if (!add_setting(reader, &setting, err)) return false;
-        if (open && !gather_formulas_below(reader, name, value, err)) return false;
+        if (!gather_key(reader, name, &setting, err)) return false;
         bool has_children = reader->keys[setting.key].type == KEY_FIELDS &&
                             yaml_kind(value->document, value->node) == YAML_MAP;
         return !has_children || gather_children(reader, name, value, err);
@@ -157,7 +163,7 @@ static bool gather_outside(Reader *reader, const char *name, const SceneValue *v
     setting.key = scene_key_above(name, &setting.value.part);
     if (setting.key >= 0) {
         snprintf(setting.group, sizeof setting.group, "%s", setting.value.part);
-        return add_setting(reader, &setting, err);
+        return gather_key(reader, name, &setting, err);
     }
     if (scene_key_is_group(name) && scene_key_index(name) < 0) {
         snprintf(setting.group, sizeof setting.group, "%s", name);
@@ -316,67 +322,63 @@ static bool find_number(const void *context, const char *name, double *value)
     return scene_number(numbers->scene, name, value);
 }
 
-// Stores the result of a formula, at the place of the formula in its file.
-static bool store_formula(Reader *reader, FormulaSetting *formula, Scene *scene, Error *err)
+// Formulas from number `first` on stand for themselves again.
+static void forget_values(const Reader *reader, int32_t first)
 {
-    Setting setting = {.value = {.document = formula->result, .node = YAML_ROOT}};
-    const char *part = NULL;
-    setting.key = scene_key_index(formula->name);
-    if (setting.key < 0) setting.key = scene_key_above(formula->name, &part);
-    if (part) snprintf(setting.group, sizeof setting.group, "%s", part);
-    setting.value.part = part;
-    if (!store_setting(reader, &setting, scene, err)) return false;
-    if (formula->value.document == reader->file)
-        scene->line[setting.key] = yaml_line(formula->value.document, formula->value.node);
-    return true;
+    Error none = {0};   // nothing is allocated
+    for (int32_t k = first; k < reader->formula_count; k++)
+        yaml_stand_in(reader->formulas[k].value.document, reader->formulas[k].value.node, NULL,
+                      &none);
 }
 
-// Works out the formulas of the file over what else the scene has, each as soon as no other that
-// it names is waiting. ERROR_INPUT: what is wrong with one, or that some wait for each other.
-static bool work_out_file(Reader *reader, Scene *scene, Error *err)
+// The first formula that waits is wrong, or waits for itself. Always false.
+static bool report_waiting(const Reader *reader, const bool *waiting, const Scene *scene,
+                           Error *err)
 {
-    bool waiting[FORMULAS_MAX] = {false};
-    int32_t left = 0, before;
+    int32_t k = 0;
+    char ignored[SCENE_NUMBER_SIZE];
+    while (!waiting[k]) k++;
+    const FormulaSetting *formula = &reader->formulas[k];
+    const YamlDocument *document = formula->value.document;
+    SceneSetting setting = {formula->name, document, formula->value.node};
+    return scene_formula_number(&setting, scene_number, scene, ignored, err) &&
+           yaml_error(document, formula->value.node, err,
+                      "%s: a formula over itself, or over another one that is over this",
+                      formula->name);
+}
+
+// Works out formulas over what else the scene has, in rounds: all that name none that is waiting,
+// after which settings are stored again. ERROR_INPUT: what is wrong with one, or that some wait
+// for each other.
+static bool work_out_formulas(Reader *reader, Scene *scene, Error *err)
+{
+    bool waiting[FORMULAS_MAX] = {false}, known[FORMULAS_MAX];
+    int32_t left = 0, found = 1;
     Numbers numbers = {reader, scene, waiting};
+    forget_values(reader, 0);
     for (int32_t k = 0; k < reader->formula_count; k++) {
-        yaml_destroy(reader->formulas[k].result);
-        reader->formulas[k].result = NULL;
         waiting[k] = !is_replaced(reader, &reader->formulas[k]);
         left += waiting[k];
     }
-    do {
-        before = left;
+    for (; left > 0 && found > 0; left -= found) {
+        found = 0;
+        memset(known, 0, sizeof known);
         for (int32_t k = 0; k < reader->formula_count; k++) {
-            FormulaSetting *formula = &reader->formulas[k];
-            char shown[SCENE_TEXT_SIZE + KEY_NAME_SIZE];
+            const FormulaSetting *formula = &reader->formulas[k];
+            SceneSetting setting = {formula->name, formula->value.document, formula->value.node};
+            char text[SCENE_NUMBER_SIZE];
             Error ignored = {0};
-            if (!waiting[k]) continue;
-            const SceneValue *value = &formula->value;
-            SceneSetting setting = {formula->name, value->document, value->node};
-            snprintf(shown, sizeof shown, "%s:%d: value of `%.80s`", scene->path,
-                     yaml_line(value->document, value->node),
-                     yaml_text(value->document, value->node));
-            if (!scene_formula_value(&setting, shown, find_number, &numbers, &formula->result,
-                                     &ignored))
+            if (!waiting[k] ||
+                !scene_formula_number(&setting, find_number, &numbers, text, &ignored))
                 continue;
-            waiting[k] = false;
-            left--;
-            if (!store_formula(reader, formula, scene, err)) return false;
+            if (!yaml_stand_in(setting.document, setting.node, text, err)) return false;
+            known[k] = true;
+            found++;
         }
-    } while (left > 0 && left < before);
-    for (int32_t k = 0; k < reader->formula_count; k++) {
-        const FormulaSetting *formula = &reader->formulas[k];
-        YamlDocument *none = NULL;
-        if (!waiting[k]) continue;
-        SceneSetting setting = {formula->name, formula->value.document, formula->value.node};
-        bool wrong = !scene_work_out(scene, &setting, "", &none, err);
-        yaml_destroy(none);
-        return !wrong && yaml_error(formula->value.document, formula->value.node, err,
-                                    "%s: a formula over itself, or over another one that is over "
-                                    "this",
-                                    formula->name);
+        for (int32_t k = 0; k < reader->formula_count; k++) waiting[k] = waiting[k] && !known[k];
+        if (found > 0 && !store_settings(reader, scene, err)) return false;
     }
-    return true;
+    return left == 0 || report_waiting(reader, waiting, scene, err);
 }
 
 // --- reading ------------------------------------------------------------------------------------
@@ -442,7 +444,7 @@ static bool work_out_all(Reader *reader, const char *const *overrides, int32_t c
         if (!gather_outside(reader, name, &(SceneValue){.document = *value, .node = YAML_ROOT},
                             err))
             return false;
-        if (!store_from(reader, first, scene, err) || !work_out_file(reader, scene, err))
+        if (!store_from(reader, first, scene, err) || !work_out_formulas(reader, scene, err))
             return false;
     }
     return true;
@@ -482,7 +484,6 @@ static bool finish_reading(Reader *reader, const char *path, Scene *scene, Error
 static void destroy_reader(Reader *reader)
 {
     for (int32_t i = 0; i < reader->override_count; i++) yaml_destroy(reader->overrides[i]);
-    for (int32_t i = 0; i < reader->formula_count; i++) yaml_destroy(reader->formulas[i].result);
     memory_free_all(reader->overrides, reader->settings, reader->formulas);
     yaml_destroy(reader->file);
     yaml_destroy(reader->defaults);
@@ -496,7 +497,7 @@ bool scene_read(const char *path, const char *const *overrides, int32_t override
     TRY((reader.overrides = NEW_ARRAY(YamlDocument *, 2 * (int64_t)override_count, err)));
     for (int32_t i = 0; i < override_count; i++) TRY(gather_override(&reader, overrides[i], err));
     TRY(store_settings(&reader, scene, err));
-    TRY(work_out_file(&reader, scene, err));
+    TRY(work_out_formulas(&reader, scene, err));
     TRY(work_out_all(&reader, overrides, override_count, scene, err));
     TRY(finish_reading(&reader, path, scene, err));
 cleanup:
@@ -535,8 +536,10 @@ void scene_source_close(SceneSource *source)
 static bool finish_copy(SceneSource *source, Scene *scene, Error *err)
 {
     memcpy(scene, &source->made, sizeof *scene);
-    return work_out_file(&source->reader, scene, err) &&
-           finish_reading(&source->reader, source->made.path, scene, err);
+    bool done = work_out_formulas(&source->reader, scene, err) &&
+                finish_reading(&source->reader, source->made.path, scene, err);
+    forget_values(&source->reader, 0);   // while the documents of settings are there
+    return done;
 }
 
 // Other units than the file's change what its numbers mean: all is stored anew.
@@ -547,8 +550,6 @@ bool scene_source_begin(SceneSource *source, const SceneSetting *settings, int32
     int32_t units = scene_key_index("units");
     bool other_units = false;
     reader->setting_count = source->file_count;
-    for (int32_t k = source->file_formulas; k < reader->formula_count; k++)
-        yaml_destroy(reader->formulas[k].result);
     reader->formula_count = source->file_formulas;
     for (int32_t i = 0; i < count; i++) {
         SceneValue value = {.document = settings[i].document, .node = settings[i].node};

@@ -128,6 +128,13 @@ static bool check_typing(const SceneKey *key, const SceneValue *value, Error *er
     return true;
 }
 
+// A formula that has no value yet: what holds it is read again when scene/scene_read has worked it
+// out. Until then its number is 0, which is not checked.
+static bool is_waiting(const SceneValue *value)
+{
+    return scene_is_formula(value->document, value->node);
+}
+
 // Range is the caller's to check. ERROR_INPUT for what is not a finite decimal number.
 static bool read_number(const SceneKey *key, const SceneValue *value, SceneUnits units,
                         double *number, bool *whole, Error *err)
@@ -150,6 +157,9 @@ static bool read_number(const SceneKey *key, const SceneValue *value, SceneUnits
 static bool read_in_range(const SceneKey *key, const SceneValue *value, SceneUnits units,
                           double *number, bool *whole, Error *err)
 {
+    *number = 0;
+    *whole = false;
+    if (is_waiting(value)) return true;
     if (!read_number(key, value, units, number, whole, err)) return false;
     return scene_range_holds(key->range, *number) || report_wrong(key, value, err);
 }
@@ -158,6 +168,7 @@ static bool set_number(const SceneKey *key, const SceneValue *value, Scene *scen
 {
     double number = 0;
     bool whole = false;
+    if (is_waiting(value)) return true;   // the default stays
     if (!read_in_range(key, value, scene->units, &number, &whole, err)) return false;
     memcpy(field_of(key, scene), &number, sizeof number);
     if (key->whole) *(bool *)((char *)scene + key->is_whole) = whole;
@@ -201,7 +212,6 @@ static bool read_branch_word(const SceneKey *key, const char *name, const SceneV
                               "%s: unknown key `%.60s`; allowed: time, shear, bulk", key->name,
                               name);
     *word = k;
-    if (scene_is_formula(value->document, value->node)) return true;   // worked out afterwards
     SceneKey own = words[k];
     snprintf(path, sizeof path, "%s.%s", key->name, name);
     own.name = path;
@@ -224,7 +234,7 @@ static bool add_branch(const SceneKey *key, const SceneValue *value, Scene *scen
         if (!read_branch_word(key, yaml_key(document, node), &one, scene, number, &k, err))
             return false;
         given[k] = true;
-        formulas = formulas || scene_is_formula(document, node);
+        formulas = formulas || is_waiting(&one);
     }
     if (!given[TIME])
         return yaml_error(document, value->node, err, "%s: a branch needs its `time`; allowed: %s",
@@ -393,7 +403,7 @@ static bool set_parameter(const SceneKey *key, const SceneValue *value, Scene *s
     const char *name = value->part ? value->part : yaml_key(value->document, value->node);
     const char *text = yaml_text(value->document, value->node);
     MeshParameter *parameter = find_parameter(scene, name);
-    if (scene_is_formula(value->document, value->node)) return true;   // worked out afterwards
+    if (is_waiting(value)) return true;
     bool full = !parameter && scene->mesh.parameter_count == SCENE_LIST_MAX;
     if (full || !*name || strlen(name) >= GROUP_NAME_SIZE)
         return yaml_key_error(value->document, value->node, err,

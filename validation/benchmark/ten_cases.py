@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import promise
-from measured_run import markdown_table, run
+from measured_run import ROOT, markdown_table, run
 from promise import Kept, flow
 
 COUNT, DRAWN = 10, 20          # asked for; drawn, as some do not slide as a whole
@@ -36,6 +36,7 @@ class Case:
     pressure: float
     mesh: dict             # mesh.set without the cells
     is_block: bool         # else pads
+    way: tuple = ()        # settings of the references alone: whole meshes, finer steps
 
 
 def mesh_of(one, cells, order=1, grade=1):
@@ -74,7 +75,9 @@ class TenCases:
         return statistics.mean(means), promise.standard_error(means)
 
     def listed(self):
-        return "".join(f"{one.name}; {'; '.join(one.settings)}; {one.mesh}\n" for one in self.cases)
+        def line(one):
+            return f"{one.name}; {'; '.join((*one.settings, *one.way))}; {one.mesh}\n".replace(str(ROOT), ".")
+        return "".join(line(one) for one in self.cases)
 
     def digest(self):
         return hashlib.sha256(self.listed().encode()).hexdigest()
@@ -121,7 +124,7 @@ class TenCases:
 def reference_run(one, mesh, factor):
     """A run that saw few slidings of the whole block goes on to four times the U of the last: its first ones are of
     the start."""
-    settings = [*promise.QUIET, *one.settings, flow(mesh_of(one, *mesh)), f"load.pressure={one.pressure * factor:.9g}"]
+    settings = [*promise.QUIET, *one.settings, *one.way, flow(mesh_of(one, *mesh)), f"load.pressure={one.pressure * factor:.9g}"]
     ended = run(one.scene, settings, 600)
     results = ended.report.get("results", {})
     if 0 < len(results.get("peaks", [])) < PEAKS_MIN:

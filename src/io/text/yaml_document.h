@@ -46,6 +46,9 @@ void yaml_destroy(YamlDocument *document);   // NULL is fine
 YamlKind yaml_kind(const YamlDocument *document, YamlNode node);
 const char *yaml_text(const YamlDocument *document, YamlNode node);   // of a scalar, else ""
 bool yaml_is_quoted(const YamlDocument *document, YamlNode node);
+// `text` is from now on what yaml_text gives for this scalar: the value of a formula. NULL: its own
+// text again. Errors show the source line as it was typed.
+bool yaml_stand_in(const YamlDocument *document, YamlNode node, const char *text, Error *err);
 int32_t yaml_count(const YamlDocument *document, YamlNode node);   // children
 int32_t yaml_line(const YamlDocument *document, YamlNode node);   // from 1
 int32_t yaml_column(const YamlDocument *document, YamlNode node);   // from 1, in characters

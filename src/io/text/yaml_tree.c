@@ -21,7 +21,16 @@ YamlKind yaml_kind(const YamlDocument *document, YamlNode node)
 const char *yaml_text(const YamlDocument *document, YamlNode node)
 {
     const YamlItem *item = &document->nodes[node];
-    return item->kind == YAML_SCALAR ? item->text : "";
+    if (item->kind != YAML_SCALAR) return "";
+    return item->stand_in ? item->stand_in : item->text;
+}
+
+bool yaml_stand_in(const YamlDocument *document, YamlNode node, const char *text, Error *err)
+{
+    YamlItem *item = &document->nodes[node];
+    memory_free(item->stand_in);
+    item->stand_in = text ? memory_text(text, err) : NULL;
+    return !text || item->stand_in;
 }
 
 bool yaml_is_quoted(const YamlDocument *document, YamlNode node)
@@ -192,6 +201,7 @@ void yaml_destroy(YamlDocument *document)
 {
     if (!document) return;
     memory_free_all(document->name, document->shown);
-    for (int32_t i = 0; i < document->node_count; i++) memory_free(document->nodes[i].text);
+    for (int32_t i = 0; i < document->node_count; i++)
+        memory_free_all(document->nodes[i].text, document->nodes[i].stand_in);
     memory_free_all(document->nodes, document);
 }

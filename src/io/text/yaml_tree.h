@@ -13,6 +13,7 @@ typedef struct YamlItem {
     bool quoted;
     int32_t position;   // byte in the text where the value starts
     char *text;   // of a scalar; owned
+    char *stand_in;   // yaml_stand_in; NULL: none; owned
     YamlNode key;   // the key's scalar node; YAML_NO_NODE: not a map's child
     int32_t count;   // children
     YamlNode first, last;   // children
