@@ -10,7 +10,7 @@ Simulation steps one simulation; errors are AmontonsError and what is derived fr
 """
 from ._library import AmontonsError, ComputeError, FileError, InputError, LibraryError
 from ._structs import NODE_OPEN, NODE_SLIPS, NODE_STICKS, NODE_WEAKENS
-from .commands import (cache, clean_cache, data_folder, film, fit, forecast, info, kernels, keys, model1d,
+from .commands import (cache, clean_cache, compare, data_folder, film, fit, forecast, info, kernels, keys, model1d,
                        open_result, optimise, read_table, render, render_plot, render_sweep, run, stability, static, sweep,
                        version)
 from .notebook import NotebookProgress
@@ -20,5 +20,5 @@ from .simulation import Simulation
 __version__ = version()
 __all__ = ["AmontonsError", "Answer", "ComputeError", "Field", "FileError", "History", "InputError", "LibraryError",
            "NODE_OPEN", "NODE_SLIPS", "NODE_STICKS", "NODE_WEAKENS", "NotebookProgress", "Result", "Simulation", "cache", "clean_cache",
-           "data_folder", "film", "fit", "forecast", "info", "kernels", "keys", "model1d", "open_result",
+           "compare", "data_folder", "film", "fit", "forecast", "info", "kernels", "keys", "model1d", "open_result",
            "optimise", "read_table", "render", "render_plot", "render_sweep", "run", "stability", "static", "sweep", "version"]

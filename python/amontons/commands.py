@@ -264,6 +264,17 @@ def render(result: Any, figures: Sequence[str] = (), of: str | None = None, at: 
     return sorted((folder / "figures").glob(f"*.{style.get('format', 'png')}"))
 
 
+def compare(result: Any, table: Any, **style: Any) -> Any:
+    """Measurements beside a stored result: `amontons compare`. table: a .csv whose columns say what was measured
+    (docs/experiment.md). Draws each figure that shows it; a table with a row for each, as read_table gives it: figure,
+    points, covered (how many of them the result reaches), misfit and what it is over. style: as for render."""
+    folder = result.folder if isinstance(result, Result) else path_of(result)
+    given = _picture_style(style)
+    said = ctypes.create_string_buffer(2000)
+    call(lib.amontons_compare, c_text(folder), c_text(table), ctypes.byref(given), said, len(said))
+    return read_table(folder / "figures/misfit.csv")
+
+
 def render_plot(plot: Any, picture: Any, **style: Any) -> None:
     """Draws the curves that the YAML file `plot` describes into `picture`, whose name ends in .png, .pdf or .svg:
     `amontons render PLOT.yaml`. style: as for render, but the format."""

@@ -469,7 +469,13 @@ class Commands(InFolder):
 
     def test_pictures(self):
         result = amontons.run(FIG1, SMALL, self.folder / "run")
+        self.assertGreater(result.history.mu.max(), 0.01)     # from now on h5py has the file open, too
         self.assertEqual([path.name for path in amontons.render(result, ["force"])], ["force.png"])
+        half = result.history.U[-1] / 2
+        (self.folder / "measured.csv").write_text(f"U,mu\n{half},{np.interp(half, result.history.U, result.history.mu) + 0.01}\n1,0.3\n")
+        found = amontons.compare(result, self.folder / "measured.csv", overwrite=True)
+        self.assertEqual([found[name][0] for name in ("figure", "points", "covered")], ["force", 2, 1])
+        self.assertAlmostEqual(found["misfit"][0], 0.01, delta=1e-6)
         made = amontons.film(result, self.folder / "frames", seconds=0.2, rate=10, width=640, height=360, end="U=0.001")
         self.assertEqual(sorted(path.name for path in made.iterdir()), ["amontons.files", "frame-0001.png", "frame-0002.png"])
         with self.assertRaisesRegex(amontons.InputError, ".mp4, .webm or .gif"):

@@ -122,6 +122,14 @@ static hid_t check_opened(hid_t file, const char *path, Error *err)
     return error_is_clean(err) ? file : -1;
 }
 
+// Every call of HDF5 forgets why the one before it failed.
+static void close_properties(hid_t access)
+{
+    hid_t cause = H5Eget_current_stack();
+    H5Pclose(access);
+    H5Eset_current_stack(cause);
+}
+
 // --- files in memory ----------------------------------------------------------------------------
 
 // HDF5 tells files in memory by their names, and looks whether there is one on the disk. This one
@@ -137,7 +145,7 @@ static hid_t open_memory(const void *bytes, int64_t size)
     // HDF5 copies them, and takes no const.
     if (ready && bytes && H5Pset_file_image(access, (void *)(uintptr_t)bytes, (size_t)size) >= 0)
         file = H5Fopen(name, H5F_ACC_RDWR, access);
-    H5Pclose(access);
+    close_properties(access);
     return file;
 }
 
@@ -175,6 +183,19 @@ void *hdf5_memory_bytes(hid_t file, const char *path, int64_t *size, Error *err)
 
 // --- files on the disk --------------------------------------------------------------------------
 
+// A file that the host program has open, as h5py in the same process, is opened with the properties
+// that it has there, or not at all.
+static hid_t open_disk(const char *path)
+{
+    hid_t access = H5Pcreate(H5P_FILE_ACCESS), file;
+    H5Pset_file_locking(access, false, true);
+    H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+    file = H5Fopen(path, H5F_ACC_RDONLY, access);
+    if (file < 0) file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+    close_properties(access);
+    return file;
+}
+
 hid_t hdf5_disk_open(const char *path, Error *err)
 {
     struct stat status;
@@ -185,12 +206,7 @@ hid_t hdf5_disk_open(const char *path, Error *err)
         return -1;
     }
     start();
-    hid_t access = H5Pcreate(H5P_FILE_ACCESS);
-    H5Pset_file_locking(access, false, true);
-    H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
-    hid_t file = H5Fopen(path, H5F_ACC_RDONLY, access);
-    H5Pclose(access);
-    return check_opened(file, path, err);
+    return check_opened(open_disk(path), path, err);
 }
 
 hid_t hdf5_disk_create(const char *path, Error *err)
@@ -200,7 +216,7 @@ hid_t hdf5_disk_create(const char *path, Error *err)
     H5Pset_file_locking(access, false, true);
     H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
     hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, access);
-    H5Pclose(access);
+    close_properties(access);
     hdf5_wrote(file < 0 ? -1 : 0, path, "the header", err);
     return file;
 }
