@@ -274,9 +274,9 @@ static bool write_profiles(const char *path, ResultView *view, const char *at, E
 {
     enum { COLUMNS = 4 + PROFILE_QUANTITIES + 1 };
     static const char *const names[2][COLUMNS] = {
-        {"U", "t", "F_T/F_N", "x", "p", "tau", "tau/p", "slip", "gap", "status"},
-        {"U (m)", "t (s)", "F_T/F_N", "x (m)", "p (Pa)", "tau (Pa)", "tau/p", "slip (m)", "gap (m)",
-         "status"}};
+        {"U", "t", "F_T/F_N", "x", "p", "tau", "tau/p", "slip", "A/A_0", "gap", "status"},
+        {"U (m)", "t (s)", "F_T/F_N", "x (m)", "p (Pa)", "tau (Pa)", "tau/p", "slip (m)", "A/A_0",
+         "gap (m)", "status"}};
     Profiles profiles;
     CsvWriter *csv = NULL;
     TRY(profiles_read(view, at, &profiles, err));

@@ -21,6 +21,8 @@ static const double CONTACT_GAP = 0.6,
 static const double LOAD_GAP = 1.5, LOAD_LENGTH = 8, LOAD_HEAD = 2;   // points
 static const double OUTLINE_WIDTH = 0.5, CONTOUR_WIDTH = 0.3, EDGE_WIDTH = 0.15;   // points
 static const double FACE_SLACK = 1e-3;   // of the rod's width: nodes of the face it pushes
+static const double SAME_PLACE =
+    1e-5;   // of the contact's length: a node of the fields at a contact node
 static const double TOP_SHARE = 1e-6;   // of the height: what is less below the top is the top
 
 static const Color CONTOUR = {0.08f, 0.08f, 0.10f, 0.55f};
@@ -157,13 +159,49 @@ static SpacePage space_of(const Page *page, const BlockPage *map, const Axes *ax
     return space;
 }
 
-// Below the floor's line, a colour for each contact node; where there is none, none.
-static void draw_contact(const Page *page, const BlockPage *map, int64_t row, const Axes *axes)
+// Where the contact nodes are drawn: each at its node of the block, the lowest one there of the
+// elements above the floor's line, which those of a base are not.
+static bool contact_places(const ResultView *view, const Block *block, double *place, Error *err)
+{
+    const FieldFrame *frame = &block->frame;
+    double near = SAME_PLACE * (view->x[view->nodes - 1] - view->x[0]);
+    bool *above = NEW_ARRAY(bool, frame->node_count, err);
+    double *height = NEW_ARRAY(double, view->nodes, err);
+    TRY(above && height);
+    for (int32_t e = 0; e < frame->element_count; ++e) {
+        double top = -INFINITY;
+        for (int32_t k = frame->first_node[e]; k < frame->first_node[e + 1]; ++k)
+            top = fmax(top, frame->position[3 * frame->element_nodes[k] + 1]);
+        for (int32_t k = frame->first_node[e]; k < frame->first_node[e + 1] && top > near; ++k)
+            above[frame->element_nodes[k]] = true;
+    }
+    for (int32_t i = 0; i < view->nodes; ++i) {
+        place[i] = view->x[i];
+        height[i] = INFINITY;
+    }
+    for (int32_t n = 0; n < frame->node_count; ++n)
+        for (int32_t i = 0; i < view->nodes && above[n]; ++i) {
+            const double *at = frame->position + 3 * (int64_t)n;
+            if (fabs(at[0] - view->x[i]) > near || at[1] >= height[i]) continue;
+            height[i] = at[1];
+            place[i] = block->place[n][0];
+        }
+cleanup:
+    memory_free_all(above, height);
+    return error_is_clean(err);
+}
+
+// Below the floor's line, a colour for each contact node, where it is drawn on the deformed block.
+static void draw_contact(const Page *page, const BlockPage *map, const Block *block, int64_t row,
+                         const Axes *axes)
 {
     const ResultView *view = map->view;
     const double *status = view->status + row * view->nodes;
     double unit = map->share * page->point, floor_y = axes_place(axes, 0, 0).y, from, to;
-    SpaceTime contact = {.nodes = view->nodes, .x = view->x, .pad = view->pad};
+    Error ignored = {0};   // without memory the nodes are drawn where they were
+    double *place = NEW_ARRAY(double, view->nodes, &ignored);
+    bool placed = place && contact_places(view, block, place, &ignored);
+    SpaceTime contact = {.nodes = view->nodes, .x = placed ? place : view->x, .pad = view->pad};
     for (int32_t i = 0; i < view->nodes; ++i) {
         node_extent(&contact, i, &from, &to);
         int32_t kind = (int32_t)status[i];
@@ -173,6 +211,7 @@ static void draw_contact(const Page *page, const BlockPage *map, int64_t row, co
         box.right = fmax(round(box.right), box.left + 1);
         if (kind >= 0 && kind < STATUSES) draw_fill(page->canvas, STATUS[kind].color, &box);
     }
+    memory_free(place);
 }
 
 void block_page_contact(const Page *page, const BlockPage *map, const Block *block, int64_t row,
@@ -182,7 +221,7 @@ void block_page_contact(const Page *page, const BlockPage *map, const Block *blo
     if (block->moved)
         space_page_floor(page, &space, block, row);
     else
-        draw_contact(page, map, row, axes);
+        draw_contact(page, map, block, row, axes);
 }
 
 void block_page_axes(const Page *page, const BlockPage *map, const Block *block, const Axes *axes)
@@ -268,7 +307,7 @@ bool block_page_draw(const Page *page, const BlockPage *map, const Block *block,
     if (map->edges) block_edges_draw(page, block, axes, &edge);
     draw_contours(page, map, block, axes);
     if (!block_outline_draw(page, block, axes, &outline, err)) return false;
-    draw_contact(page, map, block->row, axes);
+    draw_contact(page, map, block, block->row, axes);
     Point left = axes_place(axes, axes->x.low, 0), right = axes_place(axes, axes->x.high, 0);
     draw_segment(page->canvas, &outline, left, right);
     draw_load(page, map, block, axes);

@@ -123,7 +123,8 @@ bool figure_precursors(const Page *whole, ResultView *view, Error *err)
     Page page = *whole;
     Measured measured = {0};
     Extent extent = {0};
-    double critical = view->number[NUMBER_L_C];
+    bool first_loading = zoom_choose(view).cycle == 1;   // l_c is of the later cycles
+    double critical = first_loading ? (double)NAN : view->number[NUMBER_L_C];
     Stroke dashed = dashed_stroke(&page, INK, 0.5);
     if (!(view->number[NUMBER_LENGTH] > 0))
         return REFUSE(err, "the result does not say how long the block is");

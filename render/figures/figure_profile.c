@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Pressure, friction, their ratio, slip and gap along the contact at chosen moments: a frame for
-// each, a curve for each moment; in space along a line. Where the block has lifted off, rings.
+// Pressure, friction, their ratio, slip, contact area and gap along the contact at chosen moments:
+// a frame for each, a curve for each moment; in space along a line. Where the block has lifted off,
+// rings.
 #include "render/figures/figures.h"
 
 #include "render/figures/profile_data.h"
@@ -13,18 +14,16 @@ static const double RING = 0.62;   // inside over outside of the mark of an open
 
 static bool is_shown(const Profiles *profiles, ProfileQuantity quantity)
 {
-    return quantity != PROFILE_GAP || (profiles->opens && profiles->values[PROFILE_GAP]);
+    return profiles->values[quantity] && (quantity != PROFILE_GAP || profiles->opens);
 }
 
 static void name_axis(const ResultView *view, ProfileQuantity quantity, Axis *axis)
 {
     static const struct {
         const char *name, *si, *normalised;
-    } words[PROFILE_QUANTITIES] = {{"~{p}", "Pa", "~{E}"},
-                                   {"~{\u03c4}", "Pa", "~{E}"},
-                                   {"~{\u03c4} / ~{p}", "", ""},
-                                   {"slip", "m", "~{L}_{0}"},
-                                   {"gap", "m", "~{L}_{0}"}};
+    } words[PROFILE_QUANTITIES] = {{"~{p}", "Pa", "~{E}"},       {"~{\u03c4}", "Pa", "~{E}"},
+                                   {"~{\u03c4} / ~{p}", "", ""}, {"slip", "m", "~{L}_{0}"},
+                                   {"~{A} / ~{A}_{0}", "", ""},  {"gap", "m", "~{L}_{0}"}};
     const char *name = words[quantity].name, *normalised = words[quantity].normalised;
     if (view->si && words[quantity].si[0])
         axis_set_unit(axis, name, words[quantity].si);
@@ -85,7 +84,8 @@ bool figure_profile(Page *page, const FigureInput *input, Error *err)
     TRY(profiles_read(view, input->field->at, &profiles, err));
     result_view_x_extent(view, &from, &to);
     for (int32_t q = 0; q < PROFILE_QUANTITIES; ++q) {
-        double low = 0, high = 0;
+        bool area = q == PROFILE_AREA;   // which changes by a few per cent
+        double low = area ? INFINITY : 0, high = area ? -INFINITY : 0;
         if (!is_shown(&profiles, (ProfileQuantity)q)) continue;
         for (int64_t i = 0; i < (int64_t)profiles.count * profiles.nodes; ++i)
             stack_widen(profiles.values[q][i], &low, &high);

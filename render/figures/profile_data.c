@@ -119,6 +119,8 @@ bool profiles_read(ResultView *view, const char *at, Profiles *profiles, Error *
     TRY(take_series(view, SERIES_STATUS, profiles, &profiles->status, err));
     if (result_file_has_series(view->file, SERIES_GAP))
         TRY(take_series(view, SERIES_GAP, profiles, &values[PROFILE_GAP], err));
+    if (result_file_has_series(view->file, SERIES_AREA))
+        TRY(take_series(view, SERIES_AREA, profiles, &values[PROFILE_AREA], err));
     int32_t nodes = profiles->nodes;
     TRY(values[PROFILE_RATIO] = NEW_ARRAY(double, (int64_t)profiles->count *nodes, err));
     for (int32_t k = profiles->count - 1; k >= 0; --k)

@@ -12,6 +12,7 @@ typedef enum ProfileQuantity {
     PROFILE_SHEAR,   // tau; in space its size, stress
     PROFILE_RATIO,   // tau/p, 1; NaN where open
     PROFILE_SLIP,   // along the drive since the first moment; since the rod's start if it is alone
+    PROFILE_AREA,   // of the real contacts over that when the rod started, 1; 0 where open
     PROFILE_GAP,   // between block and floor, length; 0 where they touch
     PROFILE_QUANTITIES
 } ProfileQuantity;
@@ -21,8 +22,9 @@ typedef struct Profiles {
     int32_t nodes;
     int64_t row[PROFILES_MAX];   // [count] of the history
     char words[PROFILES_MAX][PROFILE_WORDS_SIZE];   // when that was
-    double *values[PROFILE_QUANTITIES];   // [count * nodes]; gap NULL where the history has none;
-        // owned
+    double
+        *values[PROFILE_QUANTITIES];   // [count * nodes]; gap and area NULL where the history has
+        // none; owned
     double *status;   // [count * nodes] 0: open; owned
     bool opens;   // some node is open at one of the moments
 } Profiles;

@@ -22,6 +22,9 @@ static const double CONFIRM = 4;   // likewise, of all levels, where pads may sl
 static const double ONE_MESH = 0.5;   // of mu, over nodes: nine of ten meshes are off by less
 static const double ONE_MESH_IN_SPACE = 0.9;   // likewise, over nodes along the contact
 static const double END_WAITS = 3;   // mu may rise so many times as much before they let go
+// Of what mu rose by since the last precursor. The block slides at one of the loads at which the
+// contact lets go in part, and another mesh has other precursors: nine of ten differ by less.
+static const double ONE_PRECURSOR = 0.3;
 static const double STEPS = 0.002;   // of mu: what tolerances of steps and reduction leave
 
 // NaN: a run has no such answer.
@@ -327,7 +330,8 @@ void level_answer_for(const Level *level, Answers *answers)
     answers->mu_hold_known_to =
         hypot(usual * answers->mu_hold.value, known(answers->mu_hold.error));
     answers->mu_max_known_to = hypot(usual * answers->mu_max, answers->mu_max_jump);
-    answers->first_loading.known_to = usual * answers->first_loading.mu.value;
+    answers->first_loading.known_to = hypot(usual * answers->first_loading.mu.value,
+                                            ONE_PRECURSOR * answers->first_loading.since_precursor);
 }
 
 void levels_answer_for(const Levels *levels, Answers *answers)
@@ -354,6 +358,10 @@ void levels_answer_for(const Levels *levels, Answers *answers)
     answers->mu_M_known_to = levels_known_to(levels, ANSWER_MU_M);
     answers->mu_hold_known_to = levels_known_to(levels, ANSWER_MU_HOLD);
     answers->first_loading.known_to = levels_known_to(levels, ANSWER_MU_FIRST);
+    if (isnan(mu_first->bar))
+        answers->first_loading.known_to =
+            hypot(answers->first_loading.known_to,
+                  ONE_PRECURSOR * answers->first_loading.since_precursor);
 }
 
 double levels_order(const Levels *levels)

@@ -4,6 +4,10 @@
 #include <math.h>
 #include <stddef.h>
 
+// How much slipped when slip turned fast, over how long the front from the trailing end was: above it
+// most of that slipped elsewhere, and the front says nothing of when the block slides.
+static const double ELSEWHERE = 2;
+
 // Number of the first sliding of the whole block from event number `from` on; without one the
 // number of events.
 static int32_t next_sliding(const Events *events, int32_t from)
@@ -52,7 +56,12 @@ FirstLoading first_loading_of(const Drops *drops)
         first.slid = true;
         first.mu.value = peak.mu;
         first.U = peak.U;
-        first.critical_length = peak.critical_length;
+        for (int32_t i = 0; i < sliding; i++)
+            if (events->list[i].kind == EVENT_BOUNDED && isfinite(events->list[i].mu_start))
+                first.since_precursor = fmax(peak.mu - events->list[i].mu_start, 0);
+        const Event *event = &events->list[sliding];
+        bool elsewhere = event->slip_length > ELSEWHERE * peak.critical_length;
+        first.critical_length = elsewhere ? (double)NAN : peak.critical_length;
         first.critical_part = peak.critical_part;
     }
     return first;

@@ -16,11 +16,14 @@ typedef struct FirstLoading {
     bool slid;   // the block came to slide as a whole, from rest
     Estimate mu;   // the largest mu before it did; one value, whose error only several runs tell
     ErrorParts parts;   // of this error
-    double known_to;   // as Answers has it of mu_M
+    double known_to;   // as Answers has it of mu_M, and what one precursor more or less changes
+    double since_precursor;   // what mu rose by since the last precursor began; 0: none was
     double U;   // where mu was so large, length
     int32_t precursors;   // bounded rapid events before it; so far, where it has not slid
     double longest;   // length of the longest of them, length; 0: none
-    double critical_length;   // l_c of the first sliding, length; NaN: as of a Drop
+    // l_c of the first sliding, length; NaN: as of a Drop, or more than half of what slipped when
+    // slip turned fast was elsewhere than behind the front
+    double critical_length;
     double critical_part;   // A_c/A of it
 } FirstLoading;
 

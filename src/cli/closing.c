@@ -249,6 +249,8 @@ static void print_first_loading(const RunSummary *summary)
         say(" of up to %.2f of the block's length", summary->first_longest);
     if (slid && !isnan(summary->first_critical_length))
         say("; critical length %.2f", summary->first_critical_length);
+    else if (slid && summary->first_precursors > 0)
+        say("; slip turned fast elsewhere than behind a slow front");
     say("\n");
     if (isnan(summary->later_precursors)) return;
     say("%slater cycles: %.2g precursors each", INDENT, summary->later_precursors);
@@ -258,12 +260,12 @@ static void print_first_loading(const RunSummary *summary)
 
 static void print_critical_length(const RunSummary *summary)
 {
-    if (!isnan(summary->critical_length))
+    bool of_first = summary->peaks == 1 && isnan(summary->first_critical_length);
+    if (!isnan(summary->critical_length) && !of_first)
         say("  critical length %.2f of the block's length\n", summary->critical_length);
     else if (summary->peaks_counted > 0)
-        say("  critical length not known: no slow slip had come from the trailing end when the "
-            "block "
-            "slid\n");
+        say("  critical length not known: slip did not turn fast behind a slow front from the "
+            "trailing end\n");
     else if (summary->peaks > 0)
         say("  critical length not known: no sliding of the whole block counts\n");
     else

@@ -186,24 +186,34 @@ static double farthest_reach(const Events *events, const Interface *interface)
     return farthest;
 }
 
-// Part of the line of the contact that has slipped without a gap from the trailing ends of the pads
-// that take part; 1: none of these is on the line.
+// In space: slip has been within LEAST_RAPID of a pad's length of its trailing end, on a pad that
+// takes part, at whatever y.
+static bool comes_from_end(const Events *events, const Interface *interface)
+{
+    for (int32_t p = 0; p < interface->pad_count; p++) {
+        if (!takes_part(events, interface, p)) continue;
+        PadSize size = pad_size(interface, p);
+        double end = size.x_from + LEAST_RAPID * (size.x_to - size.x_from);
+        for (int32_t i = 0; i < interface->contact_count; i++)
+            if (interface->pad[i] == p && events->slipped[i] && interface->x[i] <= end) return true;
+    }
+    return false;
+}
+
+// In the plane: part of the contact that has slipped without a gap from the trailing ends of the
+// pads that take part.
 static double part_from_ends(const Events *events, const Interface *interface)
 {
-    double from_ends = 0, all = 0;
-    bool on_line = false;
+    double from_ends = 0;
     for (int32_t p = 0; p < interface->pad_count; p++) {
-        bool part = takes_part(events, interface, p), slips = part;
-        for (int32_t k = 0; k < interface_line_count(interface); k++) {
-            int32_t i = interface_line_node(interface, k);
+        bool slips = takes_part(events, interface, p);
+        for (int32_t i = 0; i < interface->contact_count && slips; i++) {
             if (interface->pad[i] != p) continue;
-            on_line = on_line || part;
-            slips = slips && events->slipped[i];
+            slips = events->slipped[i];
             if (slips) from_ends += interface->weight[i];
-            all += interface->weight[i];
         }
     }
-    return on_line ? from_ends / all : 1;
+    return from_ends / events->size;
 }
 
 // The farthest node of a pad that slips fast.
@@ -281,8 +291,9 @@ static bool is_wide(const Events *events, const Interface *interface)
         if (!isnan(events->path.arrival[i])) rapid += interface->weight[i];
     for (int32_t p = 0; interface->pad_count > 1 && p < interface->pad_count; p++)
         pad_slid = pad_slid || events_pad_slid(events, interface, p);
-    bool wide = rapid >= LEAST_RAPID * events->size;
-    return pad_slid || (wide && part_from_ends(events, interface) >= LEAST_RAPID);
+    if (pad_slid || rapid < LEAST_RAPID * events->size) return pad_slid;
+    return events->in_space ? comes_from_end(events, interface)
+                            : part_from_ends(events, interface) >= LEAST_RAPID;
 }
 
 static void raise_kind(Events *events, Event *event, EventKind kind)

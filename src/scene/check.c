@@ -395,7 +395,8 @@ static bool check_output(const Check *check)
                      "pictures are drawn from the history: they need output.history: true");
     if (scene->output.probes.count > 0 && !scene->output.history)
         return blame(check, "output.probes",
-                     "what probes read stands in the history: they need output.history: true");
+                     "what probes read stands in the history: they need output.history: true, also "
+                     "under `set` of a study, whose points keep none otherwise");
     if (scene->output.compare[0] && scene->output.figures.count == 0)
         return blame(check, "output.compare", "output.figures names no picture to draw it in");
     const char *cycle = scene->output.cycle;

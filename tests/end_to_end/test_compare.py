@@ -181,6 +181,12 @@ class Compared(unittest.TestCase):
         said = call(self.folder, "compare", "ages", "areas.csv").stdout
         self.assertRegex(said, rf"contact-area +misfit 0\.0(1|099)\d*, {len(places)} of {len(places)} points")
         self.assertNotIn("contact-density", said)
+        call(self.folder, "render", "ages", "--figure", "profile", "--format", "pdf")
+        shown = table(self.folder / "ages/figures/profile.csv")
+        self.assertIn("A / A", words_of(self.folder / "ages/figures/profile.pdf"))
+        for way in set(shown["U"]):
+            row = np.argmin(abs(U - way))
+            np.testing.assert_allclose(shown["A/A_0"][shown["U"] == way], np.where(status[row] == 0, 0, area[row]), atol=2e-6)
         found = table(self.folder / "ages/figures/contact-area-compared.csv")
         np.testing.assert_allclose(found["computed"], [area[r, i] for r, i in places], atol=2e-6)   # stored with 24 bits
 

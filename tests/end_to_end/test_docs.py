@@ -249,6 +249,7 @@ class Report(unittest.TestCase):
         cls.held |= keys_of_run("validation/paper/fig1.yaml", "mesh.set={nx: 4, nz: 2}", "time.until={t: 4}",   # with jumps
                                 "material.relaxation=[{time: 1, shear: 0.1}]",
                                 "rod.program={t: [0, 1, 1, 2, 2, 3, 3], factor: [1, 1, 2, 2, 0, 0, 2]}")
+        cls.held |= keys_of_run("docs/examples/fronts.yaml", "mesh.set.refine=0.5")   # with precursors
         cls.held |= keys_of_run("validation/paper/fig1.yaml", f"mesh.file={SOURCE}/meshes/block3d.geo",   # in space
                                 "mesh.set={nx: 3, ny: 2, nz: 2}", "time.until.U=5e-3")
 

@@ -123,6 +123,11 @@ class Fit(unittest.TestCase):
         study = HEAD + "  output.history: true\nsearch: {material.young: {log: [0.3, 3]}}\nfit: {measured: [measured.csv], designs: 8}\n"
         value, low, high = self.regions(self.call("fit", study, "-j", "2", "-o", "out").stdout)["material.young"]
         self.assertTrue(low < 0.8 < high and high - low < 0.2, (value, low, high))
+        self.assertTrue((self.folder / "out/figures/fitted.png").is_file())
+        plot = json.loads((self.folder / "out/figures/fitted.json").read_text())
+        data, run = plot["series"]
+        found = [min(zip(run["x"], run["y"]), key=lambda point: abs(point[0] - way))[1] for way in data["x"]]
+        self.assertLess(max(abs(a - b) for a, b in zip(found, data["y"])), 5 * 0.004, "the run of the best design lies on the data")
         said = self.call("fit", study.replace("history: true", "history: false"), "-o", "none", status=2).stderr
         self.assertIn("output.history: true", said)
 

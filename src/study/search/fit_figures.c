@@ -12,7 +12,9 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { PROFILE_POINTS = 81, REGION_POINTS = 97, PAIRS_KEYS_MAX = 4 };
+enum { PROFILE_POINTS = 81, REGION_POINTS = 97, PAIRS_KEYS_MAX = 4, CURVES_MAX = 6 };
+static const char SERIES[] = "series/";
+static const double BESIDE = 0.05;   // of the data's range, shown of a run's curve on either side
 static const double BEYOND = 0.6;   // of a region's width that its figure shows on either side
 
 // --- profiles -----------------------------------------------------------------------------------
@@ -237,10 +239,110 @@ cleanup:
     return error_is_clean(err);
 }
 
+// --- the best curves on the data -----------------------------------------------------------------
+
+// Whether a datum lies on the curve of datum `first`, under the same condition.
+static bool is_on_curve(const Datum *datum, const Datum *first, bool under_same)
+{
+    return strcmp(datum->along, first->along) == 0 && strcmp(datum->name, first->name) == 0 &&
+           (!under_same || datum->condition == first->condition);
+}
+
+// The first datum of each curve of the same two series, one a condition, in first [*count]: at most
+// CURVES_MAX of them. Nothing was measured along a series: *count is 0.
+static void find_curves(const Fit *fit, int32_t first[CURVES_MAX], int32_t *count)
+{
+    const Measurements *measured = &fit->measured;
+    *count = 0;
+    for (int32_t k = 0; k < measured->count && *count < CURVES_MAX; k++) {
+        const Datum *one = &measured->list[k];
+        bool is_new = strncmp(one->along, SERIES, strlen(SERIES)) == 0 &&
+                      (*count == 0 || is_on_curve(one, &measured->list[first[0]], false));
+        for (int32_t i = 0; i < *count && is_new; i++)
+            is_new = !is_on_curve(one, &measured->list[first[i]], true);
+        if (is_new) first[(*count)++] = k;
+    }
+}
+
+// What was measured on the curve of datum `first`: place, value, error. Returns how many.
+static int32_t fill_data(const Fit *fit, const Datum *first, double *x, double *y, double *error)
+{
+    int32_t count = 0;
+    for (int32_t k = 0; k < fit->measured.count; k++) {
+        const Datum *one = &fit->measured.list[k];
+        if (!is_on_curve(one, first, true)) continue;
+        x[count] = one->at;
+        y[count] = one->value;
+        error[count++] = one->error;
+    }
+    return count;
+}
+
+// Keeps of a run's curve what lies over the data, and a little beside them.
+static int32_t crop(const double *at, int32_t data, double *x, double *y, int64_t rows)
+{
+    double low = INFINITY, high = -INFINITY;
+    int32_t kept = 0;
+    for (int32_t k = 0; k < data; k++) {
+        low = fmin(low, at[k]);
+        high = fmax(high, at[k]);
+    }
+    double beside = BESIDE * (high > low ? high - low : fabs(high));
+    for (int64_t k = 0; k < rows; k++) {
+        if (!(x[k] >= low - beside && x[k] <= high + beside)) continue;
+        x[kept] = x[k];
+        y[kept++] = y[k];
+    }
+    return kept;
+}
+
+// Draws measured curves with the whole curves of the best design's runs over them, which are no
+// polynomials.
+static bool draw_fitted(const Fit *fit, Error *err)
+{
+    int32_t first[CURVES_MAX], count = 0, best = designs_best(&fit->search.designs), used = 0;
+    int64_t data = fit->measured.count;
+    double *x[CURVES_MAX] = {0}, *y[CURVES_MAX] = {0}, *room = NULL;
+    Curve curves[2 * CURVES_MAX];
+    char history[POINT_PATH_SIZE + 16];
+    find_curves(fit, first, &count);
+    if (count == 0 || best < 0) return true;
+    TRY(room = NEW_ARRAY(double, 3 * data, err));
+    double *at = room, *value = room + data, *error = room + 2 * data;
+    for (int32_t k = 0; k < count; k++) {
+        const Datum *one = &fit->measured.list[first[k]];
+        int64_t rows = 0;
+        int32_t points = fill_data(fit, one, at + used, value + used, error + used);
+        point_path(fit->search.sweep, fit->search.designs.list[best].point + one->condition,
+                   "history.h5", history);
+        TRY(measurements_curve(one, history, &x[k], &y[k], &rows, err));
+        int32_t kept = crop(at + used, points, x[k], y[k], rows);
+        const char *condition = fit->measured.conditions[one->condition];
+        curves[k] = search_dots("measured, with one error", points, at + used, value + used);
+        curves[k].error = error + used;
+        if (count > 1 && *condition) curves[k].label = condition;
+        curves[count + k] = search_line(k == 0 ? "run of the best design" : "", kept, x[k], y[k]);
+        curves[k].color = curves[count + k].color = count > 1 ? k : COLOR_DESIGNS;
+        if (count == 1) curves[count + k].color = COLOR_BEST;
+        used += points;
+    }
+    const Datum *one = &fit->measured.list[first[0]];
+    const char *units = fit->search.sweep->scene->units == UNITS_SI ? "SI" : "normalised";
+    Frame frame = {.name = "fitted", .x_scale = "linear", .y_scale = "linear"};
+    snprintf(frame.x.words, sizeof frame.x.words, "%.60s (%s)", one->along + strlen(SERIES), units);
+    snprintf(frame.y.words, sizeof frame.y.words, "%.60s", one->name + strlen(SERIES));
+    TRY(search_draw(&fit->search, &frame, curves, 2 * count, err));
+cleanup:
+    memory_free_list((void *const *)x, CURVES_MAX);
+    memory_free_list((void *const *)y, CURVES_MAX);
+    memory_free(room);
+    return error_is_clean(err);
+}
+
 bool fit_figures(const Fit *fit, Error *err)
 {
     int32_t n = fit->response.keys;
-    if (!draw_measured(fit, err)) return false;
+    if (!draw_measured(fit, err) || !draw_fitted(fit, err)) return false;
     for (int32_t k = 0; k < n; k++)
         if (!draw_profile(fit, k, err)) return false;
     for (int32_t k = 0; k < n && n <= PAIRS_KEYS_MAX; k++)

@@ -362,10 +362,10 @@ static double read_along(const double *x, const double *y, int64_t count, double
     return NAN;
 }
 
-static bool find_on_curve(const Datum *datum, const char *history, double *value, Error *err)
+bool measurements_curve(const Datum *datum, const char *history, double **x, double **y,
+                        int64_t *count, Error *err)
 {
-    double *x = NULL, *y = NULL;
-    int64_t rows = 0, other = 0;
+    int64_t other = 0;
     int32_t width = 0;
     Error ignored = {0};   // it is only read
     ArrayFile *file = NULL;
@@ -375,14 +375,22 @@ static bool find_on_curve(const Datum *datum, const char *history, double *value
              "{output.history: true}` and `keep: points`",
              datum->name);
     TRY(file = array_file_open(history, err));
-    TRY(array_file_read(file, datum->along, &x, &rows, &width, err));
-    if (width == 1) TRY(array_file_read(file, datum->name, &y, &other, &width, err));
-    if (width != 1 || rows != other)
+    TRY(array_file_read(file, datum->along, x, count, &width, err));
+    if (width == 1) TRY(array_file_read(file, datum->name, y, &other, &width, err));
+    if (width != 1 || *count != other)
         FAIL(err, ERROR_INPUT, "%s over %s: a series has one number a step", datum->name,
              datum->along);
-    *value = read_along(x, y, rows, datum->at);
 cleanup:
     array_file_close(file, &ignored);
+    return error_is_clean(err);
+}
+
+static bool find_on_curve(const Datum *datum, const char *history, double *value, Error *err)
+{
+    double *x = NULL, *y = NULL;
+    int64_t rows = 0;
+    if (measurements_curve(datum, history, &x, &y, &rows, err))
+        *value = read_along(x, y, rows, datum->at);
     memory_free_all(x, y);
     return error_is_clean(err);
 }

@@ -44,4 +44,9 @@ void measurements_destroy(Measurements *measured);   // zeroed is fine
 bool measurements_find(const Datum *datum, const char *report, const char *history, double *value,
                        double *error, Error *err);
 
+// The whole curve that such a datum lies on, of a run: both series [*count], the caller's
+// (memory_free), also after a failure.
+bool measurements_curve(const Datum *datum, const char *history, double **x, double **y,
+                        int64_t *count, Error *err);
+
 #endif

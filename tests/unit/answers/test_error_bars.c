@@ -52,6 +52,9 @@ TEST(test_without_a_bar)
     assert_near("mu_M", answers.mu_M_known_to, hypot(usual * 0.3, 0.004), 1e-15);
     assert_near("mu_hold", answers.mu_hold_known_to, usual * 0.2, 1e-15);
     assert_near("mu_max", answers.mu_max_known_to, usual * 0.4, 1e-15);
+    answers.first_loading = (FirstLoading){.mu.value = 0.35, .since_precursor = 0.02};
+    level_answer_for(&level, &answers);
+    assert_near("first", answers.first_loading.known_to, hypot(usual * 0.35, 0.3 * 0.02), 1e-15);
     level.space = true;   // validation/space/priors.md: 0.9 of mu over nodes along the contact
     level_answer_for(&level, &answers);
     assert_near("in space", answers.mu_hold_known_to, 0.9 / 40 * 0.2, 1e-15);

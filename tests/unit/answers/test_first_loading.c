@@ -53,6 +53,40 @@ TEST(test_beside_the_regime)
     hand_drops_end(&hand);
 }
 
+// Slip turned fast behind the front; then over three quarters of the contact, of which a third was
+// behind it: the front says nothing of when the block slid.
+TEST(test_slip_that_turns_fast_elsewhere)
+{
+    const double elsewhere[] = {0.5, 0.5, 0, 0.5, 0.5};
+    for (int32_t k = 0; k < 2; k++) {
+        HandDrops hand;
+        hand_drops_begin(&hand, 1);
+        see(&hand, 0.2, REST);
+        see(&hand, 0.4, k == 0 ? SLOW : elsewhere);
+        see(&hand, 0.4, ACROSS);
+        see(&hand, 0.1, REST);
+        FirstLoading first = first_loading_of(&hand.drops);
+        assert_true(first.slid && isnan(first.critical_length) == (k == 1));
+        hand_drops_end(&hand);
+    }
+}
+
+// The load gained since the last precursor: one of them more or less changes the peak by a part of it.
+TEST(test_since_the_last_precursor)
+{
+    HandDrops hand;
+    hand_drops_begin(&hand, 1);
+    drop(&hand, 0.3, 0.299, HALF);
+    drop(&hand, 0.35, 0.349, HALF);
+    drop(&hand, 0.4, 0.2, ACROSS);
+    assert_near("since", first_loading_of(&hand.drops).since_precursor, 0.05, 1e-15);
+    hand_drops_end(&hand);
+    hand_drops_begin(&hand, 1);
+    drop(&hand, 0.4, 0.2, ACROSS);
+    assert_near("none", first_loading_of(&hand.drops).since_precursor, 0, 0);
+    hand_drops_end(&hand);
+}
+
 // A block that slid from t = 0 on has no first loading: nothing had held before.
 TEST(test_sliding_from_the_start)
 {
