@@ -337,8 +337,10 @@ static bool read_table(const char *path, const ResultView *view, CsvTable *table
     TRY(find_columns(table, view, found, err));
     if (!has_any(found))
         FAIL(err, ERROR_INPUT,
-             "%s: it needs the columns U and F_T/F_N, U and x, U, x and A/A_0, F_T/F_N and l, or x "
-             "and v; or U and those of probes of the result, as gauge1 strain_xx",
+             "%s: it needs the columns U (or t) and mu, F_T/F_N, F_T and F_N, or F_T in newtons "
+             "where the scene has its `thickness`; U and x; U, x and A/A_0; F_T/F_N and l; x and "
+             "v; or U and those of probes of the result, as gauge1 strain_xx. A column called "
+             "`force` alone may be either force: call it F_T",
              path);
     if (table->rows == 0)
         FAIL(err, ERROR_INPUT, "%s: below the names of its columns there is no row", path);

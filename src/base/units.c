@@ -50,6 +50,7 @@ enum {
     BASE_COUNT = sizeof bases / sizeof bases[0],
     PREFIX_COUNT = sizeof prefixes / sizeof prefixes[0],
     POWER_MAX = 4,
+    UNIT_SIZE = 60,
 };
 
 static const Unit *find_dimension(const char *name)
@@ -118,11 +119,34 @@ static bool read_dimensionless(const char *text, Unit *product)
     return strcmp(text, "-") == 0 || strcmp(text, "1") == 0 || strcmp(text, "%") == 0;
 }
 
-// All of `text` is a unit.
-static bool read_unit(const char *text, Unit *product)
+// Powers and products as they are printed, superscripts and a dot, and as they are typed.
+static const char *const PRINTED[][2] = {
+    {"\xC2\xB9", "1"},     {"\xC2\xB2", "2"}, {"\xC2\xB3", "3"},    {"\xE2\x81\xBB", "-"},
+    {"\xE2\x88\x92", "-"}, {"\xC2\xB7", " "}, {"\xE2\x8B\x85", " "}};
+
+// `text` with letters of the keyboard in their place; false: it is longer than any unit.
+static bool type_unit(const char *text, char typed[UNIT_SIZE])
+{
+    size_t length = 0, count = sizeof PRINTED / sizeof *PRINTED;
+    while (*text) {
+        size_t k = 0;
+        while (k < count && strncmp(text, PRINTED[k][0], strlen(PRINTED[k][0])) != 0) k++;
+        if (length + 1 == UNIT_SIZE) return false;
+        typed[length++] = k < count ? *PRINTED[k][1] : *text;
+        text += k < count ? strlen(PRINTED[k][0]) : 1;
+    }
+    typed[length] = 0;
+    return true;
+}
+
+// All of `printed` is a unit.
+static bool read_unit(const char *printed, Unit *product)
 {
     int32_t sign = 1;
+    char typed[UNIT_SIZE];
+    const char *text = typed;
     *product = (Unit){0};
+    if (!type_unit(printed, typed)) return false;
     if (read_dimensionless(text, product)) return true;
     if (strncmp(text, "1/", 2) == 0) {   // 1/s
         sign = -1;

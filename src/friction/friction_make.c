@@ -4,6 +4,8 @@
 #include "friction/friction_look.h"
 #include "friction/friction_start.h"
 
+#include <math.h>
+
 #include <string.h>
 
 // `word` stands in `words`, which have blanks between them. words NULL: there are none.
@@ -42,5 +44,8 @@ bool friction_make(const FrictionSource *source, FrictionLaw *law, const char **
     }
     if (operations->make && !operations->make(source, law, key, err)) return false;
     if (!operations->own) return true;
-    return law->remembers ? friction_start(source, law, key, err) : friction_look(law, err);
+    if (!law->remembers) return friction_look(law, err);
+    if (law->feels_pressure && isnan(source->pressure))
+        return true;   // made again when it is known
+    return friction_start(source, law, key, err);
 }

@@ -63,6 +63,8 @@ bool model_read_mesh(const ChildWatch *watch, Model *model, Error *err)
     TRY(mesh->dim > 2 ? take_to_space(model, err) : refuse_across(scene, err));
     TRY(scene_check_thickness(scene, mesh, err));
     TRY(scene_pressure(scene, mesh, &model->pressure, err));
+    for (int32_t k = 0; k < scene->load.traction_count; k++)
+        TRY(scene_traction(scene, mesh, k, model->tractions[k], err));
     model->machine_stiffness = scene_machine_stiffness(scene, mesh, model->breadth);
     TRY(model_mark_regions(model, err));
 cleanup:
@@ -88,9 +90,10 @@ double load_reference(const Model *model)
     const Scene *scene = model->scene;
     double largest = fabs(model->pressure);
     if (largest > 0) return largest;
-    for (int32_t k = 0; k < scene->load.traction_count; k++)
-        largest =
-            fmax(largest, fmax(fabs(scene->load.tractions[k].x), fabs(scene->load.tractions[k].z)));
+    for (int32_t k = 0; k < scene->load.traction_count; k++) {
+        const double *traction = model->tractions[k];
+        largest = fmax(largest, fmax(fabs(traction[0]), fabs(traction[model->mesh.dim - 1])));
+    }
     return largest > 0 ? largest : 1;
 }
 
@@ -143,10 +146,11 @@ static bool add_loads(Model *model, Error *err)
         bulk_add_traction(&model->mesh, &boundary, traction, bulk);
     }
     for (int32_t k = 0; k < scene->load.traction_count; k++) {
-        const SceneTraction *given = &scene->load.tractions[k];
-        MeshPlace traction = {given->x / reference, given->y / reference};
-        traction[up] = given->z / reference;
-        bool found = mesh_boundary(&model->mesh, given->group, &boundary, err);
+        const char *group = scene->load.tractions[k].group;
+        MeshPlace traction = {0};
+        for (int32_t axis = 0; axis <= up; axis++)
+            traction[axis] = model->tractions[k][axis] / reference;
+        bool found = mesh_boundary(&model->mesh, group, &boundary, err);
         if (!scene_blame(scene, "load.tractions", found, err)) return false;
         bulk_add_traction(&model->mesh, &boundary, traction, bulk);
     }

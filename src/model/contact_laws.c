@@ -5,8 +5,10 @@
 #include "fem/mesh_pieces.h"
 #include "model/place_formula.h"
 #include "scene/contact_laws.h"
+#include "scene/friction_law.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 enum { SAMPLES = 32 };   // of a formula over the part of a node; exact where it is straight
@@ -117,16 +119,21 @@ static bool make_laws(Model *model, int32_t law_of[SCENE_CONTACT_LAWS_MAX], Erro
     const Scene *scene = model->scene;
     const SceneContactLaws *items = &scene->contact_laws;
     int32_t count = 1;
+    const char *word = "law";
+    char key[40];
     model->laws = NEW_ARRAY(FrictionLaw, items->count + 1, err);
     if (!model->laws) return false;
-    model->laws[0] = scene->friction;
+    bool made = scene_law_at(scene, model->pressure, &model->laws[0], &word, err);
+    snprintf(key, sizeof key, "friction.%s", word);
+    if (!scene_blame(scene, key, made, err)) return false;
     for (int32_t k = 0; k < items->count; k++) {
         const SceneContactLaw *item = &items->item[k];
         law_of[k] = scene_has_contact_law(item) ? count : 0;
         for (int32_t j = 0; j < k && law_of[k] > 0; j++)
             if (law_of[j] > 0 && is_same_law(&items->item[j], item)) law_of[k] = law_of[j];
         if (law_of[k] < count) continue;
-        if (!scene_contact_law(scene, item, &model->laws[count], err)) return false;
+        made = scene_contact_law(scene, item, model->pressure, &model->laws[count], err);
+        if (!scene_blame(scene, "friction.contacts", made, err)) return false;
         count++;
     }
     return true;
@@ -142,7 +149,7 @@ bool model_lay_laws(Model *model, Error *err)
     bool alike = scene->contact_laws.count == 0 && !*scene->own_friction.along;
     if (alike && !scene->friction.remembers) return true;
     if (!scene_blame(scene, "friction.contacts", check_groups(model, err), err)) return false;
-    if (!scene_blame(scene, "friction.contacts", make_laws(model, law_of, err), err)) return false;
+    if (!make_laws(model, law_of, err)) return false;
     model->friction_nodes = NEW_ARRAY(FrictionNode, count, err);
     if (!model->friction_nodes) return false;
     for (int32_t i = 0; i < count; i++) {

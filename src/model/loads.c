@@ -28,19 +28,28 @@ bool scene_check_thickness(const Scene *scene, const Mesh *mesh, Error *err)
                      "in the plane N/m of the whole machine need the block's `thickness`; without "
                      "it, divide by the thickness by hand (N/m over m: Pa)",
                      err);
+    for (int32_t k = 0; k < scene->load.traction_count; k++) {
+        const bool *whole = scene->load.tractions[k].whole;
+        if (whole[0] || whole[1] || whole[2])
+            return blame(scene, "load.tractions",
+                         "in the plane a force needs the block's `thickness`; without it, divide "
+                         "by the area of the group by hand (N over m2: Pa)",
+                         err);
+    }
     return true;
 }
 
-// Length of the top in the plane, its area in space.
-static bool measure_top(const Scene *scene, const Mesh *mesh, double *size, Error *err)
+// Length of a group in the plane, its area in space. key: which of the scene names it.
+static bool measure_group(const Scene *scene, const Mesh *mesh, const char *key, const char *group,
+                          double *size, Error *err)
 {
-    MeshBoundary top;
+    MeshBoundary boundary;
     double *weight = NEW_ARRAY(double, mesh->node_count, err);
     *size = 0;
     TRY(weight);
-    TRY(scene_blame(scene, "groups.top", mesh_boundary(mesh, scene->groups.top, &top, err), err));
-    boundary_add_weights(mesh, &top, false, weight);
-    for (int32_t i = 0; i < top.node_count; i++) *size += weight[top.nodes[i]];
+    TRY(scene_blame(scene, key, mesh_boundary(mesh, group, &boundary, err), err));
+    boundary_add_weights(mesh, &boundary, false, weight);
+    for (int32_t i = 0; i < boundary.node_count; i++) *size += weight[boundary.nodes[i]];
 cleanup:
     memory_free(weight);
     return error_is_clean(err);
@@ -51,8 +60,24 @@ bool scene_pressure(const Scene *scene, const Mesh *mesh, double *pressure, Erro
     double size = 0;
     *pressure = scene->load.pressure;
     if (!(scene->load.force > 0)) return true;
-    if (!measure_top(scene, mesh, &size, err)) return false;
+    if (!measure_group(scene, mesh, "groups.top", scene->groups.top, &size, err)) return false;
     *pressure = scene->load.force / scene_whole_force(scene, mesh->dim) / size;
+    return true;
+}
+
+bool scene_traction(const Scene *scene, const Mesh *mesh, int32_t k, MeshPlace traction, Error *err)
+{
+    const SceneTraction *given = &scene->load.tractions[k];
+    const double values[] = {given->x, given->y, given->z};
+    for (int32_t axis = 0; axis < mesh->dim; axis++) {
+        int32_t i = axis == mesh->dim - 1 ? 2 : axis;
+        double size = 1;
+        if (given->whole[i] &&
+            !measure_group(scene, mesh, "load.tractions", given->group, &size, err))
+            return false;
+        if (given->whole[i]) size *= scene_whole_force(scene, mesh->dim);
+        traction[axis] = values[i] / size;
+    }
     return true;
 }
 

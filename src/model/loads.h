@@ -16,6 +16,10 @@ bool scene_check_thickness(const Scene *scene, const Mesh *mesh, Error *err);
 // Pressure on groups.top: load.pressure, or load.force over the area of the top, stress.
 bool scene_pressure(const Scene *scene, const Mesh *mesh, double *pressure, Error *err);
 
+// Traction number k of the scene along each axis, stress: a force is spread over its group.
+bool scene_traction(const Scene *scene, const Mesh *mesh, int32_t k, MeshPlace traction,
+                    Error *err);
+
 // Stiffness of the machine, in the plane force/width over length, in space force over length; 0:
 // the rod is rigid. breadth: of a block in space, 1 in the plane.
 double scene_machine_stiffness(const Scene *scene, const Mesh *mesh, double breadth);

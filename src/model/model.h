@@ -50,6 +50,7 @@ typedef struct Model {
     double breadth;   // of the block along y, length; 1 in the plane, where forces are per width
     double middle;   // x of its middle, length
     double pressure;   // on the top, load.pressure or that of load.force; stress
+    MeshPlace tractions[SCENE_LIST_MAX];   // [scene->load.traction_count] stress
     double machine_stiffness;   // force/width over length, in space force over length; 0: rigid
     ProbePlace probes[SCENE_PROBES_MAX];   // [scene->output.probes.count] where they are
     MeshOrigin mesh_origin;   // where it was read

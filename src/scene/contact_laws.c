@@ -42,8 +42,8 @@ static bool check_item(const SceneContactLaw *item, const FrictionLaw *scene_law
     return true;
 }
 
-bool scene_contact_law(const Scene *scene, const SceneContactLaw *item, FrictionLaw *law,
-                       Error *err)
+bool scene_contact_law(const Scene *scene, const SceneContactLaw *item, double pressure,
+                       FrictionLaw *law, Error *err)
 {
     const char *key = NULL;
     *law = scene->friction;
@@ -54,7 +54,7 @@ bool scene_contact_law(const Scene *scene, const SceneContactLaw *item, Friction
                          .critical_velocity = item->critical_velocity};
     if (!friction_has_drop(law)) law->mu_kinetic = law->mu_static;
     return check_item(item, &scene->friction, law, err) &&
-           scene_friction_law(scene, item->formula, law, &key, err);
+           scene_friction_law(scene, item->formula, pressure, law, &key, err);
 }
 
 // Numbers that the item does not give are those of the scene; for another formula they are 0, as
@@ -76,7 +76,7 @@ bool scene_contact_laws(const SceneValue *value, Scene *scene, Error *err)
         FrictionLaw law;
         Error found = {0};
         complete(&scene->friction, item);
-        if (!scene_contact_law(scene, item, &law, &found))
+        if (!scene_contact_law(scene, item, scene_nominal_pressure(scene), &law, &found))
             return yaml_error(value->document, node, err, "friction.contacts: %s: %s", item->group,
                               found.message);
         for (const SceneContactLaw *other = first; other < item; other++)

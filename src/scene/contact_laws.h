@@ -12,8 +12,8 @@ bool scene_contact_laws(const SceneValue *value, Scene *scene, Error *err);
 // The item has a law of its own; else it is that of the scene.
 bool scene_has_contact_law(const SceneContactLaw *item);
 
-// The law of an item: the scene's, with what the item says otherwise.
-bool scene_contact_law(const Scene *scene, const SceneContactLaw *item, FrictionLaw *law,
-                       Error *err);
+// The law of an item: the scene's, with what the item says otherwise. pressure: nominal, stress.
+bool scene_contact_law(const Scene *scene, const SceneContactLaw *item, double pressure,
+                       FrictionLaw *law, Error *err);
 
 #endif

@@ -8,9 +8,17 @@
 #include <stdlib.h>
 
 // Names of the columns as people write them.
-static const char *const SPEEDS[] = {"v", "V", "velocity", "speed", "slip_rate", "slip rate", NULL};
-static const char *const COEFFICIENTS[] = {"mu",       "\xCE\xBC", "\xC2\xB5", "cof", "COF",
-                                           "friction", "F_T/F_N",  "F_t/F_n",  NULL};
+static const char *const SPEEDS[] = {"v",
+                                     "V",
+                                     "velocity",
+                                     "speed",
+                                     "slip rate",
+                                     "sliding velocity",
+                                     "slip velocity",
+                                     "sliding speed",
+                                     NULL};
+static const char *const COEFFICIENTS[] = {"mu",      "cof",     "friction", "mu_mean",
+                                           "mean mu", "F_T/F_N", "F_t/F_n",  NULL};
 
 // Columns of v, mu and its error, and what a 1 in each stands for in the scene's units.
 static bool find_columns(const CsvTable *csv, SceneUnits units, int32_t column[3], double factor[3],

@@ -59,8 +59,18 @@ static bool find_number(const void *context, const char *name, double *value)
     return *value > 0;
 }
 
-bool scene_friction_law(const Scene *scene, const char *formula, FrictionLaw *law, const char **key,
-                        Error *err)
+double scene_nominal_pressure(const Scene *scene)
+{
+    return scene->load.force > 0 ? (double)NAN : scene->load.pressure;
+}
+
+bool scene_law_waits(const Scene *scene)
+{
+    return scene->friction.feels_pressure && isnan(scene_nominal_pressure(scene));
+}
+
+bool scene_friction_law(const Scene *scene, const char *formula, double pressure, FrictionLaw *law,
+                        const char **key, Error *err)
 {
     const SceneOwnFriction *own = &scene->own_friction;
 #define X(number, symbol) law->number = own->number;
@@ -68,7 +78,6 @@ bool scene_friction_law(const Scene *scene, const char *formula, FrictionLaw *la
 #undef X
     law->slip_law = own->evolution == EVOLUTION_SLIP;
     FrictionLaw given = *law;   // a formula may name its numbers
-    bool by_force = scene->load.force > 0;
     double velocity[FRICTION_POINTS_MAX], mu[FRICTION_POINTS_MAX];
     int32_t points = 0;
     if (law->kind == FRICTION_TABLE && *own->file) {
@@ -94,14 +103,22 @@ bool scene_friction_law(const Scene *scene, const char *formula, FrictionLaw *la
                              .state_count = own->states.count,
                              .rod_velocity = scene->rod.velocity,
                              .rest = own->rest,
-                             .pressure = by_force ? 1 : scene->load.pressure,
+                             .pressure = pressure,
                              .parameters = own->parameters.value,
                              .parameter_count = own->parameters.count,
                              .end = fastest_slip(scene)};
-    if (!friction_make(&source, law, key, err)) return false;
-    *key = "law";
-    if (by_force && law->feels_pressure)
-        return REFUSE(err, "mu of the pressure needs load.pressure: what load.force makes on the "
-                           "top is known with the mesh only");
-    return true;
+    return friction_make(&source, law, key, err);
+}
+
+bool scene_law_at(const Scene *scene, double pressure, FrictionLaw *law, const char **key,
+                  Error *err)
+{
+    FrictionLaw plain = {.kind = scene->friction.kind,
+                         .mu_static = scene->friction.mu_static,
+                         .mu_kinetic = scene->friction.mu_kinetic,
+                         .critical_velocity = scene->friction.critical_velocity};
+    *law = scene->friction;
+    if (!scene_law_waits(scene)) return true;
+    *law = plain;
+    return scene_friction_law(scene, scene->own_friction.formula, pressure, law, key, err);
 }

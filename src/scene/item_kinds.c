@@ -2,7 +2,8 @@
 // The table of values that are lists or maps of maps (scene/keys).
 #include "scene/keys.h"
 
-static const SceneKey STRESS = {.type = KEY_NUMBER, .unit = "stress", .must_be_given = true};
+static const SceneKey STRESS = {
+    .type = KEY_NUMBER, .unit = "stress", .must_be_given = true, .whole = "force"};
 static const SceneKey PLACE = {.type = KEY_NUMBERS, .unit = "length"};
 static const SceneKey FORMULA = {.type = KEY_TEXT};
 static const SceneKey DIRECTION = {
@@ -21,10 +22,10 @@ static const SceneKey DIRECTION = {
     .count = offsetof(Scene, list), .first = offsetof(Scene, items),                               \
     .size = sizeof *((Scene *)0)->items, .name_size = sizeof((Scene *)0)->items->name
 
-static const ScenePart TRACTION[] = {OWN(SceneTraction, x, &STRESS, .shown = true),
-                                     OWN(SceneTraction, y, &STRESS),
-                                     OWN(SceneTraction, z, &STRESS, .shown = true),
-                                     {0}};
+#define ALONG(axis, k, ...)                                                                        \
+    OWN(SceneTraction, axis, &STRESS, .whole = offsetof(SceneTraction, whole) + k, __VA_ARGS__)
+static const ScenePart TRACTION[] = {
+    ALONG(x, 0, .shown = true), ALONG(y, 1, .shown = false), ALONG(z, 2, .shown = true), {0}};
 const SceneItems scene_traction_items = {
     ITEMS(group, load.traction_count, load.tractions), .noun = "a traction",
     .allowed = "a list of at most 32 maps {group: NAME, x: STRESS, z: STRESS}",

@@ -32,6 +32,7 @@ SceneKey scene_part_key(const SceneItems *items, const ScenePart *part, int32_t 
     SceneKey key = part->key ? *part->key : scene_keys(&count)[scene_key_index(like)];
     key.name = name;
     key.offset = items->first + (size_t)k * items->size + part->offset;
+    if (part->whole) key.is_whole = items->first + (size_t)k * items->size + part->whole;
     return key;
 }
 
@@ -91,7 +92,7 @@ static bool set_word(const SceneKey *key, int32_t k, const SceneValue *value, Sc
                      Error *err)
 {
     static const SceneKey name_key = {.type = KEY_NAME};
-    static const ScenePart group = {"group", 0, 0, &name_key, true, true};
+    static const ScenePart group = {.word = "group", .key = &name_key, .must = true, .shown = true};
     char path[PATH_SIZE], name[2 * PATH_SIZE];
     const SceneItems *items = key->items;
     char *item = item_of(items, scene, k);

@@ -212,7 +212,8 @@ static const SceneKey keys[] = {
            "in the plane it needs `thickness`.",
            .hint = "a force per width times `thickness`, a pressure as `load.pressure`"),
     KEY("load.tractions", KEY_ITEMS, load.traction_count, "stress", RANGE_ANY, "[]",
-        "Further tractions, a list of {group, x, z} (and y): a stress on a group.",
+        "Further tractions, a list of {group, x, z} (and y): a stress on a group, or with its unit "
+        "a force (5 N), spread evenly over it, in the plane with `thickness`.",
         .items = &scene_traction_items),
     KEY("load.supports", KEY_ITEMS, load.support_count, "1", RANGE_ANY, "[]",
         "Where the block is held, a list of {group, direction}: nodes of a group that do not "

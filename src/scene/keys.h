@@ -66,6 +66,7 @@ typedef struct SceneKey {
 typedef struct ScenePart {
     const char *word;
     size_t offset;   // in the item
+    size_t whole;   // there: SceneKey.is_whole of a key that has it
     size_t given;   // there: a bool, whether it is given; 0: where it is not 0 or empty
     const SceneKey *key;   // type, unit, range, choices; NULL: those of the key `like`.word
     bool must, shown;   // be given; also where it is not

@@ -28,16 +28,18 @@ typedef enum MaterialColumn {
     TEMPERATURE,
     COLUMNS
 } MaterialColumn;
-static const char *const NAMES[COLUMNS][8] = {
-    [FREQUENCY] = {"f", "freq", "Freq", "frequency", "Frequency", NULL},
-    [ANGULAR] = {"omega", "w", "\xCF\x89", NULL},
-    [TIME] = {"t", "time", "Time", NULL},
-    [YOUNG] = {"E'", "E", "E_storage", "storage", "storage modulus", "E1", NULL},
-    [YOUNG_LOSS] = {"E''", "E\"", "E_loss", "loss", "loss modulus", "E2", NULL},
-    [SHEAR] = {"G'", "G", "G_storage", "G1", NULL},
-    [SHEAR_LOSS] = {"G''", "G\"", "G_loss", "G2", NULL},
-    [TANGENT] = {"tan_delta", "tan delta", "tan(delta)", "tan d", "tand", "tan \xCE\xB4", NULL},
-    [TEMPERATURE] = {"T", "temperature", "Temp", "temp", NULL}};
+static const char *const NAMES[COLUMNS][9] = {
+    [FREQUENCY] = {"f", "freq", "freq.", "frequency", NULL},
+    [ANGULAR] = {"omega", "w", "\xCF\x89", "angular frequency", "ang. frequency", NULL},
+    [TIME] = {"t", NULL},
+    [YOUNG] = {"E'", "E", "E(t)", "E_storage", "storage", "storage modulus", "relaxation modulus",
+               "E1", NULL},
+    [YOUNG_LOSS] = {"E''", "E_loss", "loss", "loss modulus", "E2", NULL},
+    [SHEAR] = {"G'", "G", "G(t)", "G_storage", "shear storage modulus", "G1", NULL},
+    [SHEAR_LOSS] = {"G''", "G_loss", "shear loss modulus", "G2", NULL},
+    [TANGENT] = {"tan delta", "tan(delta)", "tan d", "tand", "tan \xCE\xB4", "tan(\xCE\xB4)",
+                 "loss factor", NULL},
+    [TEMPERATURE] = {"T", "temperature", "temp", "temp.", NULL}};
 static const char *const DIMENSIONS[COLUMNS] = {
     "frequency", "frequency", "time", "stress", "stress", "stress", "stress", "1", NULL};
 static const char WANTED[] = "wanted: f, E' and E'' (or tan_delta; G' and G''; omega), or t and E, "
@@ -57,7 +59,7 @@ static bool find_columns(MaterialTable *table, SceneUnits units, Error *err)
     for (int32_t k = 0; k < COLUMNS; k++)
         if (!csv_find_any(csv, NAMES[k], &table->column[k], &unit[k], err)) return false;
     const int32_t *has = table->column;
-    bool over_time = has[TIME] >= 0;
+    bool over_time = has[TIME] >= 0 && has[FREQUENCY] < 0 && has[ANGULAR] < 0;   // else a clock
     table->at = over_time ? TIME : has[ANGULAR] >= 0 ? ANGULAR : FREQUENCY;
     table->storage = has[SHEAR] >= 0 ? SHEAR : YOUNG;
     table->loss = over_time ? COLUMNS

@@ -28,7 +28,8 @@ typedef struct Table {
 static const char *const NAMES[] = {"x", "y", "gap"};
 static const char HEADS[] =
     "wanted: x and gap, of a height map x, y and gap, in any order: `x, gap`, or with units `x "
-    "[mm], gap [um]`, `x/mm, gap/um`, `x_mm, gap_um`, `mm, um`";
+    "[mm], gap [um]`, `x/mm, gap/um`, `x_mm, gap_um`, `mm, um` (a gap is how far the surface lies "
+    "below its highest point: of heights z it is their largest less z)";
 
 // Which of NAMES a column is, with the unit behind it; the unit alone ("mm"): *name -1. false: it
 // is none of these.
@@ -48,10 +49,26 @@ static bool read_head(const CsvTable *csv, int32_t k, int32_t *name, CsvUnit *un
     return unit_to_si(head, "length", &one);
 }
 
-// place[x, y, gap]: which column of the file it is, -1: none; scale: what a 1 in it is, length.
-static bool read_heads(const CsvTable *csv, SceneUnits units, int32_t place[COLUMNS_MAX],
-                       double scale[COLUMNS_MAX], Error *err)
+// The column of errors of the gap, which says nothing of the surface's shape; -1: none.
+static int32_t find_error(const CsvTable *csv)
 {
+    int32_t error = -1;
+    for (int32_t k = 0; csv->named && error < 0 && k < csv->columns; k++) {
+        int32_t name;
+        CsvUnit unit;
+        if (read_head(csv, k, &name, &unit) && name == COLUMNS_MAX - 1)
+            csv_find_error(csv, k, &error, &unit);
+    }
+    return error;
+}
+
+// place[x, y, gap]: which column of the file it is, -1: none; scale: what a 1 in it is, length.
+// *columns: how many these are.
+static bool read_heads(const CsvTable *csv, SceneUnits units, int32_t place[COLUMNS_MAX],
+                       double scale[COLUMNS_MAX], int32_t *columns, Error *err)
+{
+    int32_t error = find_error(csv);
+    *columns = csv->columns - (error >= 0);
     for (int32_t k = 0; k < COLUMNS_MAX; k++) {
         place[k] = -1;
         scale[k] = 1;
@@ -60,6 +77,7 @@ static bool read_heads(const CsvTable *csv, SceneUnits units, int32_t place[COLU
     for (int32_t k = 0; k < csv->columns; k++) {
         int32_t name = -1;
         CsvUnit unit = {"", 0};
+        if (k == error) continue;
         if (heads && !read_head(csv, k, &name, &unit)) {
             if (!csv->named_by_comment)
                 return csv_refuse(csv, -1, k, err, "is no column of a surface; %s", HEADS);
@@ -71,16 +89,15 @@ static bool read_heads(const CsvTable *csv, SceneUnits units, int32_t place[COLU
             }
             continue;
         }
-        if (name < 0) name = k < csv->columns - 1 ? k : COLUMNS_MAX - 1;
-        if (csv->columns > COLUMNS_MAX || (csv->columns == 2 && name == 1) || place[name] >= 0)
+        if (name < 0) name = k < *columns - 1 ? k : COLUMNS_MAX - 1;
+        if (*columns > COLUMNS_MAX || (*columns == 2 && name == 1) || place[name] >= 0)
             return csv_refuse(csv, -1, k, err, "cannot stand there: there are %d columns; %s",
-                              csv->columns, HEADS);
+                              *columns, HEADS);
         place[name] = k;
         if (!csv_to_scene(csv, k, unit, "length", units == UNITS_SI, &scale[name], err))
             return false;
     }
-    if (csv->columns == 1)
-        return REFUSE(err, "%s:%d: one column; %s", csv->path, csv->line[0], HEADS);
+    if (*columns == 1) return REFUSE(err, "%s:%d: one column; %s", csv->path, csv->line[0], HEADS);
     return true;
 }
 
@@ -89,7 +106,6 @@ static bool read_points(const CsvTable *csv, const int32_t place[COLUMNS_MAX],
 {
     double before = -INFINITY;
     if (!(table->points = memory_array(csv->rows, sizeof *table->points, err))) return false;
-    table->columns = csv->columns;
     for (int32_t row = 0; row < csv->rows; row++) {
         ProfilePoint *point = &table->points[table->count++];
         for (int32_t name = 0, k = 0; name < COLUMNS_MAX; name++) {
@@ -179,7 +195,7 @@ bool scene_profile_read(const Scene *scene, SceneProfile *profile, Error *err)
     *profile = (SceneProfile){0};
     if (!*table.path) return true;
     TRY(csv_read_bare(table.path, &csv, err));
-    TRY(read_heads(&csv, scene->units, place, scale, err));
+    TRY(read_heads(&csv, scene->units, place, scale, &table.columns, err));
     if (csv.rows == 0)
         FAIL(err, ERROR_INPUT, "%s has 0 points; two or more are needed", table.path);
     TRY(read_points(&csv, place, scale, &table, err));

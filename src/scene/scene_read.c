@@ -474,7 +474,8 @@ static bool finish_reading(Reader *reader, const char *path, Scene *scene, Error
     done = scene_profile_read(scene, &profile, err);
     scene_profile_destroy(&profile);
     if (!scene_blame(scene, "contact.profile", done, err)) return false;
-    done = scene_friction_law(scene, scene->own_friction.formula, &scene->friction, &word, err);
+    done = scene_friction_law(scene, scene->own_friction.formula, scene_nominal_pressure(scene),
+                              &scene->friction, &word, err);
     snprintf(key, sizeof key, "friction.%s", word);
     return scene_blame(scene, key, done, err) &&
            scene_contact_laws(&reader->sources[scene_key_index("friction.contacts")], scene, err);

@@ -55,7 +55,8 @@ typedef struct SceneProbes {
 
 typedef struct SceneTraction {
     char group[GROUP_NAME_SIZE];
-    double x, y, z;   // stress; y: in space only
+    double x, y, z;   // stress, or force of the whole group; y: in space only
+    bool whole[3];   // whether x, y and z are forces
 } SceneTraction;
 
 // Nodes of a group that do not move along some of the axes; y: in space only.

@@ -63,6 +63,26 @@ class Quantities(unittest.TestCase):
         self.assertAlmostEqual(whole["results"]["F_N"], 2000, delta=1e-6)
         self.assertIn("leave it out", self.call("run", "space.yaml", "-o", "no", "--set", "thickness=1 mm", status=2).stderr)
 
+    def test_law_of_the_pressure(self):
+        """mu of p, of a force in newtons: the law is looked at with the pressure that the force makes."""
+        law = "friction={law: formula, formula: '(0.05 + 0.05 * exp(-v / 5e-3)) * log(max(p, 5e3) / 4e3)', velocity_max: 1}"
+        both = (*COARSE, "time.until={U: 0.2 mm}", law)
+        by_hand, _ = self.run_scene(PMMA, *both, name="by-hand")
+        whole, _ = self.run_scene(PMMA, *both, "thickness=6 mm", "load={force: 2.004 kN}", name="whole")
+        self.assertAlmostEqual(whole["results"]["mu_max"], by_hand["results"]["mu_max"], delta=1e-12)
+        settings = ["--set", law, "thickness=6 mm", "load={force: 2.004 kN}"]
+        self.assertIn("depends on the pressure", self.call("info", PMMA, *settings).stdout)
+        self.assertIn("load.force=none", self.call("info", PMMA, "--picture", "friction.png", *settings, status=2).stderr)
+
+    def test_tractions_in_newtons(self):
+        both = (*COARSE, "time.until={U: 0.2 mm}")
+        by_hand, _ = self.run_scene(PMMA, *both, "load.tractions=[{group: top, x: 10 kPa, z: -0.1 MPa}]", name="by-hand")
+        newtons = "load.tractions=[{group: top, x: 12 N, z: -120 N}]"
+        whole, _ = self.run_scene(PMMA, *both, "thickness=6 mm", newtons, name="whole")
+        self.assertAlmostEqual(whole["results"]["mu_max"], by_hand["results"]["mu_max"], delta=1e-12)
+        self.assertEqual(whole["scene"]["load"]["tractions"][0]["x"], "12 N")
+        self.assertIn("`thickness`", self.call("run", PMMA, "-o", "no", "--set", newtons, status=2).stderr)
+
     def test_what_is_missing(self):
         told = self.call("run", PMMA, "-o", "no", "--set", "load={force: 6 kN}", status=2).stderr
         self.assertIn("load.force", told)

@@ -142,7 +142,7 @@ typedef struct FrictionSource {
     int32_t state_count;
     double rod_velocity;   // velocity; 0: no rod moves
     double rest;   // rest of the contacts before the rod moves, time; 0: not given
-    double pressure;   // nominal, stress
+    double pressure;   // nominal, stress; NaN: not known yet
     const double *parameters;   // [parameter_count] of a plug-in
     int32_t parameter_count;
     double end;   // the fastest slip that a law is asked about, velocity

@@ -8,10 +8,12 @@
 #include "base/units.h"
 #include "io/files/text_file.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 
 enum { SIZE_MAX_CSV = 1 << 30, NUMBER_SIZE = 64, REASON_SIZE = 400 };
 
@@ -27,10 +29,12 @@ static const char *next_line(const char *line)
     return *line ? line + 1 : line;
 }
 
+// Empty lines, comments, and the line "sep=;" that spreadsheets write for each other.
 static bool is_left_out(const char *line)
 {
     line += strspn(line, BLANKS);
-    return !*line || strchr(ENDS, *line) || strchr(COMMENTS, *line);
+    bool separator = strncasecmp(line, "sep=", 4) == 0 && line[4] && strchr(ENDS, line[5]);
+    return !*line || strchr(ENDS, *line) || strchr(COMMENTS, *line) || separator;
 }
 
 static bool ends_line(char c)
@@ -304,9 +308,13 @@ static bool is_unit(const char *text, int32_t length)
 // The unit that brackets hold which are all of the text; length 0: there are none.
 static CsvUnit in_brackets(const char *bracket)
 {
-    int32_t length = (int32_t)strlen(bracket);
+    int32_t length = (int32_t)strlen(bracket), depth = 0;
     if ((*bracket != '(' && *bracket != '[') || !strchr(")]", bracket[length - 1]))
         return (CsvUnit){bracket, 0};
+    for (int32_t k = 0; k < length - 1; k++) {   // "(t) (MPa)" is no unit
+        depth += strchr("([", bracket[k]) ? 1 : strchr(")]", bracket[k]) ? -1 : 0;
+        if (depth == 0) return (CsvUnit){bracket, 0};
+    }
     CsvUnit unit = {bracket + 1, length - 2};
     while (unit.length > 0 && strchr(BLANKS, *unit.text)) unit.text++, unit.length--;
     while (unit.length > 0 && strchr(BLANKS, unit.text[unit.length - 1])) unit.length--;
@@ -528,23 +536,82 @@ void csv_split(const CsvTable *table, int32_t column, int32_t *name_length, CsvU
     *unit = csv_unit_of_row(table, column);
 }
 
-bool csv_find(const CsvTable *table, const char *name, int32_t *column, CsvUnit *unit, Error *err)
+// How people write what the keyboard has as `'` and `''`: the primes of E' and E''.
+static const struct {
+    const char *written, *plain;
+} PRIMES[] = {{"\xE2\x80\xB2", "'"},
+              {"\xE2\x80\x99", "'"},   // U+2032, U+2019
+              {"\xE2\x80\xB3", "''"},
+              {"\xE2\x80\x9D", "''"},   // U+2033, U+201D
+              {"\"", "''"}};
+enum { WORD_LENGTH = 4 };   // from which on a name is a word, in capitals or not
+
+// The text behind the name with which `own` begins; NULL: it begins with another one. Symbols are
+// as they are (V, v), words in capitals or not, with blanks or underscores between them.
+static const char *behind_name(const char *own, const char *name)
 {
-    size_t length = strlen(name);
-    *column = -1;
-    *unit = (CsvUnit){"", 0};
-    for (int32_t k = 0; k < table->columns; k++) {
-        const char *own = csv_name(table, k);
-        CsvUnit behind = csv_unit_of_row(table, k);
-        if (strncmp(own, name, length) != 0 ||
-            (own[length] && !csv_take_unit(own + length, &behind)))
+    bool word = strlen(name) >= WORD_LENGTH;
+    while (*name) {
+        bool between = strchr(" _", *name) && *own && strchr(" _", *own);
+        bool letter = word && tolower((unsigned char)*own) == tolower((unsigned char)*name);
+        size_t k = 0, primes = sizeof PRIMES / sizeof *PRIMES;
+        if (*own == *name || between || letter) {
+            own++, name++;
             continue;
+        }
+        while (k < primes && (strncmp(own, PRIMES[k].written, strlen(PRIMES[k].written)) != 0 ||
+                              strncmp(name, PRIMES[k].plain, strlen(PRIMES[k].plain)) != 0))
+            k++;
+        if (k == primes) return NULL;
+        own += strlen(PRIMES[k].written);
+        name += strlen(PRIMES[k].plain);
+    }
+    return own;
+}
+
+// Column `column` is called `name`, which may have a unit behind it.
+static bool is_called(const CsvTable *table, int32_t column, const char *name, CsvUnit *unit)
+{
+    const char *behind = behind_name(csv_name(table, column), name);
+    *unit = csv_unit_of_row(table, column);
+    return behind && (!*behind || csv_take_unit(behind, unit));
+}
+
+static bool find_named(const CsvTable *table, const char *name, int32_t *column, CsvUnit *unit,
+                       Error *err)
+{
+    for (int32_t k = 0; k < table->columns; k++) {
+        CsvUnit found;
+        if (!is_called(table, k, name, &found)) continue;
         if (*column >= 0)
             return csv_refuse(table, -1, k, err, "is %s a second time, beside column %d, %.40s",
                               name, *column + 1, csv_name(table, *column));
         *column = k;
-        *unit = behind;
+        *unit = found;
     }
+    return true;
+}
+
+// Quantities by symbol, and what people call them. Such a word counts where the symbol is not in
+// the table.
+static const char *const QUANTITIES[][7] = {
+    {"t", "time", NULL},
+    {"U", "displacement", NULL},
+    {"mu", "\xCE\xBC", "\xC2\xB5", "COF", "friction coefficient", "coefficient of friction", NULL},
+    {"F_T", "F_t", "Ft", "friction force", "tangential force", "shear force", NULL},
+    {"F_N", "F_n", "Fn", "normal force", "normal load", NULL},
+    {"hold", "hold time", "holding time", "time held", "waiting time", NULL}};
+
+bool csv_find(const CsvTable *table, const char *name, int32_t *column, CsvUnit *unit, Error *err)
+{
+    size_t q = 0, quantities = sizeof QUANTITIES / sizeof *QUANTITIES;
+    *column = -1;
+    *unit = (CsvUnit){"", 0};
+    if (!find_named(table, name, column, unit, err)) return false;
+    while (q < quantities && strcmp(QUANTITIES[q][0], name) != 0) q++;
+    if (*column >= 0 || q == quantities) return true;
+    for (const char *const *word = QUANTITIES[q] + 1; *word; word++)
+        if (!find_named(table, *word, column, unit, err)) return false;
     return true;
 }
 
@@ -557,7 +624,7 @@ bool csv_find_any(const CsvTable *table, const char *const *names, int32_t *colu
         CsvUnit found;
         int32_t k = -1;
         if (!csv_find(table, *names, &k, &found, err)) return false;
-        if (k < 0) continue;
+        if (k < 0 || k == *column) continue;
         if (*column >= 0)
             return csv_refuse(table, -1, k, err, "is the same as column %d, %.40s", *column + 1,
                               csv_name(table, *column));
@@ -572,15 +639,6 @@ static const char *const ERROR_ENDINGS[] = {"_error", " error", "_err", " err",
                                             "_std",   " std",   "_sd",  " sd"};
 static const char *const ERROR_NAMES[] = {"error", "err", "std", "sd", "+-", "+/-", "\xC2\xB1"};
 static const char SIGMA[] = "sigma_";   // before the name
-
-// Column `column` is called `name`, which may have a unit behind it.
-static bool is_called(const CsvTable *table, int32_t column, const char *name, CsvUnit *unit)
-{
-    size_t length = strlen(name);
-    const char *own = csv_name(table, column);
-    *unit = csv_unit_of_row(table, column);
-    return strncmp(own, name, length) == 0 && (!own[length] || csv_take_unit(own + length, unit));
-}
 
 static bool is_named_error(const CsvTable *table, int32_t column, const char *of, CsvUnit *unit)
 {
@@ -608,6 +666,8 @@ void csv_find_error(const CsvTable *table, int32_t of, int32_t *column, CsvUnit 
     int32_t length = 0;
     csv_split(table, of, &length, &found);
     snprintf(name, sizeof name, "%.*s", length, csv_name(table, of));
+    char *mean = length < CSV_UNIT_SIZE ? strstr(name, "mean") : NULL;   // mu_mean, mu_std
+    if (mean && mean > name + 1 && !mean[4]) mean[-1] = 0;
     for (*column = 0; *column < table->columns; ++*column)
         if (*column != of && length < CSV_UNIT_SIZE && is_named_error(table, *column, name, unit))
             return;

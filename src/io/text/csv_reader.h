@@ -7,7 +7,7 @@
 // The decimal sign is a point, or a comma in all of the file. Lines that are empty or begin with #
 // or % are left out; if all of the first other line are numbers, the names may stand in the comment
 // above it. A name stands once. Behind it may stand a unit: "U (mm)", "F_T [kN]", "t/s", "t in s",
-// "U mm", "x_mm".
+// "U mm", "x_mm". Words of names may have capitals, and blanks or underscores between them.
 #ifndef AMONTONS_IO_TEXT_CSV_READER_H
 #define AMONTONS_IO_TEXT_CSV_READER_H
 
@@ -58,7 +58,8 @@ typedef struct CsvUnit {
 } CsvUnit;
 enum { CSV_UNIT_SIZE = 40 };
 
-// *column: the one called `name`, alone or with a unit behind it; -1: none. ERROR_INPUT: two are.
+// *column: the one called `name`, alone or with a unit behind it; -1: none. t, U, mu, F_T, F_N,
+// hold are found by the words for them, too ("time", "friction force", "hold time"). ERROR_INPUT: two are.
 bool csv_find(const CsvTable *table, const char *name, int32_t *column, CsvUnit *unit, Error *err);
 // The same of a quantity that people call by one of these names, of which the last is NULL.
 bool csv_find_any(const CsvTable *table, const char *const *names, int32_t *column, CsvUnit *unit,

@@ -8,6 +8,7 @@
 #include "model/model.h"
 #include "model/scene_mesh.h"
 #include "run/info/info_curves.h"
+#include "scene/friction_law.h"
 #include "scene/keys.h"
 
 #include <errno.h>
@@ -59,7 +60,10 @@ static bool info_scene(const char *path, const InfoOptions *options, FILE *out, 
         fprintf(out, "  %-28s %s%s\n", keys[k].name, absent ? "-" : value,
                 scene->given[k] ? "" : "   (default)");
     }
-    if (friction_is_own(&scene->friction))
+    if (scene_law_waits(scene))
+        fprintf(out, "\nThe law depends on the pressure that load.force makes on the mesh; a run "
+                     "looks at it\n");
+    else if (friction_is_own(&scene->friction))
         fprintf(out, "\nThe law's own mu at rest %.6g, lowest mu %.6g, v_c %.4g\n",
                 scene->friction.mu_static, scene->friction.mu_kinetic,
                 scene->friction.critical_velocity);

@@ -10,6 +10,7 @@
 #include "io/text/json_writer.h"
 #include "model/scene_mesh.h"
 #include "scene/friction_file.h"
+#include "scene/friction_law.h"
 #include "scene/material_file.h"
 
 #include <math.h>
@@ -116,6 +117,11 @@ bool info_draw_friction(const Scene *scene, const InfoOptions *options, Error *e
     double speed[FRICTION_SPEEDS], mu[FRICTION_SPEEDS], least = INFINITY, most = 0;
     double lowest = INFINITY, highest = -INFINITY;
     bool measured = law->kind == FRICTION_TABLE;
+    if (scene_law_waits(scene))
+        FAIL(err, ERROR_INPUT,
+             "%s: mu depends on the pressure, which load.force makes on the mesh only; for its "
+             "picture give the pressure: --set load.force=none --set load.pressure=...",
+             scene->path);
     if (measured && *own->file) TRY(friction_data_read(scene, &data, err));
     int32_t points = data.count > 0 ? data.count : measured ? own->velocity.count : 0;
     const double *at = data.count > 0 ? data.velocity : own->velocity.value;

@@ -22,6 +22,7 @@ static const double LARGEST = 1e30, SMALLEST = 1e-30, DIGITS = 1e-12;   // DIGIT
 static const char SERIES[] = "series/";
 // Slide-hold-slide: the time that the rod was held, and what is measured when it goes on.
 static const char HOLD[] = "hold", PEAK[] = "mu", HEALING[] = "healing";
+static const char *const WORDED[] = {HOLD, PEAK};   // that may stand in words: "hold time (s)"
 
 typedef enum ColumnKind { COLUMN_CONDITION, COLUMN_RESULT, COLUMN_ERROR, COLUMN_ALONG } ColumnKind;
 
@@ -81,6 +82,12 @@ static bool read_names(Table *table, Error *err)
         snprintf(column->unit, sizeof column->unit, "%.*s", unit.length, unit.text);
         char name[STUDY_NAME_SIZE];
         snprintf(name, sizeof name, "%.*s", length, csv_name(csv, k));
+        for (size_t w = 0; w < sizeof WORDED / sizeof *WORDED; w++) {
+            int32_t found = -1;
+            CsvUnit ignored;
+            if (!csv_find(csv, WORDED[w], &found, &ignored, err)) return false;
+            if (found == k) snprintf(name, sizeof name, "%s", WORDED[w]);
+        }
         int32_t before = find_name(table, name);   // those not read yet are ""
         if (before >= 0 && before < k)
             return csv_refuse(csv, -1, k, err, "is %s a second time, beside column %d", name,

@@ -17,6 +17,7 @@
 #include "friction/friction.h"
 #include "contact/slip.h"
 #include "run/result/result_folder.h"
+#include "scene/friction_law.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -51,7 +52,7 @@ static bool check_scene(const Scene *scene, const StabilityOptions *options, Err
         FAIL(err, ERROR_INPUT,
              "%s: the quasi-static path needs implicit steps: --set time.scheme=sdirk2",
              scene->path);
-    if (!(scene->friction.mu_static > 0))
+    if (!scene_law_waits(scene) && !(scene->friction.mu_static > 0))
         FAIL(err, ERROR_INPUT, "%s: without friction (friction.mu_static = 0) nothing can grow",
              scene->path);
 cleanup:

@@ -54,6 +54,9 @@ TEST(test_conversions)
         {4, "-", "1", 4},
         {4, "1", "1", 4},
         {4, "%", "1", 0.04},
+        {2, "N/mm\xC2\xB2", "stress", 2e6},
+        {6, "m s\xE2\x81\xBB\xC2\xB9", "velocity", 6},
+        {4, "Pa\xC2\xB7s", "viscosity", 4},
     };
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
         double value = cases[k].given;

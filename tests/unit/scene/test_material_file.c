@@ -38,6 +38,13 @@ TEST(tables_as_they_are_written)
         {"Freq [rad/s]\tE' [Pa]\tE\" [Pa]\tremark\n1\t2e6\t2e5\t\n10\t3e6\t6e5\tx\n"
          "100\t4e6\t4e5\t\n",
          false},
+        {"Time\tAng. Frequency\tStorage Modulus\tLoss "
+         "Modulus\ns\trad/s\tN/mm\xC2\xB2\tN/mm\xC2\xB2\n"
+         "5\t1\t2\t0.2\n6\t10\t3\t0.6\n7\t100\t4\t0.4\n",
+         false},
+        {"sep=;\nAngular frequency (rad/s);E\xE2\x80\xB2 (MPa);E\xE2\x80\xB3 (MPa)\n1;2;0,2\n"
+         "10;3;0,6\n100;4;0,4\n",
+         false},
     };
     const double storage[] = {2e6, 3e6, 4e6}, loss[] = {2e5, 6e5, 4e5};
     for (size_t k = 0; k < sizeof same / sizeof *same; k++) {
@@ -56,7 +63,7 @@ TEST(tables_as_they_are_written)
     }
     Error err = {0};
     MaterialData data;
-    write_table("t (ms),E (MPa)\n1,3\n10,2\n");
+    write_table("Time (ms),E(t) (MPa)\n1,3\n10,2\n");
     assert_true(material_data_read(PATH, UNITS_SI, NULL, 10, &data, &err));
     assert_true(data.data.over_time && !data.data.loss);
     assert_near("time, ten times as long", data.data.at[1], 0.1, 1e-15);

@@ -108,6 +108,7 @@ TEST(as_it_is_written)
         "U, mu\n0.5 1.25\n2 -0.03\n",
         "% U;mu\r\n0,5;1,25;\r\n2;-0,03;\r\n",
         "\xEF\xBB\xBFU,mu\r0.5,1.25\r2,-0.03",
+        "sep=;\r\nU;mu\r\n0,5;1,25\r\n2;-0,03\r\n",
     };
     for (size_t k = 0; k < sizeof same / sizeof *same; ++k) {
         Error err = {0};
@@ -196,6 +197,18 @@ TEST(units_behind_names)
         {"f (Hz)", "f", "Hz"},
         {"w rad/s", "w", "rad/s"},
         {"t/h", "t", "h"},
+        {"Time (s)", "t", "s"},
+        {"Friction Force [kN]", "F_T", "kN"},
+        {"friction_coefficient", "mu", ""},
+        {"\xCE\xBC [-]", "mu", "-"},
+        {"T (s)", "t", NULL},
+        {"storage_Modulus in MPa", "storage modulus", "MPa"},
+        {"E(t) (MPa)", "E", NULL},
+        {"E(t) (MPa)", "E(t)", "MPa"},
+        {"E\xE2\x80\xB2 (N/mm\xC2\xB2)", "E'", "N/mm\xC2\xB2"},
+        {"E\xE2\x80\xB3/MPa", "E''", "MPa"},
+        {"E\" (MPa)", "E''", "MPa"},
+        {"E'' (MPa)", "E'", NULL},
     };
     for (size_t k = 0; k < sizeof heads / sizeof *heads; ++k) {
         char text[80];
@@ -228,6 +241,8 @@ TEST(columns_of_errors)
                  {"mu (-);+- (%);x", 0, 1, "%"},
                  {"x;mu;\xC2\xB1", 1, 2, ""},
                  {"error;x;mu", 2, -1, ""},
+                 {"mu_mean;x;mu_std", 0, 2, ""},
+                 {"Friction coefficient;friction coefficient error;x", 0, 1, ""},
                  {"mu;stdev;x", 0, -1, ""}};
     for (size_t k = 0; k < sizeof heads / sizeof *heads; ++k) {
         char text[80];
