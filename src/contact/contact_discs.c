@@ -52,8 +52,7 @@ typedef struct Settling {
     ContactScales scales;
     double tolerance;
     double residual;   // of the last step with these statuses, over the scale of force
-    bool factors_anew;   // a step with kept factors did not gain: none is taken any more
-    bool in_double;   // factors are made in double precision
+    bool in_double;   // factors are made in double precision, for each step: after sweeps
 } Settling;
 
 // --- statuses and rows --------------------------------------------------------------------------
@@ -308,7 +307,7 @@ static bool settle(Settling *settling)
     for (int32_t k = 0; k < STEPS; k++) {
         if (!newton->listed && !contact_newton_close(newton)) return false;
 
-        newton->reused = !settling->factors_anew && contact_newton_keeps_factors(newton);
+        newton->reused = !settling->in_double && contact_newton_keeps_factors(newton);
         if (!newton->reused && !factor(settling)) return false;
 
         // The step.
@@ -344,7 +343,7 @@ static bool settle(Settling *settling)
         }
         if (settling->residual <= settling->tolerance) return true;
         if (newton->reused && settling->residual > CHORD_GAIN * before)
-            settling->factors_anew = true;
+            newton->factors_gain = false;
     }
     return false;
 }
@@ -407,7 +406,7 @@ bool contact_discs_solve(ContactDiscs *discs, double tolerance, const ContactPro
         discs->sweeps += contact_sweep(problem, solution, k);
         contact_newton_begin(discs->newton, problem, solution, 1e-3 * tolerance);
         settling.residual = INFINITY;
-        settling.factors_anew = settling.in_double = true;
+        settling.in_double = true;
         settling.scales = contact_scales(problem, solution->reaction);
         judge_all(&settling);
         contact_newton_settle(discs->newton);

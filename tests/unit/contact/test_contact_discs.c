@@ -151,3 +151,33 @@ TEST(test_projections)
         assert_all_near("v", hand.velocity, v, count, 1e-9);
     }
 }
+
+// The force turns from problem to problem, and slip turns with it: factors of the problem before
+// gain too little. Those that are made then serve the steps that follow.
+TEST(test_factors_kept)
+{
+    enum { PROBLEMS = 40 };
+    Random random = {.state = 5};
+    Error err = {0};
+    ContactSolver solver;
+    ContactMatrix matrix;
+    hand_contact_size(&hand, HAND_NODES, 0);
+    hand.law = (FrictionLaw){.kind = FRICTION_COULOMB, .mu_static = 0.3};
+    hand_random_schur(&random, 4, 0.2, &hand);
+    assert_true(contact_matrix_create(hand.schur, hand.interface.count, &matrix, &err) &&
+                contact_solver_create(&hand.interface, &solver, &err));
+    ContactSolution solution = {hand.velocity, hand.reaction, hand.status, hand.rod_touches};
+    ContactProblem problem = hand_problem(&hand, &matrix);
+    for (int32_t k = 0; k < PROBLEMS; k++) {
+        for (int32_t i = 0; i < HAND_NODES; i++) {
+            hand.g[3 * i] = 3 * cos(0.3 * k + 0.1 * i);
+            hand.g[3 * i + 1] = 3 * sin(0.3 * k + 0.1 * i);
+            hand.g[3 * i + 2] = -2;
+        }
+        assert_true(contact_solve(&solver, &problem, &solution));
+        assert_true(hand_contact_error(&hand) < 1e-11);
+    }
+    assert_true(solver.newton.factorisations <= PROBLEMS);
+    contact_solver_destroy(&solver);
+    contact_matrix_destroy(&matrix);
+}
