@@ -76,8 +76,7 @@ bool scene_friction_law(const Scene *scene, const char *formula, FrictionLaw *la
         bool done = friction_data_read(scene, &data, err) &&
                     friction_data_points(scene, &data, velocity, mu, &points, err);
         friction_data_destroy(&data);
-        *key = "file";
-        if (!done) return false;
+        if (!ERROR_AT(key, "file", done)) return false;
     }
     FrictionSource source = {.velocity = points > 0 ? velocity : own->velocity.value,
                              .velocity_count = points > 0 ? points : own->velocity.count,
@@ -99,9 +98,9 @@ bool scene_friction_law(const Scene *scene, const char *formula, FrictionLaw *la
                              .parameter_count = own->parameters.count,
                              .end = fastest_slip(scene)};
     if (!friction_make(&source, law, key, err)) return false;
-    *key = "law";
     if (by_force && law->feels_pressure)
-        return REFUSE(err, "mu of the pressure needs load.pressure: what load.force makes on the "
-                           "top is known with the mesh only");
+        return REFUSE_AT(err, key, "law",
+                         "mu of the pressure needs load.pressure: what load.force makes on the "
+                         "top is known with the mesh only");
     return true;
 }
