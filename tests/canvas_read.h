@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What is drawn on a canvas so far, as tests look at it.
+// Reads what is drawn on a canvas so far, for tests.
 #ifndef AMONTONS_TESTS_CANVAS_READ_H
 #define AMONTONS_TESTS_CANVAS_READ_H
 

@@ -26,7 +26,7 @@ void set_group(CMFixtureFunction before, CMFixtureFunction after);
 
 #define TEST(name) TEST_BETWEEN(name, NULL, NULL)
 
-// What runs before or after: FIXTURE(begin) { ...; return 0; }
+// A function that runs before or after: FIXTURE(begin) { ...; return 0; }
 #define FIXTURE(name) static int name(__attribute__((unused)) void **state)
 
 // Once a file: `before` runs ahead of its first test, `after` behind its last.

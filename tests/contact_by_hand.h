@@ -56,7 +56,7 @@ static inline ContactProblem hand_problem(HandContact *hand, ContactMatrix *matr
                             .bound = hand->bound};
 }
 
-// What a solver counted in one solve.
+// Counts of one solve of a solver.
 typedef struct HandCounts {
     int64_t iterations, rescued, sweeps;
 } HandCounts;

@@ -17,7 +17,7 @@ static inline void assert_near(const char *what, double value, double wanted, do
         fail_msg("%s: %.17g is not %.17g within %g", what, value, wanted, tolerance);
 }
 
-// Of arrays, relative to the largest entry wanted.
+// The same for arrays, relative to the largest entry wanted.
 static inline void assert_all_near(const char *what, const double *value, const double *wanted,
                                    int32_t count, double tolerance)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What tests in the plane count by hand: the interface unknowns of contact node i, and the kinds of
+// Counts of tests in the plane, by hand: the interface unknowns of contact node i, and the kinds of
 // elements, which come first.
 #ifndef AMONTONS_TESTS_PLANE_H
 #define AMONTONS_TESTS_PLANE_H

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What block_rig.h has, of a block of space_mesh.h.
+// The rig of block_rig.h for a block of space_mesh.h.
 #ifndef AMONTONS_TESTS_SPACE_RIG_H
 #define AMONTONS_TESTS_SPACE_RIG_H
 

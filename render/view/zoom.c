@@ -68,7 +68,7 @@ static void cycle_match_peak(const ResultView *view, Cycle *cycle)
     }
 }
 
-// What the figures are about are precursors: a cycle with them comes before one without, a periodic
+// The figures are about precursors: a cycle with them comes before one without, a periodic
 // one before others. Of those that are not periodic the first loading is what people measure.
 static int32_t cycle_merit(const Cycle *cycle)
 {

@@ -30,13 +30,12 @@ FrictionUse friction_use(const FrictionLaw *law, const char *key)
 bool friction_make(const FrictionSource *source, FrictionLaw *law, const char **key, Error *err)
 {
     const FrictionOperations *operations = friction_operations(law);
-    *key = "law";
     if (operations->own) law->end = source->end;
     if (operations->rested) {
-        *key = "rest";
         if (!(source->rest > 0) && !(source->rod_velocity > 0))
-            return REFUSE(err, "missing: without a rod that moves nothing says what the contacts "
-                               "remember; allowed: a number > 0");
+            return REFUSE_AT(err, key, "rest",
+                             "missing: without a rod that moves nothing says what the contacts "
+                             "remember; allowed: a number > 0");
         law->remembers = true;
         law->states = 1;
         law->start[0] = source->rest > 0 ? friction_rested(law, source->rest)
@@ -44,7 +43,7 @@ bool friction_make(const FrictionSource *source, FrictionLaw *law, const char **
     }
     if (operations->make && !operations->make(source, law, key, err)) return false;
     if (!operations->own) return true;
-    if (!law->remembers) return friction_look(law, err);
+    if (!law->remembers) return ERROR_AT(key, operations->mu_key, friction_look(law, err));
     if (law->feels_pressure && isnan(source->pressure))
         return true;   // made again when it is known
     return friction_start(source, law, key, err);

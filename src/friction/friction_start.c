@@ -37,28 +37,26 @@ static bool look_at(const FrictionSource *source, const FrictionNode *node, doub
     char place[300];
     double finite = 0;
     const FrictionOperations *operations = friction_operations(node->law);
-    *key = operations->state_key;
     friction_rates(node, speed, node->from, rates);
     write_place(source, node, speed, place, sizeof place);
     for (int32_t k = 0; k < node->law->states; k++) {
         if (!isfinite(rates->rate[k]))
-            FAIL(err, ERROR_INPUT, "at %s the rate of %s is %g: not a finite number", place,
-                 k < source->state_count ? source->state[k].name : "a state", rates->rate[k]);
+            return REFUSE_AT(
+                err, key, operations->state_key, "at %s the rate of %s is %g: not a finite number",
+                place, k < source->state_count ? source->state[k].name : "a state", rates->rate[k]);
         finite += rates->mu_state[k] + rates->rate_speed[k];
         for (int32_t j = 0; j < node->law->states; j++) finite += rates->rate_state[k][j];
     }
-    *key = operations->mu_key;
     if (!isfinite(rates->mu))
-        FAIL(err, ERROR_INPUT, "at %s the coefficient is %g: not a finite number", place,
-             rates->mu);
+        return REFUSE_AT(err, key, operations->mu_key,
+                         "at %s the coefficient is %g: not a finite number", place, rates->mu);
     if (!isfinite(finite + rates->mu_speed))
-        FAIL(err, ERROR_INPUT, "at %s a derivative of the coefficient or of a rate is not finite",
-             place);
+        return REFUSE_AT(err, key, operations->mu_key,
+                         "at %s a derivative of the coefficient or of a rate is not finite", place);
     if (rates->mu < -SLIGHT)
-        FAIL(err, ERROR_INPUT, "at %s the coefficient is %g: it must not be negative", place,
-             rates->mu);
-cleanup:
-    return error_is_clean(err);
+        return REFUSE_AT(err, key, operations->mu_key,
+                         "at %s the coefficient is %g: it must not be negative", place, rates->mu);
+    return true;
 }
 
 bool friction_find_steady(FrictionNode *node, double speed)
@@ -183,14 +181,13 @@ static bool check_continuous(const FrictionSource *source, const FrictionNode *n
             course.argument = argument;
             next = middle * REACH * pow(10, (double)(k + 1 - points) / DECADE);
             if (k == 0 || is_continuous(&course, value, next, jump)) continue;
-            *key = friction_operations(node->law)->mu_key;
-            return REFUSE(err,
-                          "at %s %g the coefficient jumps from %g to %g: it must be continuous",
-                          argument == 0                        ? "velocity"
-                          : argument == 1                      ? "pressure"
-                          : argument - 2 < source->state_count ? source->state[argument - 2].name
-                                                               : "a state of",
-                          jump[0], jump[1], jump[2]);
+            return REFUSE_AT(err, key, friction_operations(node->law)->mu_key,
+                             "at %s %g the coefficient jumps from %g to %g: it must be continuous",
+                             argument == 0                        ? "velocity"
+                             : argument == 1                      ? "pressure"
+                             : argument - 2 < source->state_count ? source->state[argument - 2].name
+                                                                  : "a state of",
+                             jump[0], jump[1], jump[2]);
         }
     }
     return true;
@@ -216,10 +213,8 @@ static bool find_start(const FrictionSource *source, FrictionNode *node, const c
 {
     FrictionRates rates;
     bool all = true;
-    *key = "state";
     const FrictionOperations *operations = friction_operations(node->law);
     if (operations->start) {
-        *key = operations->state_key;
         operations->start(node->law, source, node->from);
         return true;
     }
@@ -228,24 +223,24 @@ static bool find_start(const FrictionSource *source, FrictionNode *node, const c
         node->from[k] = 1;
         all = all && *state->start;
         if (!*state->start) continue;
-        bool read =
-            formula_value(state->start, source->look_up, source->context, &node->from[k], err);
-        if (!read) error_context(err, "%s, its start", state->name);
-        TRY(read);
+        if (!formula_value(state->start, source->look_up, source->context, &node->from[k], err)) {
+            error_context(err, "%s, its start", state->name);
+            return ERROR_AT(key, "state", false);
+        }
     }
-    if (!all && !(source->rod_velocity > 0))
-        FAIL(err, ERROR_INPUT,
-             "a state needs its `start`: without a rod that moves nothing says what the contacts "
-             "remember");
-    if (!all) TRY(look_at(source, node, source->rod_velocity, &rates, key, err));
-    *key = "state";
-    if (!all && !friction_find_steady(node, source->rod_velocity))
-        FAIL(err, ERROR_INPUT,
-             "no state of steady slip is found at velocity %g: a `start` is needed",
-             source->rod_velocity);
+    if (!all) {
+        if (!(source->rod_velocity > 0))
+            return REFUSE_AT(err, key, "state",
+                             "a state needs its `start`: without a rod that moves nothing says "
+                             "what the contacts remember");
+        if (!look_at(source, node, source->rod_velocity, &rates, key, err)) return false;
+        if (!friction_find_steady(node, source->rod_velocity))
+            return REFUSE_AT(err, key, "state",
+                             "no state of steady slip is found at velocity %g: a `start` is needed",
+                             source->rod_velocity);
+    }
     if (source->rest > 0) rest_for(node, source->rest);
-cleanup:
-    return error_is_clean(err);
+    return true;
 }
 
 // Looks at the law at the start and in steady slip at all speeds: steady gets mu of steady slip,

@@ -85,8 +85,7 @@ bool scene_friction_law(const Scene *scene, const char *formula, double pressure
         bool done = friction_data_read(scene, &data, err) &&
                     friction_data_points(scene, &data, velocity, mu, &points, err);
         friction_data_destroy(&data);
-        *key = "file";
-        if (!done) return false;
+        if (!ERROR_AT(key, "file", done)) return false;
     }
     FrictionSource source = {.velocity = points > 0 ? velocity : own->velocity.value,
                              .velocity_count = points > 0 ? points : own->velocity.count,

@@ -277,14 +277,14 @@ bool scene_material_file(const Scene *scene, const SceneMaterial *region, Materi
     double poisson = region ? scene_material_number(scene, region, MATERIAL_POISSON)
                             : scene->material.poisson;
     *data = (MaterialData){0};
-    *key = "material.wlf";
     if (wlf->count != 0 && wlf->count != 4)
-        return REFUSE(err, "%d numbers; wanted: [c1, c2, T_ref, T]", wlf->count);
-    *key = region ? "materials" : "material.from";
-    return material_data_read(path, scene->units, wlf->count > 0 ? wlf->value : NULL,
-                              scene->material.shift, data, err) &&
-           material_fit(data, poisson, scene->material.bulk == BULK_RELAXES,
-                        has_eta ? own_eta : (double)NAN, fit, err);
+        return REFUSE_AT(err, key, "material.wlf", "%d numbers; wanted: [c1, c2, T_ref, T]",
+                         wlf->count);
+    bool done = material_data_read(path, scene->units, wlf->count > 0 ? wlf->value : NULL,
+                                   scene->material.shift, data, err) &&
+                material_fit(data, poisson, scene->material.bulk == BULK_RELAXES,
+                             has_eta ? own_eta : (double)NAN, fit, err);
+    return ERROR_AT(key, region ? "materials" : "material.from", done);
 }
 
 static const char BESIDE[] = "gives young and relaxation: leave these out beside it";
@@ -294,10 +294,9 @@ static bool complete_region(const Scene *scene, SceneMaterial *region, const cha
     MaterialData data;
     MaterialFit fit;
     bool has_eta = region->given[MATERIAL_ETA1];
-    *key = "materials";
     if (region->given[MATERIAL_YOUNG] || region->given[MATERIAL_YOUNG_SHORT] ||
         region->has_relaxation)
-        return REFUSE(err, "%s: `from` %s", region->group, BESIDE);
+        return REFUSE_AT(err, key, "materials", "%s: `from` %s", region->group, BESIDE);
     bool done = scene_material_file(scene, region, &data, &fit, key, err);
     material_data_destroy(&data);
     if (!done) return false;
@@ -330,10 +329,9 @@ bool scene_material_files(Scene *scene, const char **key, Error *err)
             !complete_region(scene, &scene->materials.region[k], key, err))
             return false;
     if (!is_given(scene, "material.from")) return true;
-    *key = "material.from";
     if (is_given(scene, "material.young") || is_given(scene, "material.young_short") ||
         is_given(scene, "material.relaxation"))
-        return REFUSE(err, "%s", BESIDE);
+        return REFUSE_AT(err, key, "material.from", "%s", BESIDE);
     MaterialData data;
     MaterialFit fit;
     bool done = scene_material_file(scene, NULL, &data, &fit, key, err);

@@ -454,7 +454,7 @@ static bool work_out_all(Reader *reader, const char *const *overrides, int32_t c
 static bool finish_reading(Reader *reader, const char *path, Scene *scene, Error *err)
 {
     char key[KEY_NAME_SIZE];
-    const char *word;
+    const char *word = NULL;
     SceneProfile profile;   // read again when the contact is known
     bool done;
     if (!resolve_file(path, "material.from", scene->material.from, err)) return false;
@@ -476,7 +476,7 @@ static bool finish_reading(Reader *reader, const char *path, Scene *scene, Error
     if (!scene_blame(scene, "contact.profile", done, err)) return false;
     done = scene_friction_law(scene, scene->own_friction.formula, scene_nominal_pressure(scene),
                               &scene->friction, &word, err);
-    snprintf(key, sizeof key, "friction.%s", word);
+    snprintf(key, sizeof key, "friction.%s", done ? "law" : word);
     return scene_blame(scene, key, done, err) &&
            scene_contact_laws(&reader->sources[scene_key_index("friction.contacts")], scene, err);
 }

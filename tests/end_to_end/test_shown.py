@@ -19,15 +19,18 @@ PICTURES_MAX = 3_000_000   # bytes in all, a film among them: pages are read on 
 
 class Shown(unittest.TestCase):
     def test_numbers(self):
-        """Pages show the mu that their commands print, with and without an error bar, in blocks and in sentences."""
-        checked = [SOURCE / name for name in ("README.md", "CHANGELOG.md", "docs/accuracy.md", "docs/commands.md", "docs/tutorial.md", "docs/cookbook.md", "docs/meshes.md")]
+        """A page shows the mu that its commands print, in blocks and in sentences. The pages that show one are all among those that
+        `validation/pages --check` runs, for minutes."""
+        words = re.search(r"--check \]\] && exec \S+ --check (.*)", (SOURCE / "validation/pages").read_text())[1]
+        checked = [SOURCE / name for name in subprocess.run(["bash", "-c", f"echo {words}"], capture_output=True, text=True,
+                                                            check=True).stdout.split()]
         self.assertEqual([page.name for page in SOURCE.glob("docs/*.md")
                           if page not in checked and re.search(r"^ +mu_\w+ +[\d.]+", page.read_text(), re.M)], [])
-        done = subprocess.run([SOURCE / "docs/examples/shown.py", "--check", *checked], capture_output=True, text=True,
+        page = SOURCE / "docs/commands.md"
+        self.assertIn("<!-- mu_", page.read_text())
+        done = subprocess.run([SOURCE / "docs/examples/shown.py", "--check", page], capture_output=True, text=True,
                               env=os.environ | preload(BIN / "libamontons.so"))
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-        marks = sum(page.read_text().count("<!-- mu_") for page in checked)
-        self.assertGreater(marks, 0)
 
     def test_one_command_makes_all_pages(self):
         """validation/pages names a script for each page of numbers, and each script knows its options."""

@@ -8,7 +8,7 @@
 //
 // Memory is that of our allocator, which alone calls aligned_alloc (base/memory).
 //
-// What is said on standard error never fails. What a program and its libraries call is seen, not
+// Writes to standard error never fail. Calls of a program and its libraries are seen, not
 // what the C library calls within itself: a stream's buffer is written out by fwrite, fflush or
 // fclose.
 #include "faults/file_faults.h"

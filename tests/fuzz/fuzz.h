@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the fuzz targets share. A target reads a text or bytes as the program would, in memory; it
+// Shared by the fuzz targets. A target reads a text or bytes as the program would, in memory; it
 // may refuse them, and must neither crash nor keep memory. `tests/fuzz/run` runs them with
 // libFuzzer and sanitizers, CTest replays the corpus.
 #ifndef AMONTONS_TESTS_FUZZ_H

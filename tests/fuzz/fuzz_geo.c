@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What is looked for in a .geo before gmsh sees it. It lies in a folder of its own, so that what it
+// A .geo is searched before gmsh sees it. It lies in a folder of its own, so that what it
 // includes is not another open file of the fuzzer.
 #include "io/mesh/geo_script.h"
 #include "io/mesh/geo_parameters.h"

@@ -114,7 +114,7 @@ TEST(test_own_laws)
 // --- every combination of statuses --------------------------------------------------------------
 typedef enum Branch { OPEN, STICK, FORWARD, BACKWARD } Branch;
 
-// Of a table of lines, as its points say it: mu of piece k at rest and its slope, level beyond the
+// A law given by a table of lines: mu of piece k at rest and its slope, level beyond the
 // last point.
 static void table_piece(const FrictionTable *table, int32_t k, double *at_rest, double *slope)
 {
@@ -123,7 +123,7 @@ static void table_piece(const FrictionTable *table, int32_t k, double *at_rest, 
     *at_rest = table->mu[k] - *slope * table->speed[k];
 }
 
-// What node i has in this combination: a branch, and there the law's piece.
+// State of node i in this combination: a branch, and there the law's piece.
 typedef struct Choice {
     Branch branch;
     double mu, slope;   // mu + slope |v_t|

@@ -24,21 +24,18 @@ static bool make(const FrictionSource *source, FrictionLaw *law, const char **ke
                           .unknown = "is no number here: v, p, the states, and numbers that "
                                      "friction gives, such as mu_static or slip_distance"};
     *formula = (FrictionFormula){0};
-    *key = "state";
-    if (source->state_count > STATES_MAX) return REFUSE(err, "at most %d states", STATES_MAX);
+    if (source->state_count > STATES_MAX)
+        return REFUSE_AT(err, key, "state", "at most %d states", STATES_MAX);
     for (int32_t k = 0; k < source->state_count; k++) more[k] = source->state[k].name;
     more[source->state_count] = "p";
     for (int32_t k = 0; k <= source->state_count; k++) {
-        if (k == 0) *key = "formula";
         if (!formula_append(k == 0 ? source->formula : source->state[k - 1].rate, &names,
                             &formula->text, err)) {
             if (k > 0) error_context(err, "%s, its rate", source->state[k - 1].name);
-            return false;
+            return ERROR_AT(key, k > 0 ? "state" : "formula", false);
         }
-        *key = "state";
         formula->ends[k + 1] = formula->text.count;
     }
-    *key = "formula";
     law->states = source->state_count;
     law->feels_pressure = formula_has(&formula->text, 1 + law->states);
     law->remembers = law->states > 0 || law->feels_pressure;

@@ -166,7 +166,7 @@ typedef struct FrictionOperations {
     bool is_convex;   // mu' never falls
     double spent;   // speed from which on next to nothing of mu(v) is left to fall, in units of v_c
 
-    // Completes the law from what a scene gives. *key: of the map `friction`.
+    // Completes the law from what a scene gives. An error gives its key of the map `friction`.
     bool (*make)(const FrictionSource *source, FrictionLaw *law, const char **key, Error *err);
 
     // A built-in law of speed alone, with mu_S and mu_K times the factor: mu and d mu/d speed.

@@ -77,10 +77,9 @@ static bool make(const FrictionSource *source, FrictionLaw *law, const char **ke
 {
     FrictionPlugin *plugin = &law->plugin;
     AmontonsFriction *given = &plugin->given;
-    *key = "file";
     if (source->parameter_count > AMONTONS_FRICTION_PARAMETERS_MAX)
-        return REFUSE(err, "takes at most %d friction.parameters, not %d",
-                      AMONTONS_FRICTION_PARAMETERS_MAX, source->parameter_count);
+        return REFUSE_AT(err, key, "file", "takes at most %d friction.parameters, not %d",
+                         AMONTONS_FRICTION_PARAMETERS_MAX, source->parameter_count);
     *given = (AmontonsFriction){.mu_static = law->mu_static,
                                 .mu_kinetic = law->mu_kinetic,
                                 .critical_velocity = law->critical_velocity,
@@ -88,18 +87,17 @@ static bool make(const FrictionSource *source, FrictionLaw *law, const char **ke
     for (int32_t k = 0; k < source->parameter_count; k++)
         given->parameters[k] = source->parameters[k];
     if (!source->trusted)
-        return REFUSE(
-            err,
-            "%s is a program that would be run: give --trust (in Python trust=True) if you "
-            "know where it comes from",
-            source->file);
-    if (!open_plugin(source->file, plugin, err)) return false;
+        return REFUSE_AT(err, key, "file",
+                         "%s is a program that would be run: give --trust (in Python trust=True) "
+                         "if you know where it comes from",
+                         source->file);
+    if (!ERROR_AT(key, "file", open_plugin(source->file, plugin, err))) return false;
     if (!plugin->rates) return true;
     law->remembers = law->feels_pressure = true;
     law->states = plugin->states(given);
     if (law->states < 1 || law->states > STATES_MAX)
-        return REFUSE(err, "%s has %d states; allowed: 1 to %d", source->file, law->states,
-                      STATES_MAX);
+        return REFUSE_AT(err, key, "file", "%s has %d states; allowed: 1 to %d", source->file,
+                         law->states, STATES_MAX);
     return true;
 }
 

@@ -53,19 +53,19 @@ static bool make(const FrictionSource *source, FrictionLaw *law, const char **ke
 {
     FrictionTable *table = &law->table;
     int32_t given = source->velocity_count, first = 0;
-    *key = "velocity";
     if (given < 2 || given >= FRICTION_POINTS_MAX)
-        return REFUSE(err, "has %d numbers; a table has 2 to %d", given, FRICTION_POINTS_MAX - 1);
+        return REFUSE_AT(err, key, "velocity", "has %d numbers; a table has 2 to %d", given,
+                         FRICTION_POINTS_MAX - 1);
     for (int32_t k = 1; k < given; k++)
         if (!(source->velocity[k] > source->velocity[k - 1]))
-            return REFUSE(err, "%g stands after %g; velocities ascend", source->velocity[k],
-                          source->velocity[k - 1]);
+            return REFUSE_AT(err, key, "velocity", "%g stands after %g; velocities ascend",
+                             source->velocity[k], source->velocity[k - 1]);
     if (source->by_log && given < 3 && source->velocity[0] == 0)
-        return REFUSE(err,
-                      "has one number above 0; between two or more mu goes by their logarithm");
-    *key = "mu";
+        return REFUSE_AT(err, key, "velocity",
+                         "has one number above 0; between two or more mu goes by their logarithm");
     if (source->mu_count != given)
-        return REFUSE(err, "has %d numbers, friction.velocity has %d", source->mu_count, given);
+        return REFUSE_AT(err, key, "mu", "has %d numbers, friction.velocity has %d",
+                         source->mu_count, given);
 
     bool rests = source->velocity[0] == 0;
     *table = (FrictionTable){
@@ -139,4 +139,5 @@ const FrictionOperations friction_table = {
     .has_drop = true,
     .make = make,
     .value = value,
-    .look_speed = look_speed};
+    .look_speed = look_speed,
+    .mu_key = "mu"};

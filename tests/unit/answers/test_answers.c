@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What is answered from made-up drops, and from a real block whose peaks alternate between two
+// Answers from made-up drops, and from a real block whose peaks alternate between two
 // values.
 #include "answers/answers.h"
 

@@ -42,7 +42,7 @@ TEST(test_one_level)
                 hypot(usual, hypot(mu_M->parts.branches, mu_M->parts.drops)), 1e-15);
 }
 
-// Of a run that stands alone: what is usual of its mesh, and what its drops leave.
+// A run that stands alone: the usual scatter of its mesh, and the error that its drops leave.
 TEST(test_without_a_bar)
 {
     Level level = {.contact_nodes = 40, .nodes_along = 40, .slip_cells = 10};

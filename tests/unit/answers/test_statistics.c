@@ -45,7 +45,7 @@ TEST(test_periods)
     expect("xabcdefghiabcdefghia", 0, 15);   // nine is more than is looked for
 }
 
-// What repeats must be a third of the series; without a period the first quarter is the start's.
+// Drops that repeat must be a third of all; without a period the first quarter is the start's.
 TEST(test_share)
 {
     expect("abcdefaaa", 1, 3);

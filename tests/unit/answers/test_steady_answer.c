@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What mu_M of a run is: on runs made up step by step. U is a tenth of the step's number.
+// Kinds of mu_M, on runs made up step by step. U is a tenth of the step's number.
 #include "answers/steady_answer.h"
 
 #include "seen_by_hand.h"
@@ -29,7 +29,7 @@ static void go(Slide *slide, int32_t steps, double mu, const double rate[SEEN_NO
     slide->now = mu;
 }
 
-// What mu_M is then, and why there is none.
+// The kind of mu_M, and why there is none.
 TEST(test_answer)
 {
     Slide slide;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What is written is read back to the bit, by the same calls; what does not fit is a fault,
+// An archive is read back to the bit, by the same calls; what does not fit is a fault,
 // whatever the bytes are.
 #include "base/archive.h"
 

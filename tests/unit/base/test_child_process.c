@@ -325,7 +325,7 @@ static bool try_all(void *context, FILE *reply, Error *err)
     return fputc(system("true") == 0 ? 'S' : '.', reply) != EOF;
 }
 
-// What a reader needs works: files, memory, threads, clocks, an end by abort.
+// All that a reader needs works: files, memory, threads, clocks, an end by abort.
 static bool work_as_usual(void *context, FILE *reply, Error *err)
 {
     pthread_t thread;
@@ -393,7 +393,7 @@ TEST(test_shut_in)
 
 // --- limits -------------------------------------------------------------------------------------
 
-// What the child may use; the parent stays as it was.
+// The limits of the child; the parent stays as it was.
 static bool tell_limits(void *context, FILE *reply, Error *err)
 {
     struct rlimit limits[4];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a cache key needs of a hash: every bit counts, so do lengths and the borders between pieces,
+// A hash for cache keys: every bit counts, so do lengths and the borders between pieces,
 // nothing that is structured collides, and the digest is the same tomorrow.
 #include "base/hash.h"
 

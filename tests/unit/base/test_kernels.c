@@ -54,7 +54,7 @@ static void assert_possible(const char *name, const char *possible)
     assert_string_equal(kernels_possible(), possible);
 }
 
-// Of a processor that OpenBLAS does not know, or a choice of less.
+// Kernels for a processor that OpenBLAS does not know, or a choice of less.
 TEST(test_less_than_the_processor_can)
 {
     const char *best = best_here();
@@ -63,7 +63,7 @@ TEST(test_less_than_the_processor_can)
     assert_possible("NEHALEM", best);
 }
 
-// What is as good stays: OpenBLAS knows it better. So do those of a later OpenBLAS.
+// Kernels that are as good stay: OpenBLAS knows better. So do those of a later OpenBLAS.
 TEST(test_as_good_as_the_processor)
 {
     const char *best = best_here();

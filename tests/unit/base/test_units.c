@@ -103,7 +103,7 @@ TEST(what_to_divide_by)
     }
 }
 
-// What an error offers must be accepted.
+// The examples in errors must be accepted.
 TEST(test_examples_are_units)
 {
     static const char *const dimensions[] = {"length",  "time",      "velocity", "stress",

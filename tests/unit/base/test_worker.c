@@ -11,7 +11,7 @@
 
 enum { SLOTS = 3, JOBS = 200 };
 
-// What the owner hands over, and what the thread leaves.
+// Values from the owner, and results of the thread.
 typedef struct Rig {
     Worker *worker;
     int32_t job[SLOTS];

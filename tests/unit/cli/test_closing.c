@@ -9,7 +9,7 @@
 static char *text = NULL;
 static size_t size = 0;
 
-// What closing_print says, until the next call.
+// Returns what closing_print writes; valid until the next call.
 static const char *closing(const char *title, const RunSummary *summary)
 {
     FILE *usual = stdout;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What is drawn on a terminal and what is written into a log, byte by byte.
+// The progress on a terminal and in a log, byte by byte.
 #include "cli/progress.h"
 
 #include "near.h"

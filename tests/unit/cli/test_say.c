@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a terminal would obey in the words of others is shown, not done; all else comes out as it
+// Control characters in the words of others are shown, not obeyed; all else comes out as it
 // is.
 #include "cli/say.h"
 

@@ -57,7 +57,7 @@ TEST(test_turning)
     assert_all_near("v", hand.velocity, (double[]){3 / (1 + low), 4 / (7 + low), 0}, 3, 1e-12);
 }
 
-// What does not know of y and has no force along it does not move along it, and has the solution of
+// A problem without y and without a force along it does not move along y; its solution is that of
 // the plane to rounding.
 TEST(test_plane)
 {

@@ -107,7 +107,7 @@ TEST(test_solves)
     end_rig(&rig);
 }
 
-// What is written of one is read into the other. false: it is refused.
+// Writes one and reads it into the other. Returns false if it is refused.
 static bool read_back(ContactFactors *from, ContactFactors *into, Error *err)
 {
     static char bytes[4 * 8 * COUNT * COUNT];

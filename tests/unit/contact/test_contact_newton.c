@@ -10,7 +10,7 @@ enum { NODES = 30, RODS = 2 };
 
 static HandContact hand;
 
-// Of five nodes three are open, one slips and one sticks; none of it the solution.
+// Five nodes: three are open, one slips and one sticks. None of this is the solution.
 static void make_problem(Random *random)
 {
     hand_contact_size(&hand, NODES, RODS);

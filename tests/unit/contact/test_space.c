@@ -56,7 +56,7 @@ static double factorial(int32_t n)
     return n < 2 ? 1 : n * factorial(n - 1);
 }
 
-// Of x^i y^j z^k over the reference element.
+// Integral of x^i y^j z^k over the reference element.
 static double exact_integral(ElementKind kind, int32_t i, int32_t j, int32_t k)
 {
     double line = k % 2 ? 0 : 2. / (k + 1);
@@ -248,7 +248,7 @@ TEST(test_patch)
     check_patch(true);
 }
 
-// Of a HEX8 whose volume alone resists, the mean technique leaves one condition: of its spectrum
+// In a HEX8 whose volume alone resists the mean technique leaves one condition: of its spectrum
 // one value is large, not one for each quadrature point.
 TEST(test_mean_volume)
 {

@@ -84,7 +84,7 @@ static Motion uniform(double x, double z)
     return (Motion){{1 + 0.4 * x + 0.9 * z, 2 - 0.4 * x - 0.7 * z}};
 }
 
-// Of a beam in plane strain bent to the curvature 1: eps_xx = -z, sigma_zz = sigma_xz = 0.
+// A beam in plane strain that is bent to the curvature 1: eps_xx = -z, sigma_zz = sigma_xz = 0.
 static Motion bent(double x, double z)
 {
     double nu = rubber().poisson / (1 - rubber().poisson);
@@ -139,7 +139,7 @@ static double least_energy(BlockDef def, Motion (*motion)(double x, double z), b
     return energy;
 }
 
-// Of strains that are the same everywhere there is nothing to average.
+// Averaging does not change strains that are the same everywhere.
 TEST(test_uniform)
 {
     for (int32_t kind = 0; kind < PLANE_KINDS; kind++) {

@@ -17,7 +17,7 @@ static const double GRID_ERROR = 5e-9;
 // The same over a face of a seventh of the length.
 static const double FACE_ERROR = 1e-7;
 
-// What stands over what.
+// Elements of the upper and the lower surface, and whether their nodes match.
 typedef struct Pair {
     ElementKind upper, lower;
     bool matches;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What mesh_build refuses, and what it mends; counts and areas of the shipped blocks against
+// Faults that mesh_build refuses and mends; counts and areas of the shipped blocks against
 // formulas.
 #include "fem/mesh.h"
 

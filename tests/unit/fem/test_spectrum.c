@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What branches resist at a real rate, against the moduli of an elastic solid with G(s) and K(s)
+// Stiffness of branches at a real rate, against the moduli of an elastic solid with G(s) and K(s)
 // (correspondence principle), in space, in plane strain and in plane stress.
 #include "fem/spectrum.h"
 

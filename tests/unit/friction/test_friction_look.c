@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What is found of one's own law: the built-in laws written as formulas have their scales; what
+// Scales and faults of one's own law: the built-in laws written as formulas have their scales; what
 // cannot be a law is refused, with the velocity.
 #include "own_laws.h"
 
@@ -125,7 +125,7 @@ TEST(test_refusals)
     }
 }
 
-// What touches its limits, or comes close to them, is none of these.
+// Laws that touch their limits, or come close to them, are not refused.
 TEST(test_at_the_limits)
 {
     static const char *const formulas[] = {"0.3 - 0.2 * v + v^2 / 30",   // 0.3 (1 - v/3)^2

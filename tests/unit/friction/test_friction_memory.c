@@ -173,7 +173,7 @@ TEST(test_constant_slip)
     }
 }
 
-// What contacts remember that have rested for so long changes as the law says at rest; the slip law
+// The state of contacts that have rested for so long changes as the law says at rest; the slip law
 // changes nothing there, and takes the ageing law's state.
 TEST(test_rested)
 {

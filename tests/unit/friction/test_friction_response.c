@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What small disturbances of slip meet: the critical stiffness of one state and of two by closed
+// Response to small disturbances of slip: the critical stiffness of one state and of two by closed
 // forms, of any number by all rates of the body on its spring; the bound of what coupled states
 // weaken against their worst s, and between two levels; poles on the right.
 #include "friction/friction_response.h"
@@ -208,7 +208,7 @@ TEST(test_calm)
     assert_false(friction_states_calm(&none, 1));
 }
 
-// What comes out satisfies its equation, whatever the scales, and those of states that slip moves
+// The result satisfies its equation, whatever the scales, and those of states that slip moves
 // through others only.
 TEST(test_respond)
 {

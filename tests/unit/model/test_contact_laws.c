@@ -13,7 +13,7 @@ enum { NODES_MAX = 64 };
 static const char jumps[] = "points(x, 0.15, 0.6, 0.15, 1, 0.85, 1, 0.85, 0.6)";
 static const double jumps_integral = 1 - 2 * 0.15 * 0.4;
 
-// What the threshold of each node is multiplied by. Returns the sum of weights times factors.
+// Reads the factor of each node's threshold. Returns the sum of weights times factors.
 static double read_factors(const Model *model, double factors[NODES_MAX])
 {
     const Interface *interface = &model->interface;
@@ -26,7 +26,7 @@ static double read_factors(const Model *model, double factors[NODES_MAX])
     return sum;
 }
 
-// Of the block with so many cells; mesh: further settings.
+// Factors of the block with so many cells; mesh: further settings.
 static double block_factors(const char *along, int32_t cells, const char *mesh,
                             double factors[NODES_MAX])
 {

@@ -151,7 +151,7 @@ TEST(test_slip_on_pads)
     hand_drops_end(&hand);
 }
 
-// What sinks slowly does not drop. Within an event mu may rise before it falls, and rise again
+// A slow decrease is no drop. Within an event mu may rise before it falls, and rise again
 // after: the top before the fall counts. A drop that is not a bulk sliding is known when its event
 // has ended.
 TEST(test_within_an_event)

@@ -273,8 +273,8 @@ TEST_BETWEEN(test_run_ends_within, setup, teardown)
     expect_kinds(0, 1, 0);
 }
 
-// What counts as a precursor: slip that came to 2.5 V somewhere, and was rapid over a twentieth of
-// the contact in all, or slid a whole pad. What does not is listed, as slight.
+// A precursor is slip that came to 2.5 V somewhere, and was rapid over a twentieth of
+// the contact in all, or slid a whole pad. Other events are listed as slight.
 TEST_BETWEEN(test_slight, setup, teardown)
 {
     const double weight[] = {0.004, 0.04, 0.007, 0.5, 0.449};   // of 1

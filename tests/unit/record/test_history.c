@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What is recorded is read back by io/hdf5/result_file, value by value, with events and peaks.
+// Records are read back by io/hdf5/result_file, value by value, with events and peaks.
 #include "record/history.h"
 
 #include "base/memory.h"

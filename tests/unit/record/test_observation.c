@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What is read off a state, against sums over the mesh done here.
+// Values that are read off a state, against sums over the mesh done here.
 #include "record/observation.h"
 
 #include "block_rig.h"

@@ -45,7 +45,7 @@ static void see(Fixture *fixture, double mu, const double rate[SEEN_NODES])
 static const double REST[] = {0, 0, 0, 0, 0}, ACROSS[] = {9, 9, 9, 9, 9};
 static const double TAIL[] = {0.5, 0.5, 0.5, 0.5, 0.5};
 
-// What the pads are: nodes weigh 1/8, 1/4, 1/4 and 1/4, 1/8.
+// The pads: nodes weigh 1/8, 1/4, 1/4 and 1/4, 1/8.
 TEST(test_what_they_are)
 {
     Fixture fixture;

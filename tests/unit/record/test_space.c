@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What recorders say of a contact in space: nine nodes at x, y = 0, 0.5, 1, in order of x, then y.
+// Records of a contact in space: nine nodes at x, y = 0, 0.5, 1, in order of x, then y.
 //
 //      y  2---5---8     weights: corners 1/16, sides 1/8, the middle 1/4
 //         1---4---7     the line along the drive: 1, 4, 7
@@ -98,7 +98,7 @@ static void see(double t, const double speed[NODES])
 
 // --- the line along the drive -------------------------------------------------------------------
 
-// Of places in order of x; `line`: -1 ends it.
+// Checks places in order of x; `line`: -1 ends it.
 static void expect_line(int32_t count, double *x, double *y, const int32_t *line)
 {
     Error err = {0};
@@ -314,7 +314,7 @@ TEST_BETWEEN(test_history, setup, teardown)
     expect_values(file, SERIES_SLIP, 2 * NODES, slip);
     expect_values(file, SERIES_SHEAR, 2 * NODES, shear);
     expect_values(file, SERIES_STATUS, NODES, status);
-    // Of nine nodes: sum of 1 - i below 0; slip by weights, whose mean of i is 4.
+    // For nine nodes: sum of 1 - i below 0; slip by weights, whose mean of i is 4.
     expect_values(file, SERIES_PAD_SHEAR, 1, (const double[]){36});
     expect_values(file, SERIES_PAD_SHEAR_ACROSS, 1, (const double[]){36 - NODES});
     expect_values(file, SERIES_PAD_SLIP, 1, (const double[]){4});

@@ -9,7 +9,7 @@
 
 #include <math.h>
 
-// Of two materials: elements whose first node is below `layer` are of the second. Sets areas and
+// Two materials: elements whose first node is below `layer` are of the second. Sets areas and
 // mean.
 static inline void mark_layer(Mesh *mesh, double layer, Materials *materials)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What any reduced block must hold, however it is kept: products, loads and solves as the full
+// Checks of any reduced block, however it is kept: products, loads and solves as the full
 // matrices seen through the modes, by hand; rigid motions.
 #ifndef AMONTONS_TESTS_REDUCED_CHECKS_H
 #define AMONTONS_TESTS_REDUCED_CHECKS_H
@@ -7,7 +7,7 @@
 #include "random_numbers.h"
 #include "unit/reduction/reduced_block.h"
 
-// Of matrices that come from products of responses, whose energies agree in up to log10(5e4) digits
+// For matrices that come from products of responses, whose energies agree in log10(5e4) digits
 // (LOSS_LIMIT of reduction/reduction): 4e-14 times that.
 static const double ROUNDING = 2e-9;
 

@@ -134,7 +134,7 @@ TEST(test_matrices)
     }
 }
 
-// What is in the basis already adds nothing to it.
+// A response that is in the basis already adds nothing to it.
 TEST(test_dependent_responses)
 {
     Rig rig;

@@ -125,7 +125,7 @@ TEST(test_whole_solve)
     fixture_destroy(&fixture);
 }
 
-// What the operator knows of the block: load, unit rotation (which K does not resist), mass.
+// Data of the block in the operator: load, unit rotation (which K does not resist), mass.
 TEST(test_block_data)
 {
     Error err = {0};

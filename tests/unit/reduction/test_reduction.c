@@ -181,7 +181,7 @@ TEST(test_operator)
     reduced_block_destroy(&block);
 }
 
-// Of the training points that may still be visited.
+// Counts down the training points that may still be visited.
 static bool goes_on(void *self, Error *err)
 {
     int32_t *left = self;

@@ -35,7 +35,7 @@ static double response_error(ReducedBlock *block, const ReducedBulk *reduced, Op
     return largest;
 }
 
-// What the operator made of the basis says of these terms is what the basis says of their inertia.
+// The error that the operator names for these terms is that of the basis for their inertia.
 static void assert_said(const ReducedBlock *block, OperatorTerms terms, double said)
 {
     BulkOperator system;
@@ -223,7 +223,7 @@ TEST(test_units)
     for (int which = 0; which < 2; which++) {
         double *left = eigenvalues_of(both[which][0], count);
         double *right = eigenvalues_of(both[which][1], count);
-        // Of two bases, each with rounding of 1e-9 (LOSS_LIMIT of reduction/reduction) in an entry.
+        // Two bases, each with rounding of 1e-9 (LOSS_LIMIT of reduction/reduction) in an entry.
         assert_all_near("spectrum", left, right, count, 8e-9);
         free(left);
         free(right);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a search for an error bar leaves when it is stopped, and what it says of a bar not met;
+// A search for an error bar that is stopped, and what it says of a bar not met;
 // loads and parameters of its runs. How good its bars are is tested by end_to_end.accuracy.
 #include "run/accuracy_figure.h"
 #include "run/level_scene.h"

@@ -278,7 +278,7 @@ static void seal(SavedState *saved)
     memcpy((char *)saved->bytes + size, text, HASH_TEXT_SIZE - 1);
 }
 
-// What another version wrote, or half a state, under a checksum that holds.
+// The state of another version, or half a state, under a checksum that holds.
 TEST(test_of_other_versions)
 {
     Error err = {0};

@@ -29,7 +29,7 @@ static char *read_page(const char *page)
     return text;
 }
 
-// What a writer writes, without line ends at its end; freed by the caller.
+// The text of a writer, without line ends at its end; freed by the caller.
 static char *written_by(TableWriter writer)
 {
     char *text = NULL;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the words of a scene become: the state at t = 0 under each of them, what steps and ends are
+// The start of a run: the state at t = 0 under each of a scene's words, what steps and ends are
 // taken from it, and scenes that cannot be computed.
 #include "run/simulation_state.h"
 

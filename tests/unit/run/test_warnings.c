@@ -65,7 +65,7 @@ TEST(test_resolution_with_branches)
     assert_true(slow >= alone && slow < 1.5 * alone);
 }
 
-// Of rate and state that length is G D_c/(b p); G = 1/2.68.
+// With rate and state that length is G D_c/(b p); G = 1/2.68.
 TEST(test_memory)
 {
     const char *law = "friction={law: rate-and-state, mu_reference: 0.3, reference_velocity: 1e-5, "
@@ -81,7 +81,7 @@ TEST(test_without_viscosity)
     RunWarnings found = warnings_of("material.eta1=0", "material.eta2=1");
     assert_int_equal(found.count, 1);
     assert_non_null(strstr(found.text[0], "ill-posed"));
-    // What does not weaken has an answer also without viscosity.
+    // Friction that does not weaken has an answer also without viscosity.
     assert_int_equal(
         warnings_of("material.eta1=0", "friction={law: coulomb, mu_static: 0.3}").count, 0);
 }
@@ -186,7 +186,7 @@ TEST(test_units)
     }
 }
 
-// What is said of an event before which so many cells slipped on pad 1 of two, or of one.
+// The warning about an event before which so many cells slipped on pad 1 of two, or of one.
 static void slip_warning(double cells, int32_t pads, const char *setting, RunWarnings *found)
 {
     Scene *scene = small_scene((const char *const[]){setting, NULL});

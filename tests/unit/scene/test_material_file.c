@@ -158,7 +158,7 @@ TEST(a_scene_that_names_a_file)
         const SceneRelaxation *found = region ? &region->relaxation : &scene->material.relaxation;
         double young = region ? region->number[MATERIAL_YOUNG] : scene->material.young;
         assert_true(found->count >= 2 && young > 0.8 && young < 1.1);
-        // What is kept of it needs no file: the scene of a result is read as it was computed.
+        // The kept scene needs no file: the scene of a result is read as it was computed.
         char *kept = NULL;
         JsonWriter *json = json_create(NULL, &err);
         json_begin_object(json, NULL);

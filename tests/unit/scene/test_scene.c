@@ -248,7 +248,7 @@ TEST(test_written_by_other_programs)
     assert_int_equal(read_with(0, "materials: Null").materials.count, 0);
 }
 
-// What is refused only together with something else.
+// Values that are refused only together with others.
 TEST(test_allowed_together)
 {
     Scene scene = read_with(5, "friction: {law: coulomb, mu_static: 0.3, mu_kinetic: 0.3}");

@@ -54,7 +54,7 @@ TEST(formulas_of_a_file)
     free(scene);
 }
 
-// What is set changes what a formula gives, or replaces the formula.
+// A setting changes the value of a formula, or replaces the formula.
 TEST(settings_beside_formulas)
 {
     static const char *const settings[] = {"load.pressure=0.02", "mesh.set.height=1",

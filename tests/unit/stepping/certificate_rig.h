@@ -25,7 +25,7 @@ static inline void certificate_rig_build(const RigDef *def, double longest, doub
     dt_levels_init(&built->rig.system, longest, shortest, &built->dt_levels);
 }
 
-// What the contact sees of level k.
+// Contact matrix of level k.
 static inline ContactMatrix *certificate_rig_level(CertificateRig *built, int32_t k)
 {
     Error err = {0};

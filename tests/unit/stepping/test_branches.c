@@ -159,7 +159,7 @@ TEST(test_order)
     }
 }
 
-// What is missing in the ledger goes down with the square of the step, and branches take their part
+// The ledger's imbalance goes down with the square of the step, and branches take their part
 // of the energy: without viscosity all that is dissipated, each what its own spring and time say.
 TEST(test_energy_order)
 {

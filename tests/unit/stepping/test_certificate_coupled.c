@@ -34,7 +34,7 @@ static void list_moving(Slip *slip)
         if (!slip->seen->rod_touches[j]) slip->moving[slip->count++] = interface_rod(interface, j);
 }
 
-// What is out of balance in row `row` when unknown `changed` moves by `step` beside what is seen:
+// The imbalance in row `row` when unknown `changed` moves by `step` beside what is seen:
 // forces are those seen plus S times that.
 static double out_of_balance(const Slip *slip, int32_t row, int32_t changed, double step)
 {

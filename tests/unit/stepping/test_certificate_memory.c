@@ -217,7 +217,7 @@ static void find_slopes(const FrictionNode *node, double speed, const double *th
         slope[1 + k] = (rates[1].rate[k] - rates[0].rate[k]) / (2 * h);
 }
 
-// What friction of node i adds to y' = A y; its states begin at `theta`.
+// Adds the friction of node i to y' = A y; its states begin at `theta`.
 static void add_friction(const Fixture *fixture, int32_t i, int32_t theta, int32_t size, double *a)
 {
     const BlockRig *rig = &fixture->built.rig;
@@ -288,7 +288,7 @@ static double fastest_growth(Fixture *fixture)
     return fastest;
 }
 
-// Of all with |lambda| from `low` to `high` the largest Re lambda/|lambda|; real: of these alone.
+// Largest Re lambda/|lambda| of all with |lambda| from `low` to `high`; real: of these alone.
 static double widest(const Fixture *fixture, int32_t count, double low, double high, bool real)
 {
     double most = -1;

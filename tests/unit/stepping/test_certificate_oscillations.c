@@ -98,7 +98,7 @@ static bool oscillates_less(Fixture *fixture, double growth)
         (LevelRange){0, fixture->built.dt_levels.level_count}, growth);
 }
 
-// What is cleared does grow by less, and what grows by much less is cleared: the test loses little.
+// States that are cleared grow by less, and all that grow by much less are cleared.
 TEST(test_against_eigenvalues)
 {
     int32_t cleared = 0, oscillating = 0, refused = 0;

@@ -58,7 +58,7 @@ static void random_state(Random *random, double pressure, bool open, Fixture *fi
     }
 }
 
-// What moves, by hand: tangents of what slips, all of what is open.
+// Moving unknowns, by hand: tangents of slipping nodes, all of open nodes.
 static int32_t list_moving(const Fixture *fixture, int32_t *moving)
 {
     int32_t count = 0;

@@ -94,8 +94,8 @@ static int by_real_part(const void *a, const void *b)
     return (x < y) - (x > y);
 }
 
-// What moves behind a rod on a spring: all rigid nodes that touch it, together. The first of them
-// stands for the rod; -1: it does not move.
+// Nodes that move behind a rod on a spring: all rigid ones that touch it, together. The first
+// of them stands for the rod; -1: it does not move.
 static int32_t rod_unknown(const Case *test)
 {
     for (int32_t j = 0; j < test->interface.rod_count; j++)

@@ -47,7 +47,7 @@ static Complex determinant(Complex a[4][4])
     return product;
 }
 
-// Of exp(i q x + s t): 0 at a growth rate s. In the slab P waves, grad exp(i q x +- alpha z), and S
+// At exp(i q x + s t): 0 at a growth rate s. In the slab P waves, grad exp(i q x +- alpha z), and S
 // waves, curl exp(i q x +- beta z); on its top no traction; below u_z = 0 and
 // sigma_xz + W(s) s u_x + mu sigma_zz = 0.
 static Complex relation(Complex s, double q)
@@ -189,7 +189,7 @@ static void slab_destroy(Slab *slab)
     mesh_destroy(&slab->mesh);
 }
 
-// Of the rates that were found the fastest that is next to an exact one of wave number q, of which
+// The fastest of the found rates that is next to an exact one of wave number q, of which
 // *off is how far it is from that, relative. Waves of -q have the conjugate rates: pressure that
 // follows slip tells the two apart.
 static GrowthRate rate_of_wave(Slab *slab, double q, double *off)

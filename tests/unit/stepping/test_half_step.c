@@ -134,7 +134,7 @@ static void push_aside(double way, Pushed *pushed)
     bulk_operator_apply(pushed->control.scheme.system, BULK_MASS, now->velocity, now->momentum);
 }
 
-// What is odd and above rounding is found at once, and from there on steps are those of the whole.
+// An antisymmetric part above rounding is found at once; later steps are those of the whole.
 TEST(test_pushed_aside)
 {
     Error err = {0};

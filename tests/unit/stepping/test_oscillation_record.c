@@ -174,7 +174,7 @@ TEST(test_slow_again)
     fixture_destroy(&fixture);
 }
 
-// What opens, and a rod node that lets go, are new too.
+// A node that opens, and a rod node that lets go, are new too.
 TEST(test_open_and_rod)
 {
     Fixture fixture;

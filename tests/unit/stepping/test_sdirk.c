@@ -187,7 +187,7 @@ TEST(test_estimate)
     }
 }
 
-// What is missing in the ledger goes down with the square of the step.
+// The ledger's imbalance goes down with the square of the step.
 TEST(test_energy_order)
 {
     RigDef def = smooth_def();

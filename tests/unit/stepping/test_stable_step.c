@@ -34,7 +34,7 @@ static Bulk chain_build(double mass, double spring, double dashpot)
     return bulk;
 }
 
-// Of the tridiagonal (-1, 2, -1): 2 + 2 cos(pi / (n + 1)).
+// Largest eigenvalue of the tridiagonal (-1, 2, -1): 2 + 2 cos(pi / (n + 1)).
 static double chain_largest(void)
 {
     return 2 + 2 * cos(M_PI / (CHAIN + 1));

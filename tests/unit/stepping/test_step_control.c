@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What is accepted and what is not: accuracy, contact, certificate; and what becomes of a run that
+// Which steps are accepted: accuracy, contact, certificate; and what becomes of a run that
 // the certificate does not hold back.
 #include "stepping/step_control.h"
 

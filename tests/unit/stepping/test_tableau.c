@@ -83,7 +83,7 @@ TEST(test_error_constants)
     }
 }
 
-// What moves on evenly has no error, and stages are summed to their places.
+// Even motion has no error, and stages are summed to their places.
 TEST(test_even_motion)
 {
     for (int32_t s = 0; s < KINDS_COUNT; s++) {

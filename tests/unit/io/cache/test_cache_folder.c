@@ -120,7 +120,7 @@ static void make_part(PartFile *part, char letter)
     assert_true(part_file_write(part, "half", 4, &err));
 }
 
-// What a process left that was killed while it wrote counts, and goes; what one writes now stays.
+// Files of a process that was killed while it wrote count, and go; those that one writes now stay.
 TEST_BETWEEN(test_parts_of_killed_writers, cache_begin, cache_end)
 {
     PartFile killed, writing;

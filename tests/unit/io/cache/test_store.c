@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What is kept is read back to the bit or not at all: cut, changed, foreign and half-written files
+// Entries are read back to the bit or not at all: cut, changed, foreign and half-written files
 // are refused with a reason, and writers do not disturb each other.
 #include "io/cache/store.h"
 
@@ -27,7 +27,7 @@ static int32_t count_files(const char *ending)
     return count;
 }
 
-// What is kept here.
+// The entry of these tests.
 typedef struct Thing {
     int32_t count;
     double *numbers, *odd;   // [count], lent; [6], made

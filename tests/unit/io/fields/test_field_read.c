@@ -71,7 +71,7 @@ TEST(test_frame)
     field_frame_destroy(&frame);
 }
 
-// What lies deeper is left out, with the nodes that only it has.
+// Deeper elements are left out, with the nodes that only they have.
 TEST(test_crop)
 {
     Error err;

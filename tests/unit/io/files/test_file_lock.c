@@ -145,7 +145,7 @@ TEST(one_at_a_time)
     assert_int_not_equal(access(path, F_OK), 0);
 }
 
-// What was opened before its name was removed and given to another file guards nothing.
+// A file that was opened before its name went to another file guards nothing.
 TEST(a_name_may_lead_elsewhere)
 {
     int old = open(number, O_RDWR | O_CREAT, 0600);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What goes in comes out, whatever kills the writer. HDF5 is asked directly for what h5py would
-// see; the limit on file size stands in for a full disk.
+// All that is written is read back, whatever kills the writer. HDF5 is asked directly for what h5py
+// would see; the limit on file size stands in for a full disk.
 #include "io/hdf5/array_file.h"
 
 #include "base/memory.h"
@@ -187,7 +187,7 @@ TEST(a_series_is_written_at_once)
     unlink(path_of("once.h5"));
 }
 
-// What a reader with nothing but HDF5 sees: types, shapes, chunks, filters, attributes.
+// The file as a reader with nothing but HDF5 sees it: types, shapes, chunks, filters, attributes.
 TEST(the_stored_form_is_as_stated)
 {
     Error err = {0};
@@ -360,7 +360,7 @@ TEST(a_full_disk_is_an_error_and_no_crash)
     // Parts fit (13 MB in all), what they are joined into does not.
     fill_disk_in_child(path, 10000000, 5000);
     assert_false(exists(path));
-    // What was flushed before the disk was full can still be read.
+    // Rows that were flushed before the disk was full can still be read.
     Error err = {0};
     double *values = NULL;
     int64_t rows = 0;

@@ -277,7 +277,7 @@ static bool is_killed(const char *path, const Course *course, int64_t kept, int6
     return WIFSIGNALED(status);
 }
 
-// What can be read now; -1: nothing yet.
+// Rows that can be read now; -1: nothing yet.
 static int64_t flushed_rows(const char *path)
 {
     Error err = {0};
@@ -297,8 +297,8 @@ static bool has_parts(const char *place)
     return place_has(place, "file.h5.part") || place_has(place, "file.h5.part.1");
 }
 
-// What the last flush left can be read, all series equally long, and gone on with. Where a file is
-// gone on with (kept), that many rows are there at every moment.
+// The rows of the last flush can be read, all series equally long, and continued. Where a file is
+// continued (kept), that many rows are there at every moment.
 static void kill_everywhere(const Course *course, int64_t kept)
 {
     char place[PLACE_SIZE], path[2 * PLACE_SIZE];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a .geo may say, what becomes of it in the text that gmsh is given, and scripts that would
+// Commands of a .geo, what becomes of them in the text that gmsh is given, and scripts that would
 // keep the reader busy for ever.
 #include "io/mesh/geo_script.h"
 
@@ -132,7 +132,7 @@ TEST(test_refused)
     place_remove(place);
 }
 
-// What stands in comments and strings is no command, nor is an option of meshes or a name of one's
+// Text in comments and strings is no command, nor is an option of meshes or a name of one's
 // own; what shows or writes is left out, and the lines stay.
 TEST(test_let_through)
 {

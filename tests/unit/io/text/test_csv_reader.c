@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What csv_writer writes comes back; and tables of others, by RFC 4180.
+// Tables of csv_writer are read back; and tables of others, by RFC 4180.
 #include "io/text/csv_reader.h"
 
 #include "cases.h"
@@ -146,7 +146,7 @@ TEST(numbers_alone)
     }
 }
 
-// What is wrong is told with file, line and place.
+// An error names file, line and place.
 TEST(what_is_not_understood_is_told)
 {
     static const struct {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What is markup and what is text, read back from the file; Base64 by the vectors of RFC 4648.
+// Markup and text, read back from the file; Base64 by the vectors of RFC 4648.
 #include "io/text/html_writer.h"
 
 #include "base/memory.h"
@@ -14,7 +14,7 @@
 
 static const char PATH[] = "html_writer_test.html";
 
-// What `write` writes.
+// The text that `write` writes.
 static char *written(void (*write)(HtmlWriter *html))
 {
     Error err = {0};

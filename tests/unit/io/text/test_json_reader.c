@@ -77,7 +77,7 @@ TEST(test_short_escape)
 }
 
 // An index stands for every item: a list may be shorter at another time.
-// What is nested deeper than any of our files, or ends within a text, is not gone through.
+// Values that are nested deeper than any of our files, or end within a text, are not read.
 TEST(test_depth)
 {
     char text[200] = "", value[10];

@@ -116,7 +116,7 @@ TEST_BETWEEN(long_lines_are_whole, canvas_begin, canvas_end)
     assert_true(fabs(area_read() - 1.5 * solid - 3.14) < 12);
 }
 
-// Of the colour map's k-th entry.
+// Red of the colour map's k-th entry.
 static int32_t map_red(int32_t k)
 {
     uint8_t map[3 * MAP_SIZE];

@@ -117,7 +117,7 @@ TEST(any_range_gets_ticks)
     }
 }
 
-// Of what is counted: ranks 1 to 3 have a tick each and none between them, 0 to 20 whole ones.
+// Ticks of counted things: ranks 1 to 3 have a tick each and none between them, 0 to 20 whole ones.
 TEST(whole_numbers_have_no_ticks_between)
 {
     const double ends[][2] = {{0.8, 3.2}, {1, 2}, {0, 8.4}, {0, 20}, {0, 100}};

@@ -67,7 +67,7 @@ static Block patch_make(ElementKind kind, Patch *patch)
     return (Block){.frame = patch->frame, .value = patch->value, .place = patch->place};
 }
 
-// What the element can hold: linear, or quadratic; from 0 to 1 on the unit square.
+// A field that the element can hold: linear, or quadratic; from 0 to 1 on the unit square.
 static double field_at(ElementKind kind, double x, double z)
 {
     bool linear = kind == ELEMENT_T3 || kind == ELEMENT_Q4;
@@ -172,7 +172,7 @@ TEST(contours_follow_the_level)
     page_destroy(&page);
 }
 
-// Of the outline only what one element alone has: both have all, as they share no node here; with
+// The outline has only sides of one element alone: both have all, as they share no node here; with
 // common nodes the inner side is gone.
 TEST(the_outline_is_what_one_element_has)
 {

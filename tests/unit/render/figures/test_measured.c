@@ -99,7 +99,7 @@ TEST(units_and_quotients)
     measured_destroy(&measured);
 }
 
-// What there is in the file says what was measured: U by time, lengths over the load ratio, speeds
+// The columns of the file say what was measured: U by time, lengths over the load ratio, speeds
 // over a wave's.
 TEST(columns_say_what_was_measured)
 {

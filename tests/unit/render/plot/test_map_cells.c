@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What lies between points: cells of grids with gaps, half way between neighbours, also on
+// The area between points: cells of grids with gaps, half way between neighbours, also on
 // logarithmic axes; triangles that tile the hull of scattered points, whose area is known; gaps
 // that stay empty.
 #include "render/plot/map_cells.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What of a run is shown: the last slidings of many, or what was asked for, by U or by time.
+// The shown part of a run: the last slidings of many, or what was asked for, by U or by time.
 #include "render/view/range.h"
 
 #include "cases.h"

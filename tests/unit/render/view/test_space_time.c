@@ -40,7 +40,7 @@ TEST(fastest_step_shows)
     pixel_grid_destroy(&grid);
 }
 
-// Of states the smallest, or the largest, with their signs.
+// States: the smallest or the largest is kept, with its sign.
 TEST(states_keep_their_sign)
 {
     PixelGrid grid;

@@ -78,7 +78,7 @@ static double length_of(const SurfaceParts *lines)
     return sum;
 }
 
-// Of the cut `words`: area and outline, and the field at every corner. Sides of wedges that are no
+// The cut `words`: area and outline, and the field at every corner. Sides of wedges that are no
 // longer flat are cut into triangles from either side by another diagonal: a crack of 4e-4
 // of area and outline here, none where they are flat.
 static void check_with(double distortion, ElementKind kind, const char *words, double area,

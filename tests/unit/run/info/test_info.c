@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What `amontons info` says of a scene and of a result that the test writes itself; every failed
+// The words of `amontons info` on a scene and on a result that the test writes itself; every failed
 // allocation is an error and leaks nothing.
 #include "amontons.h"
 #include "base/memory.h"

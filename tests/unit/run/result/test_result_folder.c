@@ -197,7 +197,7 @@ TEST_BETWEEN(test_cleared_late_and_not_through_links, begin, end)
     place_remove(elsewhere);
 }
 
-// What was cleared is back where the new computation did not come to its first step, also where it
+// Cleared files are back where the new computation did not come to its first step, also where it
 // was killed: `moment` is the name that its folder has then.
 TEST_BETWEEN(test_back_until_settled, begin, end)
 {

@@ -207,7 +207,7 @@ TEST(test_small_law)
     assert_near("L P", model1d_l_c_small(&one) / 4, model1d_l_c_small(&other), 1e-12);
 }
 
-// What is known of particular states: at Figure 1's the formula gives l_c > L; set B at P L =
+// Known particular states: at Figure 1's the formula gives l_c > L; set B at P L =
 // 2.3e-6 gives mu_M = 1.0.
 TEST(test_known_states)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a design comes to from its points, by hand; and how designs are written and found.
+// The value of a design from its points, by hand; and how designs are written and found.
 #include "study/search/designs.h"
 
 #include "base/memory.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a pad bears alone: against the shear column, whose drag, stiffness and critical weakening
+// Weakening that a pad bears alone: the shear column, whose drag, stiffness and critical weakening
 // are known, and against the path of a block of one pad and of three.
 #include "amontons_stability.h"
 

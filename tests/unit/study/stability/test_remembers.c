@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What steady slip at V asks of a spring, against (b - a) N/D_c and its like; how fast it forgets.
+// The spring that steady slip at V needs, against (b - a) N/D_c and its like; how fast it forgets.
 #include "own_laws.h"
 #include "path_by_hand.h"
 

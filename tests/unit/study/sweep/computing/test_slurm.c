@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What becomes of a sweep whose jobs end, vanish, or cannot be submitted: Slurm's commands are
+// The end of a sweep whose jobs end, vanish, or cannot be submitted: Slurm's commands are
 // scripts. And an element, which is one point of the sweep.
 #include "study/sweep/computing/slurm_jobs.h"
 

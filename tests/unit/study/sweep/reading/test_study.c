@@ -87,7 +87,7 @@ TEST(test_product)
     drop(study);
 }
 
-// What a sweep sets where nobody says otherwise, and that a study can say otherwise.
+// A sweep's own settings, which a study can change.
 TEST(test_standard)
 {
     Study *study = read_body("vary: {load.pressure: [1, 2]}\n");

@@ -11,7 +11,7 @@ enum { TEXT_SIZE = 400000 };
 
 static char place[PLACE_SIZE], path[2 * PLACE_SIZE], text[TEXT_SIZE];
 
-// Of the study `text` [with `count` words of --set].
+// Reads the study `text` [with `count` words of --set].
 static void assert_refused(const char *const *overrides, int32_t count, const char *says)
 {
     Error err = {0};

@@ -17,7 +17,7 @@ static void add(Warned *warned, int32_t point, const char *format, double a, dou
     warned_add(warned, point, sentence);
 }
 
-// What warned_print says; the caller's to free.
+// Returns what warned_print writes; freed by the caller.
 static char *print(const Warned *warned)
 {
     char *text = NULL;
