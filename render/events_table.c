@@ -33,7 +33,8 @@ static double friction_work(const ResultView *view, const Friction *friction, in
     return work;
 }
 
-// How much slipped from the trailing end on at one moment, at most, behind row `first` up to `last`.
+// How much slipped from the trailing end on at one moment, at most, behind row `first` up to
+// `last`.
 static double longest_front(const ResultView *view, int64_t first, int64_t last)
 {
     double longest = 0;

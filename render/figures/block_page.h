@@ -40,8 +40,8 @@ bool block_page_fit(BlockPage *map, const Block *blocks, int32_t count, BlockQua
 bool block_page_draw(const Page *page, const BlockPage *map, const Block *block, const Axes *axes,
                      Error *err);
 
-// Draws the statuses of the contact at a step of the history below the block, each where its node is
-// drawn; part of block_page_draw. block: one of this result.
+// Draws the statuses of the contact at a step of the history below the block, each where its node
+// is drawn; part of block_page_draw. block: one of this result.
 void block_page_contact(const Page *page, const BlockPage *map, const Block *block, int64_t row,
                         const Axes *axes);
 

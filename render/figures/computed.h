@@ -13,8 +13,8 @@ typedef enum MeasuredKind {
     MEASURED_MU,   // F_T/F_N over U
     MEASURED_FRONT,   // how far slip has come, x, over U
     MEASURED_AREA,   // contact area over what it was at rest, over U and x: no curve
-    MEASURED_LENGTH,   // how far slip had come when F_T/F_N first came so far, in the cycle of the zoom
-    MEASURED_SPEED,   // how fast the front of the sliding of the zoom ran over x; below 0: backwards
+    MEASURED_LENGTH,   // the farthest slip when F_T/F_N first came so far, in the cycle of the zoom
+    MEASURED_SPEED,   // of the front of the sliding of the zoom, over x; below 0: it ran backwards
     MEASURED_PROBE,   // what probes saw, over U, several columns: no curve
     MEASURED_KINDS
 } MeasuredKind;
@@ -35,11 +35,12 @@ bool computed_event(const ResultView *view, const ViewEvent *event, double *mu, 
 // caller's, also after a failure.
 bool computed_events(const ResultView *view, ViewEventKind kind, ViewCurve *events, Error *err);
 
-// Speed of the front of a rapid event over x, as of MEASURED_SPEED; below 0 where it ran towards the
-// trailing end. The arrays are the caller's, also after a failure; there may be no points.
+// Speed of the front of a rapid event over x, as of MEASURED_SPEED; below 0 where it ran towards
+// the trailing end. The arrays are the caller's, also after a failure; there may be no points.
 bool computed_front_speed(ResultView *view, const ViewEvent *event, ViewCurve *curve, Error *err);
 
-// Whether points k and k + 1 of such a curve are neighbours, and the front ran the same way in both.
+// Whether points k and k + 1 of such a curve are neighbours, and the front ran the same way in
+// both.
 bool computed_speeds_join(const ResultView *view, const ViewCurve *curve, int64_t k);
 // Size of the speed at x: linear between points that join, else that of the point whose interval it
 // lies in; NaN: there is none.

@@ -24,7 +24,7 @@ typedef struct Profiles {
     char words[PROFILES_MAX][PROFILE_WORDS_SIZE];   // when that was
     double
         *values[PROFILE_QUANTITIES];   // [count * nodes]; gap and area NULL where the history has
-        // none; owned
+    // none; owned
     double *status;   // [count * nodes] 0: open; owned
     bool opens;   // some node is open at one of the moments
 } Profiles;

@@ -4,8 +4,8 @@
 #include <math.h>
 #include <stddef.h>
 
-// How much slipped when slip turned fast, over how long the front from the trailing end was: above it
-// most of that slipped elsewhere, and the front says nothing of when the block slides.
+// How much slipped when slip turned fast, over how long the front from the trailing end was: above
+// it most of that slipped elsewhere, and the front says nothing of when the block slides.
 static const double ELSEWHERE = 2;
 
 // Number of the first sliding of the whole block from event number `from` on; without one the

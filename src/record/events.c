@@ -280,9 +280,9 @@ static void follow_front(Events *events, const Observation *seen)
     events->fast_reach = reach;
 }
 
-// Slip was rapid over LEAST_RAPID of the contact by now, and has run as far from the trailing end of
-// the block or of a pad; or a pad has slid over all its length. What rings behind a precursor, about
-// the place where that stopped, is not connected with a trailing end.
+// Slip was rapid over LEAST_RAPID of the contact by now, and has run as far from the trailing end
+// of the block or of a pad; or a pad has slid over all its length. What rings behind a precursor,
+// about the place where that stopped, is not connected with a trailing end.
 static bool is_wide(const Events *events, const Interface *interface)
 {
     double rapid = 0;

@@ -71,7 +71,8 @@ TEST(test_slip_that_turns_fast_elsewhere)
     }
 }
 
-// The load gained since the last precursor: one of them more or less changes the peak by a part of it.
+// The load gained since the last precursor: one of them more or less changes the peak by a part of
+// it.
 TEST(test_since_the_last_precursor)
 {
     HandDrops hand;
