@@ -3,6 +3,7 @@
 // has let go, with its number in the order; of one cycle, or of all.
 #include "render/figures/figures.h"
 
+#include "base/memory.h"
 #include "render/figures/pad_data.h"
 #include "render/figures/stack.h"
 #include "render/view/zoom.h"
@@ -62,13 +63,14 @@ bool figure_pads(Page *page, const FigureInput *input, Error *err)
     PageDef def = input->def;
     PadCourses courses = {0};
     Axes axes = {0};
-    static char names[NAMES_MAX][AXIS_LABEL_SIZE];
+    char(*names)[AXIS_LABEL_SIZE] = NULL;
     double low = INFINITY, high = -INFINITY;
     Zoom zoom = zoom_choose(view);
     TRY(pad_courses_read(view, &courses, err));
     if (courses.pads < 2 || courses.pads > NAMES_MAX)
         FAIL(err, ERROR_INPUT, "the contact has %d piece%s: 2 to %d are told apart", courses.pads,
              courses.pads == 1 ? "" : "s", NAMES_MAX);
+    TRY(names = memory_array(courses.pads, sizeof *names, err));
     for (int32_t k = 0; k < courses.count; ++k) {
         if (!is_shown(&courses.list[k], &zoom)) continue;
         stack_widen(courses.list[k].U_first_slip, &low, &high);
@@ -97,5 +99,6 @@ bool figure_pads(Page *page, const FigureInput *input, Error *err)
     axes_draw(&whole, &axes);
 cleanup:
     pad_courses_destroy(&courses);
+    memory_free(names);
     return error_is_clean(err);
 }
