@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Events that count by their rate and their width (record/events). What the history adds is read
-// off its steps: the load ratio in the step before and at the end, and the work of friction, the
-// integral of tau over slip and contact by the trapezoidal rule.
+// off its steps: the load ratio in the step before and at the end, the moment of the pressure in
+// both, and the work of friction, the integral of tau over slip and contact by the trapezoidal
+// rule.
 #include "render/events_table.h"
 
 #include "base/memory.h"
@@ -15,7 +16,7 @@ enum { STEPS_ENOUGH = 8, NAME_SIZE = 48 };
 
 // In the plane; in space the whole contact is not on the line that is shown.
 typedef struct Friction {
-    double *shear;   // [rows * nodes] stress
+    double *shear, *pressure;   // [rows * nodes] stress
     double *weight;   // [nodes] length
 } Friction;
 
@@ -31,6 +32,19 @@ static double friction_work(const ResultView *view, const Friction *friction, in
                     (view->slip[to] - view->slip[from]);
         }
     return work;
+}
+
+// Moment of the contact's pressure about the middle of the block, positive where it presses more in
+// front; force times length per width.
+static double torque(const ResultView *view, const Friction *friction, int64_t row)
+{
+    double sum = 0;
+    double middle = result_view_trailing_end(view) + view->number[NUMBER_LENGTH] / 2;
+    if (!friction->pressure) return NAN;
+    for (int32_t i = 0; i < view->nodes; ++i)
+        sum += friction->weight[i] * friction->pressure[row * view->nodes + i] *
+               (view->x[i] - middle);
+    return sum;
 }
 
 // How much slipped from the trailing end on at one moment, at most, behind row `first` up to
@@ -49,6 +63,7 @@ static bool read_friction(ResultView *view, Friction *friction, Error *err)
     if (view->line) return true;
     return result_view_read_slip(view, err) &&
            result_view_read(view, SERIES_SHEAR, false, &friction->shear, err) &&
+           result_view_read(view, SERIES_PRESSURE, false, &friction->pressure, err) &&
            result_file_read_nodes(view->file, NODES_WEIGHT, &friction->weight, &count, err) &&
            (count == view->nodes ||
             FAULT(err, ERROR_FILE, "%d weights of %d contact nodes", count, view->nodes));
@@ -64,6 +79,7 @@ static void name_column(CsvWriter *csv, const char *name, const char *unit)
 static void name_columns(CsvWriter *csv, const ResultView *view, bool whole)
 {
     const char *force = whole ? "N" : "N/m", *energy = whole ? "J" : "J/m";
+    const char *moment = whole ? "N m" : "N";
     name_column(csv, "cycle", NULL);
     name_column(csv, "event", NULL);
     name_column(csv, "U", view->si ? "m" : NULL);
@@ -77,6 +93,8 @@ static void name_columns(CsvWriter *csv, const ResultView *view, bool whole)
     name_column(csv, "largest slip rate", view->si ? "m/s" : NULL);
     name_column(csv, "duration", view->si ? "s" : NULL);
     name_column(csv, "work of friction", view->si ? energy : NULL);
+    name_column(csv, "torque before", view->si ? moment : NULL);
+    name_column(csv, "torque after", view->si ? moment : NULL);
     name_column(csv, "steps", NULL);
     name_column(csv, "resolved", NULL);
     csv_end_row(csv);
@@ -116,6 +134,8 @@ bool events_table_write(const char *path, ResultView *view, Error *err)
         csv_rounded(csv, k < peaks ? peak[k] : NAN);
         csv_rounded(csv, view->t[last] - view->t[first]);
         csv_rounded(csv, times * friction_work(view, &friction, first, last));
+        csv_rounded(csv, times * torque(view, &friction, first));
+        csv_rounded(csv, times * torque(view, &friction, last));
         csv_number(csv, (double)(last - first));
         csv_number(csv, last - first >= STEPS_ENOUGH);
         csv_end_row(csv);
@@ -123,6 +143,6 @@ bool events_table_write(const char *path, ResultView *view, Error *err)
     }
     TRY(csv_finish(csv, err));
 cleanup:
-    memory_free_all(friction.shear, friction.weight, peak);
+    memory_free_all(friction.shear, friction.pressure, friction.weight, peak);
     return error_is_clean(err);
 }

@@ -8,6 +8,7 @@
 #include "render/events_table.h"
 #include "render/figures/color_scale.h"
 #include "render/figures/figures.h"
+#include "render/figures/pad_data.h"
 #include "render/figures/probe_data.h"
 #include "render/figures/profile_data.h"
 #include "render/view/zoom.h"
@@ -301,6 +302,36 @@ cleanup:
     return error_is_clean(err);
 }
 
+// A row for each pad in each cycle.
+static bool write_pads(const char *path, ResultView *view, Error *err)
+{
+    static const char *const names[2][6] = {
+        {"cycle", "pad", "order", "U first slip", "U let go", "F_T/F_N let go"},
+        {"cycle", "pad", "order", "U first slip (m)", "U let go (m)", "F_T/F_N let go"}};
+    PadCourses courses;
+    CsvWriter *csv = NULL;
+    TRY(pad_courses_read(view, &courses, err));
+    TRY(csv = csv_create(path, err));
+    for (int32_t c = 0; c < 6; ++c) csv_text(csv, names[view->si][c]);
+    csv_end_row(csv);
+    for (int32_t k = 0; k < courses.count; ++k) {
+        const PadCourse *course = &courses.list[k];
+        char words[PAD_WORDS_SIZE];
+        pad_words(view, course->pad, words);
+        csv_number(csv, course->cycle);
+        csv_text(csv, words);
+        csv_number(csv, course->order);
+        csv_rounded(csv, course->U_first_slip);
+        csv_rounded(csv, course->U_let_go);
+        csv_rounded(csv, course->mu_let_go);
+        csv_end_row(csv);
+    }
+    TRY(csv_finish(csv, err));
+cleanup:
+    pad_courses_destroy(&courses);
+    return error_is_clean(err);
+}
+
 // The figure that shows what is measured; a measured area stands on that of the law's own measure,
 // where it has one.
 static const char *figure_of(MeasuredKind kind, const ResultView *view)
@@ -387,6 +418,7 @@ bool figure_data_write(const char *folder, const char *name, ResultView *view,
     if (strcmp(name, "contact-area") == 0 && !write_area(path, view, err)) return false;
     if (strcmp(name, "state-map") == 0) return write_states(path, view, err);
     if (kind == MEASURED_PROBE && !write_probes(path, view, err)) return false;
+    if (strcmp(name, "pads") == 0) return write_pads(path, view, err);
     if (strcmp(name, "profile") == 0) return write_profiles(path, view, field->at, err);
     if (kind == MEASURED_KINDS) return true;
     if (kind == MEASURED_LENGTH && !write_lengths(path, view, err)) return false;

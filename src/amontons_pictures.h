@@ -24,6 +24,7 @@ extern "C" {
     X(FIGURE_PRECURSORS, "precursors", "how long slip is against F_T/F_N")                         \
     X(FIGURE_FRONT_SPEED, "front-speed", "how fast the front of a sliding runs, against x")        \
     X(FIGURE_PROBES, "probes", "what the probes of the scene saw, against U")                      \
+    X(FIGURE_PADS, "pads", "which pad lets go first, against U")                                   \
     X(FIGURE_PROFILE, "profile", "pressure, friction, slip and gap along x at chosen moments")     \
     X(FIGURE_FIELD, "field", "a field of the block at one time")                                   \
     X(FIGURE_STRIP, "field-strip", "a field of the block in frames of one sliding")
@@ -60,7 +61,7 @@ extern "C" {
       "Where they end; or t=TIME")                                                                 \
     X(cycle, TEXT, 0, 0,                                                                           \
       "force slip-map contact-density contact-area state-map contact-plane precursors "            \
-      "front-speed field field-strip",                                                             \
+      "front-speed pads field field-strip",                                                        \
       "", "first|last|N|all",                                                                      \
       "Which cycle is shown, from one sliding to the next: first (the first loading), last, its "  \
       "number, or all; by default one with precursors, and in a run of one or two slidings the "   \

@@ -13,8 +13,8 @@ typedef enum MeasuredKind {
     MEASURED_MU,   // F_T/F_N over U
     MEASURED_FRONT,   // how far slip has come, x, over U
     MEASURED_AREA,   // contact area over what it was at rest, over U and x: no curve
-    MEASURED_LENGTH,   // how far slip had come when F_T/F_N first came so far, in the zoom's cycle
-    MEASURED_SPEED,   // how fast the front of the zoom's sliding ran over x; below 0: backwards
+    MEASURED_LENGTH,   // the farthest slip when F_T/F_N first came so far, in the cycle of the zoom
+    MEASURED_SPEED,   // of the front of the sliding of the zoom, over x; below 0: it ran backwards
     MEASURED_PROBE,   // what probes saw, over U, several columns: no curve
     MEASURED_KINDS
 } MeasuredKind;

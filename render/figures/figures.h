@@ -44,6 +44,9 @@ bool figure_contact_plane_shows(ResultView *view, const char *quantity);
 // What the probes saw, strains where nothing is named, against U.
 bool figure_probes(Page *page, const FigureInput *input, Error *err);
 bool figure_probes_show(const char *quantity);   // whether it knows that
+// Which pad lets go first.
+bool figure_pads(Page *page, const FigureInput *input, Error *err);
+bool figure_pads_shows(const ResultView *view);   // whether there are several
 // The contact along x at moments, those around the last sliding where none are asked for.
 bool figure_profile(Page *page, const FigureInput *input, Error *err);
 

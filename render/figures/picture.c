@@ -20,6 +20,7 @@ static const FigureShape SHAPES[FIGURE_COUNT] = {
     [FIGURE_PRECURSORS] = {0.62, figure_precursors, .own_axes = true},
     [FIGURE_FRONT_SPEED] = {0.62, figure_front_speed, .own_axes = true},
     [FIGURE_PROBES] = {.draw_whole = figure_probes},
+    [FIGURE_PADS] = {.draw_whole = figure_pads},
     [FIGURE_PROFILE] = {.draw_whole = figure_profile, .own_axes = true},
     [FIGURE_FIELD] = {.draw_whole = figure_field},
     [FIGURE_STRIP] = {.draw_whole = figure_strip}};
@@ -52,6 +53,7 @@ bool figure_is_there(const char *name, const ResultView *view)
     if (strcmp(name, FIGURES[FIGURE_STATE_MAP].name) == 0) return view->states > 0;
     if (strcmp(name, FIGURES[FIGURE_CONTACT_AREA].name) == 0)
         return figure_contact_area_shows(view);
+    if (strcmp(name, FIGURES[FIGURE_PADS].name) == 0) return figure_pads_shows(view);
     if (strcmp(name, FIGURES[FIGURE_PROBES].name) == 0) return view->probes > 0;
     return strcmp(name, FIGURES[FIGURE_CONTACT_PLANE].name) != 0 ||
            (view->line && view->rapid_count > 0 && result_file_has_faces(view->file));

@@ -22,9 +22,8 @@ typedef struct Profiles {
     int32_t nodes;
     int64_t row[PROFILES_MAX];   // [count] of the history
     char words[PROFILES_MAX][PROFILE_WORDS_SIZE];   // when that was
-    double
-        *values[PROFILE_QUANTITIES];   // [count * nodes]; gap and area NULL where the history has
-        // none; owned
+    // [count * nodes] each; gap and area NULL where the history has none; owned
+    double *values[PROFILE_QUANTITIES];
     double *status;   // [count * nodes] 0: open; owned
     bool opens;   // some node is open at one of the moments
 } Profiles;

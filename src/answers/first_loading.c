@@ -57,7 +57,8 @@ FirstLoading first_loading_of(const Drops *drops)
         first.mu.value = peak.mu;
         first.U = peak.U;
         for (int32_t i = 0; i < sliding; i++)
-            if (events->list[i].kind == EVENT_BOUNDED && isfinite(events->list[i].mu_start))
+            if (events->list[i].kind == EVENT_BOUNDED && events->list[i].U_start < peak.U &&
+                isfinite(events->list[i].mu_start))
                 first.since_precursor = fmax(peak.mu - events->list[i].mu_start, 0);
         const Event *event = &events->list[sliding];
         bool elsewhere = event->slip_length > ELSEWHERE * peak.critical_length;

@@ -24,6 +24,8 @@ static const double RATE_START = 2, RATE_STOP = 1;
 // A quarter above the most that an oscillation about V comes to without turning back.
 static const double RATE_COUNTS = 2.5;
 const double LEAST_RAPID = 0.05;
+// Of the largest slip rate of a precursor: what follows at once and stays below it rings.
+static const double AFTER_SLIP = 0.1;
 enum { FIRST_ROOM = 64 };
 
 static const struct {
@@ -296,6 +298,20 @@ static bool is_wide(const Events *events, const Interface *interface)
                             : part_from_ends(events, interface) >= LEAST_RAPID;
 }
 
+// The rapid event under way began sooner behind the last precursor or sliding than that took, and
+// is so much slower: the same slip rings.
+static bool is_after_slip(const Events *events)
+{
+    const Event *event = &events->list[events->rapid];
+    for (int32_t k = events->rapid - 1; k >= 0; k--) {
+        const Event *before = &events->list[k];
+        if (before->kind != EVENT_BOUNDED && before->kind != EVENT_LEADING) continue;
+        return event->t_start - before->t_stop < before->t_stop - before->t_start &&
+               event->peak_slip_rate < AFTER_SLIP * before->peak_slip_rate;
+    }
+    return false;
+}
+
 static void raise_kind(Events *events, Event *event, EventKind kind)
 {
     events->kinds[event->kind]--;
@@ -313,7 +329,7 @@ static void follow_rapid(Events *events, const Observation *seen)
     extend_event(event, seen, farthest_reach(events, seen->interface));
     follow_front(events, seen);
     if (event->kind == EVENT_SLIGHT && event->peak_slip_rate >= events->rate_counts &&
-        is_wide(events, seen->interface))
+        is_wide(events, seen->interface) && !is_after_slip(events))
         raise_kind(events, event, EVENT_BOUNDED);
     if (all && event->kind != EVENT_LEADING) {
         raise_kind(events, event, EVENT_LEADING);

@@ -4,10 +4,10 @@
 // when all are below `rate_stop`. It is leading when it carried the whole interface (every node
 // slipped from the trailing to the leading edge). Otherwise it is bounded, and counts as a
 // precursor, if it came to `rate_counts`, was rapid over LEAST_RAPID of the contact and ran as far
-// from the trailing end of the block or of a pad, or slid a whole pad; if not, it is slight: slow
-// slip or after-slip that rings, or a node or two that jump. Between
-// slidings the slow growth of the front is one quasi-static event. Read by record/drops,
-// record/pads, record/fields and run/report.
+// from the trailing end of the block or of a pad, or slid a whole pad, and did not follow
+// an event at once and ten times slower; if not, it is slight: slow slip or after-slip that rings,
+// or a node or two that jump. Between slidings the slow growth of the front is one quasi-static
+// event. Read by record/drops, record/pads, record/fields and run/report.
 #ifndef AMONTONS_RECORD_EVENTS_H
 #define AMONTONS_RECORD_EVENTS_H
 

@@ -233,7 +233,8 @@ class Compared(unittest.TestCase):
         slidings = np.cumsum([0] + [row["event"] == "sliding" for row in rows])[:-1]
         self.assertEqual([int(row["cycle"]) for row in rows], list(slidings + 1))
         with h5py.File(self.folder / "out/history.h5") as file:
-            slip, shear, weight = (file[name][:].astype(float) for name in ("interface/slip", "interface/shear", "nodes/weight"))
+            slip, shear, weight, pressure = (file[name][:].astype(float) for name in
+                                             ("interface/slip", "interface/shear", "nodes/weight", "interface/pressure"))
             load = file.attrs["normal_force"]
         for row, event in zip(rows, counted):
             first, last = np.searchsorted(self.U, event["U_start"]) - 1, np.searchsorted(self.U, event["U_stop"], "right") - 1
@@ -241,6 +242,7 @@ class Compared(unittest.TestCase):
             work = (weight * (shear[part][1:] + shear[part][:-1]) / 2 * np.diff(slip[part], axis=0)).sum()
             wanted = {"U": event["U_start"], "t": event["t_start"], "F_T/F_N before": self.mu[first], "F_T/F_N after": self.mu[last],
                       "F_T before": load * self.mu[first], "length": event["reach"], "front": self.front[first + 1:last + 1].max(), "largest slip rate": event["peak_slip_rate"],
+                      "torque before": pressure[first] @ (weight * (self.x - 0.5)), "torque after": pressure[last] @ (weight * (self.x - 0.5)),
                       "work of friction": work, "steps": last - first, "resolved": last - first >= 8}
             for name, value in wanted.items():
                 np.testing.assert_allclose(float(row[name]), value, rtol=1e-6, err_msg=name)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A block on five pads: what run.json says of its events, worked out again from the history, node by node."""
+import csv
 import json
 import os
 import subprocess
@@ -25,6 +26,9 @@ class Pads(unittest.TestCase):
             if done.returncode:
                 raise AssertionError(done.stderr)
             cls.printed, cls.warned = done.stdout, done.stderr
+            subprocess.run([PROGRAM, "render", f"{folder}/run", "--figure", "pads", "--cycle", "first"], check=True, capture_output=True)
+            with open(Path(folder, "run", "figures", "pads.csv"), newline="") as file:
+                cls.courses = list(csv.DictReader(file))
             cls.report = json.loads(Path(folder, "run", "run.json").read_text())
             with h5py.File(Path(folder, "run", "history.h5")) as history:
                 cls.x, cls.weight, cls.pad = (history["nodes"][name][:] for name in ("x", "weight", "pad"))
@@ -47,6 +51,17 @@ class Pads(unittest.TestCase):
         """Half a cell on either side of a node that has a neighbour on its pad."""
         joined = self.pad[1:] == self.pad[:-1]
         return 0.5 * (numpy.append(joined, False)[slips].sum() + numpy.append(False, joined)[slips].sum())
+
+    def test_which_lets_go_first(self):
+        """The table of the first and of the last cycle is what the run saw of them, which looked at each step while it went on."""
+        cycles = [[row for row in self.courses if row["cycle"] == number] for number in dict.fromkeys(row["cycle"] for row in self.courses)]
+        self.assertEqual(len(cycles), sum(event["kind"] == "leading rapid" for event in self.rapid))
+        for rows, said in ((cycles[0], [pad["first"] for pad in self.results["pads"]]), (cycles[-1], self.results["pads"])):
+            self.assertEqual([row["pad"] for row in rows], self.names)
+            for row, pad in zip(rows, said):
+                self.assertEqual(int(row["order"]), pad["detachment_order"])
+                numpy.testing.assert_allclose([float(row["U first slip"]), float(row["U let go"])], [pad["U_first_slip"], pad["U_detached"]],
+                                              rtol=1e-8)
 
     def test_the_run_has_what_is_tested(self):
         self.assertGreater(len(self.rapid), 5)

@@ -653,7 +653,7 @@ class Errors(unittest.TestCase):
     def test_unknown_figure(self):
         fixture.make(self.folder)
         self.expect(ERROR_INPUT, "slipmap", "force, slip-map, contact-density, contact-area, state-map, contact-plane, precursors, front-speed, "
-                    "probes, profile, field, field-strip",
+                    "probes, pads, profile, field, field-strip",
                     figures=("force", "slipmap"))
 
     def test_no_folder(self):

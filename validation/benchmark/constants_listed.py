@@ -211,7 +211,7 @@ NOT_A_CHOICE = {
     "reduction/factored_points.c": {"SLOTS_MAX": "factors in memory at once"},
     "reduction/reduction_block.c": {"GRID": "single precision that a cache stores"},
     "record/observation.c": {"CREEP": "of V: what counts as at rest where nothing ever sticks; no scene of the table has such a law"},
-    "record/events.c": {"RATE_START": "what is called rapid: twice the rod's velocity; 1 and 4 change no event",
+    "record/events.c": {"AFTER_SLIP": "of what counts: ringing is a hundred times slower, precursors in a row are alike", "RATE_START": "what is called rapid: twice the rod's velocity; 1 and 4 change no event",
                         "RATE_STOP": "the end of it; 0.5 and 2 change no event", "FIRST_ROOM": SIZE},
     "record/drops.c": {"FIRST_ROOM": SIZE},
     "record/drops.h": {"SLIP_CELLS_ENOUGH": "of slip: 48 cases, in run/warnings; scatter by cells in priors.md"},

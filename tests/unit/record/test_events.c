@@ -327,6 +327,24 @@ TEST_BETWEEN(test_after_slip, setup, teardown)
     assert_int_equal(events.kinds[EVENT_BOUNDED], 1);
 }
 
+// What begins sooner behind a precursor than that took, and stays ten times slower, rings, from
+// wherever it comes; later, or faster, it is a precursor of its own.
+TEST_BETWEEN(test_ringing, setup, teardown)
+{
+    see(0, 99, 99, 99, 0, 0);
+    see(4, 0, 0, 0, 0, 0);
+    see(7, 9, 9, 0, 0, 0);
+    see(8, 0, 0, 0, 0, 0);
+    assert_int_equal(events.kinds[EVENT_SLIGHT], 1);
+    see(9, 9, 9, 0, 0, 0);
+    see(10, 0, 0, 0, 0, 0);
+    assert_int_equal(events.kinds[EVENT_SLIGHT], 1);
+    assert_int_equal(events.kinds[EVENT_BOUNDED], 2);
+    see(10.5, 99, 99, 0, 0, 0);
+    see(11, 0, 0, 0, 0, 0);
+    assert_int_equal(events.kinds[EVENT_BOUNDED], 3);
+}
+
 // The load of an event is that of the step before it.
 TEST_BETWEEN(test_load, setup, teardown)
 {

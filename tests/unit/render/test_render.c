@@ -135,7 +135,7 @@ TEST(unknown_figures_are_named)
     assert_non_null(strstr(err.message, "\"colour\""));
     assert_non_null(strstr(err.message,
                            "force, slip-map, contact-density, contact-area, state-map, "
-                           "contact-plane, precursors, front-speed, probes, profile, field, "
+                           "contact-plane, precursors, front-speed, probes, pads, profile, field, "
                            "field-strip"));
 }
 
