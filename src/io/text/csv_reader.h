@@ -59,7 +59,8 @@ typedef struct CsvUnit {
 enum { CSV_UNIT_SIZE = 40 };
 
 // *column: the one called `name`, alone or with a unit behind it; -1: none. t, U, mu, F_T, F_N,
-// hold are found by the words for them, too ("time", "friction force", "hold time"). ERROR_INPUT: two are.
+// hold are found by the words for them, too ("time", "friction force", "hold time"). ERROR_INPUT:
+// two are.
 bool csv_find(const CsvTable *table, const char *name, int32_t *column, CsvUnit *unit, Error *err);
 // The same of a quantity that people call by one of these names, of which the last is NULL.
 bool csv_find_any(const CsvTable *table, const char *const *names, int32_t *column, CsvUnit *unit,
