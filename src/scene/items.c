@@ -60,6 +60,36 @@ bool scene_part_has_numbers(const SceneItems *items, const char *word)
     return !part || scene_key_has_numbers(scene_part_key(items, part, 0, "").type);
 }
 
+// Words of branches stand in lists of their own: "material.relaxation.0.time",
+// "materials.pads.relaxation.0.time".
+static const char *branch_dimension(const SceneKey *key, const char *part, const char *word)
+{
+    if (key->type != KEY_BRANCHES && !strstr(part, ".relaxation.")) return NULL;
+    if (strcmp(word, "time") == 0) return "time";
+    return strcmp(word, "shear") == 0 || strcmp(word, "bulk") == 0 ? "stress" : NULL;
+}
+
+const char *scene_dimension(const char *name, const char **whole)
+{
+    int32_t count = 0, index = scene_key_index(name);
+    const SceneKey *keys = scene_keys(&count);
+    const char *part = NULL, *dot = strrchr(name, '.');
+    *whole = NULL;
+    if (index >= 0 && keys[index].type == KEY_NUMBER) {
+        *whole = keys[index].whole;
+        return keys[index].unit;
+    }
+    if (index >= 0 || (index = scene_key_above(name, &part)) < 0) return NULL;
+    const SceneKey *key = &keys[index];
+    if (key->type == KEY_PARAMETERS) return key->unit;
+    const char *of_branch = branch_dimension(key, part, dot + 1);
+    const ScenePart *found = key->items ? find_part(key->items, dot + 1) : NULL;
+    if (of_branch || !found) return of_branch;
+    SceneKey own = scene_part_key(key->items, found, 0, "");
+    *whole = own.whole;
+    return own.type == KEY_NUMBER ? own.unit : NULL;
+}
+
 // "load.tractions", or of items with names "materials.pads".
 static void path_of(const SceneKey *key, const char *item, char path[PATH_SIZE])
 {

@@ -20,6 +20,10 @@ SceneKey scene_part_key(const SceneItems *items, const ScenePart *part, int32_t 
                         const char *name);
 // Returns false for words that take texts, in which `=` means nothing.
 bool scene_part_has_numbers(const SceneItems *items, const char *word);
+// Dimension of the number that a path names as after --set ("load.pressure", "mesh.set.length",
+// "materials.pads.young", "material.relaxation.0.time"); NULL: it names none. *whole: the other one
+// that it may have (SceneKey.whole), NULL: none.
+const char *scene_dimension(const char *name, const char **whole);
 bool scene_part_is_there(const SceneItems *items, const ScenePart *part, const Scene *scene,
                          int32_t k);
 

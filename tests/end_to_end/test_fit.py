@@ -157,7 +157,7 @@ output: {{history: false}}
         self.assertEqual([round(hold["duration"]) for hold in holds], [30, 300, 3000])
         rows = [[f"{hold['duration']:.9g}".replace(".", ","), f"{hold['mu_before'] + hold['healing'] + 0.0005 * by:.9g}".replace(".", ","), "0,0005"]
                 for hold, by in zip(holds, (0.5, -0.8, 0.3))]
-        table = "# slide-hold-slide\nhold (s);mu (-);mu_sd\n" + "".join(";".join(row) + "\n" for row in rows)
+        table = "# slide-hold-slide\nHold time (s);friction coefficient (-);friction coefficient std\n" + "".join(";".join(row) + "\n" for row in rows)
         (self.folder / "measured.csv").write_text(table)
         study = head + "search: {friction.healing: {log: [0.01, 0.1]}, friction.slip_distance: {log: [2e-4, 5e-3]}}\n" \
             "fit: {measured: measured.csv, designs: 12}\n"

@@ -32,6 +32,12 @@ load: {{pressure: {PRESSURE}, supports: [{{group: rod, direction: x}}]}}
 rod: {{kind: none}}
 time: {{until: {{t: 4}}, step_max: 0.01, step_min: 0.01, tolerance: 1, energy_tolerance: 1}}
 """
+# A block that stands on the middle of its lower side alone, so that a rod drives its whole face, corners too.
+STOOL = "\n".join([
+    *(f"Point({k + 1}) = {{{x}, {y}, 0, 0.25}};" for k, (x, y) in enumerate([(0, 0), (0.25, 0), (0.75, 0), (1, 0), (1, 0.5), (0, 0.5)])),
+    *(f"Line({k}) = {{{k}, {k % 6 + 1}}};" for k in range(1, 7)), "Curve Loop(1) = {1, 2, 3, 4, 5, 6};", "Plane Surface(1) = {1};",
+    'Physical Surface("body") = {1};', 'Physical Curve("contact") = {2};', 'Physical Curve("leading") = {4};', 'Physical Curve("top") = {5};',
+    'Physical Curve("rod") = {6};', ""])
 BLOCK = f"""units: normalised
 mesh: {{file: {SOURCE}/meshes/block.geo, set: {{length: 1, height: 0.5, nx: 20, nz: 10}}}}
 material: {{poisson: 0.34, relaxation: [{{time: 0.5, shear: 0.2, bulk: 0.1}}, {{time: 40, shear: 0.15}}]}}
@@ -114,6 +120,24 @@ class Relaxation(OwnCache):
                 exact = -PRESSURE * numpy.array([areal + shear, areal - shear]) / 2
                 numpy.testing.assert_allclose([zz, xx], exact, atol=1e-4 * PRESSURE)
                 numpy.testing.assert_allclose(stress, numpy.tile([0, -PRESSURE, 0], (len(stress), 1)), atol=1e-5 * PRESSURE)
+
+    def test_relaxation(self):
+        """A block that is shortened along x in no time to speak of and held so: its force is the short-time one at first and relaxes."""
+        strain, soon = 1e-3, 0.05
+        rod = f"{{kind: push, whole: true, velocity: {strain / soon}, program: {{t: [0, {soon}, {soon}], factor: [1, 1, 0]}}}}"
+        (self.folder / "stool.geo").write_text(STOOL)
+        for plane in ("stress", "strain"):
+            _, seen = self.run_scene(FREE, f"held-{plane}", "mesh={file: stool.geo}", f"rod={rod}", "load.supports=[{group: leading, direction: x}]",
+                                     f"material.plane={plane}", "time.step_max=1e-3", "time.step_min=1e-3")
+            t, at = seen["series/time"], numpy.array([0.1, 0.3, 1, 3.9])
+
+            def inverse(s):
+                shear, areal = (k / 2 for k in moduli(s, plane))
+                return s * (shear + areal) / (4 * shear * areal)
+            exact = numpy.array([(step_response(x, inverse)[0] - step_response(x - soon, inverse)[0]) / soon for x in at])
+            ours = numpy.interp(at, t, seen["series/mu"]) * PRESSURE / (strain * 0.5)
+            numpy.testing.assert_allclose(ours, exact, rtol=1e-3)
+            self.assertGreater(exact[0] / exact[-1], 1.05)
 
     def test_driven(self):
         """Storage and loss modulus of shear and area read back from a load that swings, far from its start."""

@@ -5,7 +5,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "base/units.h"
-#include "scene/keys.h"
+#include "scene/items.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -23,9 +23,8 @@ bool study_plain_number(const Study *study, YamlNode node, double *value)
 bool study_pair(const Study *study, YamlNode node, const char *key, double pair[2],
                 char unit[STUDY_UNIT_SIZE])
 {
-    int32_t index = scene_key_index(key), count = 0, units = 0, read = 0;
-    const SceneKey *keys = scene_keys(&count);
-    bool measured = index >= 0 && keys[index].type == KEY_NUMBER;   // it has a dimension
+    const char *whole, *dimension = scene_dimension(key, &whole);
+    int32_t units = 0, read = 0;
     unit[0] = 0;
     if (yaml_kind(study->file, node) != YAML_LIST || yaml_count(study->file, node) != 2)
         return false;
@@ -34,14 +33,18 @@ bool study_pair(const Study *study, YamlNode node, const char *key, double pair[
         int32_t length = text_number(text, &pair[read]);
         if (study_plain_number(study, end, &pair[read++])) continue;
         length += (int32_t)strspn(text + length, " ");
-        if (yaml_kind(study->file, end) != YAML_SCALAR || length == 0 || !measured ||
-            !unit_to_si(text + length, keys[index].unit, &pair[read - 1]))
-            return false;
+        if (yaml_kind(study->file, end) != YAML_SCALAR || length == 0 || !dimension) return false;
+        bool known = unit_to_si(text + length, dimension, &pair[read - 1]);
+        if (!known && units == 0 && whole) {   // both ends are of the whole block then
+            dimension = whole;
+            known = unit_to_si(text + length, dimension, &pair[read - 1]);
+        }
+        if (!known) return false;
         units++;
     }
     if (units == 1) return false;   // both or none
     if (units == 2) {
-        const char *base = unit_examples(keys[index].unit);
+        const char *base = unit_examples(dimension);
         snprintf(unit, STUDY_UNIT_SIZE, " %.*s", (int)strcspn(base, ","), base);
     }
     return true;

@@ -126,6 +126,36 @@ TEST(test_ranges)
     drop(study);
 }
 
+// In the unit of the key, of what it is of the whole block, of a region, a branch or the mesh.
+TEST(ranges_with_units)
+{
+    static const struct {
+        const char *key, *ends, *first;
+    } ranges[] = {
+        {"load.force", "[1 kN, 2 kN]", "1000 N"},
+        {"rod.stiffness", "[1 MPa, 2 MPa]", "1000000 Pa"},
+        {"rod.stiffness", "[1e3 N/mm, 2e6 N/m]", "1000000 N/m"},
+        {"rod.stiffness", "[1 N/m, 2 Pa]", NULL},
+        {"mesh.set.length", "[10 mm, 20 mm]", "0.01 m"},
+        {"materials.pads.young", "[10 kPa, 20 kPa]", "10000 Pa"},
+        {"materials.pads.relaxation.0.time", "[1 ms, 2 ms]", "0.001 s"},
+        {"material.relaxation.1.shear", "[10 kPa, 20 kPa]", "10000 Pa"},
+        {"material.relaxation.1.shear", "[10 s, 20 s]", NULL},
+    };
+    for (size_t k = 0; k < sizeof ranges / sizeof *ranges; k++) {
+        double pair[2];
+        char unit[STUDY_UNIT_SIZE], shown[80];
+        Error err = {0};
+        Study study = {0};
+        assert_true(yaml_parse("ends", ranges[k].ends, 0, &study.file, &err));
+        bool read = study_pair(&study, YAML_ROOT, ranges[k].key, pair, unit);
+        if (read != (ranges[k].first != NULL)) fail_msg("%s", ranges[k].ends);
+        snprintf(shown, sizeof shown, "%.9g%s", pair[0], unit);
+        if (read) assert_string_equal(shown, ranges[k].first);
+        yaml_destroy(study.file);
+    }
+}
+
 // base scene < set < --set < cases < vary < formulas; --set replaces a formula of `set`.
 TEST(test_order)
 {
