@@ -216,7 +216,8 @@ InterfaceOperator *interface_operator_create(BulkOperator *system, OperatorTerms
     InterfaceOperator *condensed = NEW_ARRAY(InterfaceOperator, 1, err);
     if (!condensed) goto cleanup;
     condensed->system = system;
-    TRY((condensed->schur = NEW_ARRAY(double, terms.lower_only ? 0 : m *m, err)));
+    int64_t entries = terms.lower_only ? 0 : m * m;   // all are written
+    TRY((condensed->schur = memory_bytes(entries * (int64_t)sizeof(double), err)));
     if (system->bulk)
         TRY(condense_sparse(condensed, terms, err));
     else

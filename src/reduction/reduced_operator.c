@@ -108,10 +108,13 @@ CondensedBulk *condensed_bulk_create(const ReducedOperator *system, OperatorTerm
                                      double *schur, Error *err)
 {
     const ReducedBulk *reduced = system->reduced;
-    int64_t m = reduced->interface_count, size = m + reduced->mirrored;
+    int64_t m = reduced->interface_count, size = m + reduced->mirrored, widest = 0;
     double weight[SPECTRUM_SHAPES_MAX];
+    for (int p = 0; p < reduced->part_count; p++)
+        if (reduced->part[p].border_count > widest) widest = reduced->part[p].border_count;
     CondensedBulk *condensed = NEW_ARRAY(CondensedBulk, 1, err);
-    double *border = NEW_ARRAY(double, size *size, err), *part = NEW_ARRAY(double, size *size, err);
+    double *border = NEW_ARRAY(double, size *size, err);
+    double *part = memory_bytes(widest * widest * (int64_t)sizeof(double), err);
     if (!error_is_clean(err)) goto cleanup;
     condensed->system = system;
     condensed->pushed = NEW_ARRAY(double, size, err);

@@ -30,6 +30,13 @@ static void drop_level(DtLevels *dt_levels, int32_t k)
     dt_levels->level[k] = NULL;
 }
 
+void dt_levels_drop_halves(DtLevels *dt_levels)
+{
+    for (int32_t k = 0; k < DT_LEVELS_MAX; k++)
+        for (ContactPart part = 0; part < CONTACT_PARTS; part++)
+            if (part != PART_WHOLE) drop_contact(dt_levels, k, part);
+}
+
 void dt_levels_destroy(DtLevels *dt_levels)
 {
     for (int32_t k = 0; k < DT_LEVELS_MAX; k++) drop_level(dt_levels, k);
@@ -77,7 +84,8 @@ static bool build_level(DtLevels *dt_levels, int32_t k, ContactPart part, Error 
     }
     if (part != PART_WHOLE) {
         int64_t count = dt_levels->half->interface.count;
-        double *schur = dt_levels->half_schur[part][k] = NEW_ARRAY(double, count *count, err);
+        double *schur = dt_levels->half_schur[part][k] =
+            memory_bytes(count * count * (int64_t)sizeof(double), err);
         if (!schur) return false;
         if (contact_half_matrix(dt_levels->half, interface_operator_schur(level),
                                 part == PART_ANTISYMMETRIC, schur)) {

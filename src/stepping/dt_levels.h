@@ -31,6 +31,8 @@ typedef struct DtLevels {
 // Levels from step_max down to the last that is not below step_min.
 void dt_levels_init(BulkOperator *system, double step_max, double step_min, DtLevels *dt_levels);
 void dt_levels_destroy(DtLevels *dt_levels);
+// Frees the matrices of one side, where contact is solved as a whole from now on.
+void dt_levels_drop_halves(DtLevels *dt_levels);
 
 double dt_level_step(const DtLevels *dt_levels, int32_t k);
 // gamma dt: displacement over velocity.

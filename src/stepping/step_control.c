@@ -341,6 +341,7 @@ bool step_control_advance(StepControl *control, double remaining, Error *err)
         TRY(sdirk_step(&control->scheme, k, &control->now, &control->next, &outcome, err));
         if (outcome.asymmetric) {
             control->asymmetric = true;
+            dt_levels_drop_halves(dt_levels);
             continue;
         }
         Verdict verdict = judge_step(control, k, &outcome, &certified, &antisymmetric_decays);
