@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Python opens a library that was built with a sanitizer only where its runtime is in the process first."""
+import functools
 import os
 import re
 import subprocess
 import sys
 
 
+@functools.cache
 def runtime(file):
     """The path of the address or thread sanitizer that `file` was built with; "": neither."""
     plain = {name: value for name, value in os.environ.items() if name != "LD_PRELOAD"}   # ldd crashes with it

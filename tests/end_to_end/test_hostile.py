@@ -26,7 +26,7 @@ class Hostile(unittest.TestCase):
     def test_some_faults(self):
         """Calls to the file system that fail."""
         with tempfile.TemporaryDirectory() as folder:
-            ended = subprocess.run([sys.executable, FOLDER / "faults.py", "--only", "run", "--every", "110", "-j",
+            ended = subprocess.run([sys.executable, FOLDER / "faults.py", "--only", "run", "--every", "601", "-j",
                                     "1", "-o", folder],
                                    capture_output=True, text=True)
             self.assertEqual(ended.returncode, 0, ended.stdout + ended.stderr)

@@ -3,6 +3,7 @@
 import csv
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -19,6 +20,7 @@ import numpy as np
 SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents[2]))
 PROGRAM = Path(os.environ.get("AMONTONS_BIN", SOURCE / "build" / "bin")) / "amontons"
 PAPER = SOURCE / "validation" / "paper"
+FEW = 9
 sys.path[:0] = [str(PAPER), str(PAPER.parent)]
 sys.dont_write_bytecode = True
 
@@ -299,13 +301,17 @@ class Refinement(InFolder):
 
 class Studies(InFolder):
     def test_all_can_be_read(self):
-        """Every study of the paper: at all points nothing is wrong but the parameter of the mesh that is asked for here."""
+        """Every study of the paper: nothing is wrong but the parameter of the mesh that is asked for here, at all points, or at
+        FEW of a long range, its ends among them."""
         for study in sorted(PAPER.glob("*.yaml")):
-            if "\nscene:" not in study.read_text():
+            text = study.read_text()
+            if "\nscene:" not in text:
                 continue
             with self.subTest(study.name):
-                out = self.folder / study.stem
-                done = subprocess.run([PROGRAM, "sweep", study, "-q", "-o", out, "--set", "mesh.set.unheard_of=1"],
+                out, few = self.folder / study.stem, self.folder / study.name
+                text = re.sub(r"\bpoints: (\d+)", lambda found: f"points: {min(int(found[1]), FEW)}", text)
+                few.write_text(re.sub(r"(?m)^scene: ", f"scene: {PAPER}/", text))
+                done = subprocess.run([PROGRAM, "sweep", few, "-q", "-o", out, "--set", "mesh.set.unheard_of=1"],
                                       capture_output=True, text=True, timeout=500)
                 self.assertEqual(done.returncode, 1, done.stderr)
                 with open(out / "sweep.csv", newline="", encoding="utf-8") as table:

@@ -179,10 +179,10 @@ TEST(test_killed)
 
 // --- killed at any moment -----------------------------------------------------------------------
 
-// A file that is written in so many flushes of so many rows. Noise cannot be compressed: of the
-// long one there are parts of 8 MB (PART_BYTES), and the last.
+// A file of so many rows that is flushed after each `flushed` of them. Noise cannot be compressed: a
+// long file has parts, each of just over 8 MB (PART_BYTES), and a last one.
 typedef struct Course {
-    int64_t flushed, flushes;
+    int64_t flushed, rows;
     int32_t width;   // of the noise; 0: none
 } Course;
 
@@ -250,7 +250,7 @@ static void write_file(const char *path, const Course *course, int64_t kept, Err
                                                          .description = ""},
                                           err));
     if (kept >= 0) cut_all(file, course, kept, err);
-    int64_t at = kept < 0 ? 0 : kept, end = course->flushed * course->flushes;
+    int64_t at = kept < 0 ? 0 : kept, end = course->rows;
     while (at < end) {
         int64_t next = at + course->flushed < end ? at + course->flushed : end;
         append_all(file, course, at, next, err);
@@ -292,6 +292,18 @@ static int64_t flushed_rows(const char *path)
     return rows;
 }
 
+static void copy_file(const char *from, const char *to)
+{
+    static char bytes[1 << 16];
+    size_t size;
+    FILE *source = fopen(from, "rb"), *target = fopen(to, "wb");
+    assert_true(source && target);
+    while ((size = fread(bytes, 1, sizeof bytes, source)) > 0)
+        assert_int_equal(fwrite(bytes, 1, size, target), size);
+    fclose(source);
+    assert_int_equal(fclose(target), 0);
+}
+
 static bool has_parts(const char *place)
 {
     return place_has(place, "file.h5.part") || place_has(place, "file.h5.part.1");
@@ -301,16 +313,19 @@ static bool has_parts(const char *place)
 // continued (kept), that many rows are there at every moment.
 static void kill_everywhere(const Course *course, int64_t kept)
 {
-    char place[PLACE_SIZE], path[2 * PLACE_SIZE];
-    const int64_t end = course->flushed * course->flushes;
+    char stock[PLACE_SIZE], whole[2 * PLACE_SIZE], place[PLACE_SIZE], path[2 * PLACE_SIZE];
+    const int64_t end = course->rows;
     int32_t kills = 0, readable = 0;
     Error err = {0};
     bool killed = true;
     fill_values();
+    place_make(stock);
+    snprintf(whole, sizeof whole, "%s", place_path(stock, "file.h5"));
+    if (kept >= 0) write_file(whole, course, -1, &err);
     for (int64_t calls = 0; killed; calls++) {
         place_make(place);
         snprintf(path, sizeof path, "%s", place_path(place, "file.h5"));
-        if (kept >= 0) write_file(path, course, -1, &err);
+        if (kept >= 0) copy_file(whole, path);
         killed = is_killed(path, course, kept, calls);
         int64_t rows = flushed_rows(path);
         kills += killed;
@@ -327,33 +342,35 @@ static void kill_everywhere(const Course *course, int64_t kept)
         if (rows >= 0) assert_false(has_parts(place));
         place_remove(place);
     }
+    place_remove(stock);
     print_message("%d kills, %d left a file\n", (int)kills, (int)readable);
     assert_true(kills >= 4 && readable >= kills / 2);
 }
 
 TEST(test_killed_at_every_call)
 {
-    kill_everywhere(&(Course){.flushed = 1100, .flushes = 3}, -1);
-    kill_everywhere(&(Course){.flushed = 1100, .flushes = 3}, 1100);
+    kill_everywhere(&(Course){.flushed = 1100, .rows = 3300}, -1);
+    kill_everywhere(&(Course){.flushed = 1100, .rows = 3300}, 1100);
 }
 
-// 12 MB: a part, and what comes after it.
+// A part, and what comes after it.
 TEST(test_long_file_killed)
 {
-    kill_everywhere(&(Course){.flushed = 1000, .flushes = 3, .width = 512}, -1);
+    kill_everywhere(&(Course){.flushed = 1250, .rows = 2800, .width = 512}, -1);
 }
 
 // Cut within an earlier part, and a finished one that is longer than a part.
 TEST(test_long_file_cut)
 {
-    kill_everywhere(&(Course){.flushed = 1000, .flushes = 3, .width = 512}, 1500);
+    kill_everywhere(&(Course){.flushed = 1250, .rows = 2800, .width = 512}, 1500);
 }
 
 TEST(test_long_file_while_it_is_written)
 {
     Error err = {0};
-    const Course course = {.flushed = 1500, .flushes = 4, .width = 512};
-    const int64_t cuts[] = {5999, 3100, 3000, 100, 0};
+    enum { FLUSHED = 1250, COUNT = 4 * FLUSHED };   // two flushes are a part
+    const Course course = {.flushed = FLUSHED, .rows = COUNT, .width = 512};
+    const int64_t cuts[] = {COUNT - 1, 2 * FLUSHED + 100, 2 * FLUSHED, 100, 0};
     char place[PLACE_SIZE], path[2 * PLACE_SIZE];
     double *read = NULL;
     int64_t rows = 0;
@@ -369,23 +386,23 @@ TEST(test_long_file_while_it_is_written)
         .name = "noise", .type = ARRAY_FLOAT64, .width = 512, .unit = "length", .description = "n"};
     assert_true(array_file_add_series(file, &noise, &err));
     for (size_t k = 0; k < sizeof cuts / sizeof cuts[0]; k++) {
-        for (int64_t at = k == 0 ? 0 : cuts[k - 1]; at < 6000;) {
-            int64_t next = at / 1500 * 1500 + 1500;
+        for (int64_t at = k == 0 ? 0 : cuts[k - 1]; at < COUNT;) {
+            int64_t next = at / FLUSHED * FLUSHED + FLUSHED;
             append_all(file, &course, at, next, &err);
             assert_true(array_file_flush(file, &err));
             at = next;
         }
         assert_true(place_has(place, "file.h5.part.2"));
-        expect_all(path, &course, 6000);   // as another process reads it
+        expect_all(path, &course, COUNT);   // as another process reads it
         cut_all(file, &course, cuts[k], &err);
         assert_true(array_file_read(file, "noise", &read, &rows, &width, &err));
         assert_int_equal(rows, cuts[k]);
         for (int64_t c = 0; c < rows; c++) assert_true(read[c * width] == noise_at(c, 0));
         memory_free(read);
     }
-    append_all(file, &course, 0, 6000, &err);
+    append_all(file, &course, 0, COUNT, &err);
     assert_true(array_file_close(file, &err));
-    expect_all(path, &course, 6000);
+    expect_all(path, &course, COUNT);
     assert_false(has_parts(place) || place_has(place, "file.h5.part.2"));
     double number = 0;
     char text[20];
@@ -402,7 +419,7 @@ TEST(test_long_file_while_it_is_written)
 TEST(test_a_part_is_missing)
 {
     Error err = {0};
-    const Course course = {.flushed = 1500, .flushes = 2, .width = 512};
+    const Course course = {.flushed = 1250, .rows = 2500, .width = 512};
     char place[PLACE_SIZE], path[2 * PLACE_SIZE], part[2 * PLACE_SIZE];
     double *read = NULL;
     int64_t rows = 0;
@@ -417,8 +434,8 @@ TEST(test_a_part_is_missing)
         const ArraySeries noise = {
             .name = "noise", .type = ARRAY_FLOAT64, .width = 512, .unit = "1", .description = ""};
         assert_true(array_file_add_series(file, &noise, &err));
-        for (int64_t at = 0; at < 3000; at += 1500) {
-            append_all(file, &course, at, at + 1500, &err);
+        for (int64_t at = 0; at < course.rows; at += course.flushed) {
+            append_all(file, &course, at, at + course.flushed, &err);
             assert_true(array_file_flush(file, &err));
         }
         array_file_abandon(file);
