@@ -55,11 +55,13 @@ static bool find_extent(ResultView *view, Extent *extent, Error *err)
 static void key_of(Page *page, const ResultView *view, const Extent *extent,
                    const Measured *measured)
 {
-    KeyEntry entries[ENTRIES] = {{KEY_LINE, FIGURE_CURVE, "farthest slip so far"}};
+    KeyEntry entries[ENTRIES];
     CycleWords words;
-    int32_t count = 1, first = 0, last = 0;
+    int32_t count = 0, first = 0, last = 0;
     Zoom zoom = zoom_choose(view);
     zoom_cycles(view, &first, &last);
+    entries[count++] =
+        (KeyEntry){KEY_LINE, last > first ? INK : FIGURE_CURVE, "farthest slip so far"};
     if (extent->precursors > 0)
         entries[count++] = (KeyEntry){KEY_DISC, INK, "length of a rapid precursor"};
     if (extent->slidings > 0)
