@@ -157,7 +157,8 @@ TEST(test_pushed_aside)
                         half.control.now.dof_count, 1e-11);
     }
     assert_true(half.control.asymmetric);
-    for (int32_t k = 0; k < half.control.dt_levels.level_count; k++)   // those of one side are freed
+    for (int32_t k = 0; k < half.control.dt_levels.level_count;
+         k++)   // those of one side are freed
         assert_null(half.control.dt_levels.contact[PART_SYMMETRIC][k].schur);
     pushed_destroy(&half);
     pushed_destroy(&whole);
