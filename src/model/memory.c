@@ -15,11 +15,13 @@
 // 480 cells, 1.9e9 at 320 x 320 and at 800 contact nodes on 60 rows.
 static const double BYTES_FACTORS = 9000, BYTES_PRODUCTS = 36;
 
+// Bytes of a run in space on a few cells: the program and its libraries.
+static const double SPACE_LEAST = 6e7;
 // Numbers in space that are kept at once: matrices of m x m (one for each step size, their copies,
-// factors, certificate; fewer where contact is its own mirror image and solved on one side),
-// entries of a factor, and in a reduction columns of responses over those of a part's border.
-static const double SPACE_SQUARES = 30, SPACE_SQUARES_ONE_SIDE = 23, SPACE_ENTRIES = 39,
-                    SPACE_COLUMNS = 12;
+// factors, certificate), entries of a factor, and in a reduction columns of responses over those of
+// a part's border. Contact that is its own mirror image takes fewer matrices while it is solved on
+// one side and more when it is not any more, which nobody knows before.
+static const double SPACE_SQUARES = 30, SPACE_ENTRIES = 39, SPACE_COLUMNS = 12;
 static const double SPACE_TOGETHER = 1.2;   // two parts side by side over one: 0.9 to 1.16
 static const double SPACE_FACTORS = 11;   // step sizes of a run with a sliding, each with a factor
 
@@ -40,9 +42,10 @@ double memory_expected(const MemorySizes *sizes, bool reduced)
         return reduced ? BYTES_FACTORS * of_part +
                              BYTES_PRODUCTS * border * far_patches_left(of_part, border)
                        : 0;
-    double squares = (parts > 1 ? SPACE_SQUARES_ONE_SIDE : SPACE_SQUARES) * m * m;
+    double squares = SPACE_SQUARES * m * m;
     double factor = SPACE_ENTRIES * pow(n, 4.0 / 3);
     double responses = SPACE_ENTRIES * pow(of_part, 4.0 / 3) + SPACE_COLUMNS * of_part * border;
     if (parts > 1) responses *= SPACE_TOGETHER;
-    return sizeof(double) * (reduced ? fmax(squares, responses) : squares + SPACE_FACTORS * factor);
+    double numbers = reduced ? fmax(squares, responses) : squares + SPACE_FACTORS * factor;
+    return SPACE_LEAST + sizeof(double) * numbers;
 }

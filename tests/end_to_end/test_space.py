@@ -4,6 +4,7 @@ section, force by force; one that is thin and free as the plane-stress block, to
 steps find the peaks of explicit ones, on the reduced block as on the whole mesh; each kind of element runs and balances; a rod over part of the breadth turns nothing
 that is symmetric; what does not go in space yet is refused in a sentence."""
 import json
+import math
 import os
 import re
 import subprocess
@@ -162,6 +163,20 @@ class Space(OwnCache):
         done = subprocess.run([*words, "mesh.set.nx=400", "mesh.set.ny=400", "mesh.set.nz=1"], capture_output=True, text=True, env=self.environment)
         self.assertEqual(done.returncode, 2)
         self.assertIn("contact nodes are too many for this computer: a run takes some", done.stderr)
+
+    def test_memory(self):
+        """What is told before is what a run takes, within a factor of 2, also on few cells."""
+        path = self.folder / "scene.yaml"
+        path.write_text(SCENE)
+        words = [PROGRAM, "run", path, "--set", "mesh.set.nx=8", "mesh.set.ny=8", "mesh.set.nz=8", "time.until.U=0.001", "output.figures=[]",
+                 "output.history=false", "output.fields=none", "reduction.use=always"]
+        said = subprocess.run([*words, "--dry-run"], capture_output=True, text=True, env=self.environment, check=True).stdout
+        told = 1e9 * float(re.search(r"about ([0-9.e+-]+) GB of memory", said)[1])
+        with subprocess.Popen([*words, "-q", "-o", self.folder / "result"], env=self.environment) as process:
+            _, status, used = os.wait4(process.pid, 0)
+            process.returncode = status
+        self.assertEqual(status, 0)
+        self.assertLess(abs(math.log2(told / (1024 * used.ru_maxrss))), 1)
 
     def test_elements(self):
         """The first peak is of slip that spreads from the rod's side: meshes as coarse as these agree in it to a few per cent."""
