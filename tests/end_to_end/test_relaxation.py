@@ -313,6 +313,11 @@ class Relaxation(OwnCache):
                                ("material.relaxation.1.shear=0", "not both 0")):
             self.assertIn(words, self.call(BLOCK, "run", setting, status=2, flags=("--dry-run",)))
 
+    def test_cases_are_those_laid_down(self):
+        folder = SOURCE / "validation/rubber"
+        listed = subprocess.run([folder / "cases.py", "--list"], capture_output=True, text=True, check=True).stdout
+        self.assertEqual(listed.splitlines()[-1], (folder / "cases.sha256").read_text().strip())
+
     def test_refused(self):
         for setting, words in (
                 ("material.relaxation=[{shear: 1}]", "a branch needs its `time`"),
