@@ -49,7 +49,7 @@ static inline bool error_is_clean(const Error *err)
 #define FAULT(err, code, ...) (error_set((err), (code), __FILE__, __LINE__, __VA_ARGS__), false)
 #define REFUSE(err, ...) FAULT((err), ERROR_INPUT, __VA_ARGS__)
 
-// For functions that take `const char **key`, which gets the key of the scene that an error is about
+// For functions that take `const char **key`, which gets the key of the scene that an error is of
 // and stays as it is without an error. REFUSE_AT sets both; ERROR_AT gives the error of a call that
 // knows nothing of keys its key. Both return false, ERROR_AT true where the call does.
 #define REFUSE_AT(err, key, name, ...) (*(key) = (name), REFUSE((err), __VA_ARGS__))
