@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A folder of a test's own, made empty and removed with all that is in it. It lies in memory where
-// it can, since what is tested calls fsync for each file, which a disk takes its time for.
+// there is room, since what is tested calls fsync for each file, which a disk takes its time for.
 #ifndef AMONTONS_TESTS_RESULT_PLACE_H
 #define AMONTONS_TESTS_RESULT_PLACE_H
 
@@ -8,15 +8,24 @@
 
 #include <ftw.h>
 #include <sys/stat.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
 enum { PLACE_SIZE = 256 };
 
+static inline const char *place_root(void)
+{
+    static const uint64_t ROOM = 1 << 30;   // bytes that must be free in memory
+    struct statvfs found;
+    if (getenv("TMPDIR")) return getenv("TMPDIR");
+    bool in_memory = access("/dev/shm", W_OK) == 0 && statvfs("/dev/shm", &found) == 0 &&
+                     (uint64_t)found.f_bavail * found.f_frsize > ROOM;
+    return in_memory ? "/dev/shm" : "/tmp";
+}
+
 static inline void place_make(char place[PLACE_SIZE])
 {
-    const char *root = getenv("TMPDIR");
-    const char *usual = access("/dev/shm", W_OK) == 0 ? "/dev/shm" : "/tmp";
-    snprintf(place, PLACE_SIZE, "%s/amontons-XXXXXX", root ? root : usual);
+    snprintf(place, PLACE_SIZE, "%s/amontons-XXXXXX", place_root());
     assert_non_null(mkdtemp(place));
 }
 
