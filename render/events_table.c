@@ -14,36 +14,38 @@
 // Steps that follow an event at least, for what is read off its course to be more than one step's.
 enum { STEPS_ENOUGH = 8, NAME_SIZE = 48 };
 
-// In the plane; in space the whole contact is not on the line that is shown.
+// Of the whole contact, not of the line that figures of a block in space show.
 typedef struct Friction {
-    double *shear, *pressure;   // [rows * nodes] stress
-    double *weight;   // [nodes] length
+    int32_t nodes, components;   // components: of slip and shear, in space 2
+    double *shear, *slip;   // [rows * nodes * components] stress, length
+    double *pressure;   // [rows * nodes] stress
+    double *weight;   // [nodes] length, in space area
+    const double *x;   // [nodes] length
 } Friction;
 
-static double friction_work(const ResultView *view, const Friction *friction, int64_t first,
-                            int64_t last)
+static double friction_work(const Friction *friction, int64_t first, int64_t last)
 {
+    int32_t width = friction->nodes * friction->components;
     double work = 0;
-    if (!friction->shear) return NAN;
     for (int64_t row = first; row < last; ++row)
-        for (int32_t i = 0; i < view->nodes; ++i) {
-            int64_t from = row * view->nodes + i, to = from + view->nodes;
-            work += friction->weight[i] * (friction->shear[from] + friction->shear[to]) / 2 *
-                    (view->slip[to] - view->slip[from]);
+        for (int32_t k = 0; k < width; ++k) {
+            int64_t from = row * width + k, to = from + width;
+            work += friction->weight[k / friction->components] *
+                    (friction->shear[from] + friction->shear[to]) / 2 *
+                    (friction->slip[to] - friction->slip[from]);
         }
     return work;
 }
 
 // Moment of the contact's pressure about the middle of the block, positive where it presses more in
-// front; force times length per width.
+// front; force times length, in the plane per width.
 static double torque(const ResultView *view, const Friction *friction, int64_t row)
 {
     double sum = 0;
     double middle = result_view_trailing_end(view) + view->number[NUMBER_LENGTH] / 2;
-    if (!friction->pressure) return NAN;
-    for (int32_t i = 0; i < view->nodes; ++i)
-        sum += friction->weight[i] * friction->pressure[row * view->nodes + i] *
-               (view->x[i] - middle);
+    for (int32_t i = 0; i < friction->nodes; ++i)
+        sum += friction->weight[i] * friction->pressure[row * friction->nodes + i] *
+               (friction->x[i] - middle);
     return sum;
 }
 
@@ -57,16 +59,30 @@ static double longest_front(const ResultView *view, int64_t first, int64_t last)
     return longest;
 }
 
+static bool read_vectors(const ResultView *view, const Friction *friction, ResultSeries series,
+                         double **values, Error *err)
+{
+    int64_t rows = 0;
+    int32_t width = 0;
+    if (!result_file_read_series(view->file, series, values, &rows, &width, err)) return false;
+    return (rows >= view->rows && width == friction->nodes * friction->components) ||
+           FAULT(err, ERROR_FILE, "%s is not of %lld steps and %d contact nodes",
+                 result_series_name(series), (long long)view->rows, friction->nodes);
+}
+
 static bool read_friction(ResultView *view, Friction *friction, Error *err)
 {
     int32_t count = 0;
-    if (view->line) return true;
-    return result_view_read_slip(view, err) &&
-           result_view_read(view, SERIES_SHEAR, false, &friction->shear, err) &&
-           result_view_read(view, SERIES_PRESSURE, false, &friction->pressure, err) &&
+    if (view->line && !result_view_read_plane(view, err)) return false;
+    friction->nodes = view->all_nodes;
+    friction->x = view->line ? view->plane.x : view->x;
+    friction->components = view->line ? 2 : 1;
+    return read_vectors(view, friction, SERIES_SLIP, &friction->slip, err) &&
+           read_vectors(view, friction, SERIES_SHEAR, &friction->shear, err) &&
+           result_view_read(view, SERIES_PRESSURE, true, &friction->pressure, err) &&
            result_file_read_nodes(view->file, NODES_WEIGHT, &friction->weight, &count, err) &&
-           (count == view->nodes ||
-            FAULT(err, ERROR_FILE, "%d weights of %d contact nodes", count, view->nodes));
+           (count == friction->nodes ||
+            FAULT(err, ERROR_FILE, "%d weights of %d contact nodes", count, friction->nodes));
 }
 
 static void name_column(CsvWriter *csv, const char *name, const char *unit)
@@ -133,7 +149,7 @@ bool events_table_write(const char *path, ResultView *view, Error *err)
         csv_rounded(csv, longest_front(view, first, last));
         csv_rounded(csv, k < peaks ? peak[k] : NAN);
         csv_rounded(csv, view->t[last] - view->t[first]);
-        csv_rounded(csv, times * friction_work(view, &friction, first, last));
+        csv_rounded(csv, times * friction_work(&friction, first, last));
         csv_rounded(csv, times * torque(view, &friction, first));
         csv_rounded(csv, times * torque(view, &friction, last));
         csv_number(csv, (double)(last - first));
@@ -143,6 +159,6 @@ bool events_table_write(const char *path, ResultView *view, Error *err)
     }
     TRY(csv_finish(csv, err));
 cleanup:
-    memory_free_all(friction.shear, friction.pressure, friction.weight, peak);
+    memory_free_all(friction.shear, friction.pressure, friction.slip, friction.weight, peak);
     return error_is_clean(err);
 }

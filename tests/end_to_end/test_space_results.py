@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A block in space: what run.json and the recorders say, worked out again from the history, node by node."""
+import csv
 import json
 import os
 import subprocess
@@ -27,6 +28,9 @@ class Space(unittest.TestCase):
                                   capture_output=True, text=True)
             if done.returncode:
                 raise AssertionError(done.stderr)
+            subprocess.run([PROGRAM, "render", "run", "--figure", "force"], check=True, capture_output=True, cwd=folder)
+            with open(Path(folder, "run/figures/events.csv"), newline="") as file:
+                cls.events = list(csv.DictReader(file))
             cls.results = json.loads(Path(folder, "run", "run.json").read_text())["results"]
             with h5py.File(Path(folder, "run", "history.h5")) as history:
                 cls.attributes = dict(history.attrs)
@@ -63,6 +67,20 @@ class Space(unittest.TestCase):
             done = call("render", "run", "--figure", "contact-plane")
             self.assertEqual(done.returncode, 2)
             self.assertIn("no rapid slip has been seen from start to end: say when, as --at U=", done.stderr)
+
+    def test_work_and_torque_of_events(self):
+        """Of the whole contact: by tau and slip along both axes, and by pressure and place."""
+        weight, x, U = (self.arrays[name].astype(float) for name in ("nodes/weight", "nodes/x", "series/rod_displacement"))
+        slip, shear, pressure = (self.arrays[f"interface/{name}"].astype(float) for name in ("slip", "shear", "pressure"))
+        counted = [event for event in self.rapid if event["kind"] in ("bounded rapid", "leading rapid")]
+        self.assertTrue(counted and len(counted) == len(self.events))
+        for row, event in zip(self.events, counted):
+            first, last = numpy.searchsorted(U, event["U_start"]) - 1, numpy.searchsorted(U, event["U_stop"], "right") - 1
+            part = slice(first, last + 1)
+            work = numpy.einsum("j,ijk,ijk", weight, (shear[part][1:] + shear[part][:-1]) / 2, numpy.diff(slip[part], axis=0))
+            numpy.testing.assert_allclose(float(row["work of friction"]), work, rtol=1e-6)
+            for name, step in ("before", first), ("after", last):
+                numpy.testing.assert_allclose(float(row[f"torque {name}"]), pressure[step] @ (weight * (x - 0.25)), rtol=1e-6)
 
     def test_sums(self):
         """Pressure and shear are forces over weights; the rod's force is the shear of a block at rest."""
