@@ -300,8 +300,8 @@ static void print_answers(const RunSummary *summary)
         "contact)\n",
         summary->quasi_static, summary->bounded);
     if (summary->slight > 0)
-        say("%sbesides %d rapid event%s too slight to count: slow slip that rings, or single "
-            "nodes\n",
+        say("%sbesides %d rapid event%s not counted: slip that rings, single nodes, or slip that "
+            "never came to a trailing end\n",
             INDENT, summary->slight, summary->slight == 1 ? "" : "s");
     say("  slidings        %d of the whole block\n", summary->leading);
     if (*summary->pads_order_first)
