@@ -172,7 +172,7 @@ class Space(OwnCache):
                  "output.history=false", "output.fields=none", "reduction.use=always"]
         said = subprocess.run([*words, "--dry-run"], capture_output=True, text=True, env=self.environment, check=True).stdout
         told = 1e9 * float(re.search(r"about ([0-9.e+-]+) GB of memory", said)[1])
-        with subprocess.Popen([*words, "-q", "-o", self.folder / "result"], env=self.environment) as process:
+        with subprocess.Popen([*words, "-q", "-o", self.folder / "memory"], env=self.environment) as process:
             _, status, used = os.wait4(process.pid, 0)
             process.returncode = status
         self.assertEqual(status, 0)
