@@ -19,8 +19,7 @@ typedef struct Friction {
     int32_t nodes, components;   // components: of slip and shear, in space 2
     double *shear, *slip;   // [rows * nodes * components] stress, length
     double *pressure;   // [rows * nodes] stress
-    double *weight;   // [nodes] length, in space area
-    const double *x;   // [nodes] length
+    double *weight, *x;   // [nodes] length, in space area; length
 } Friction;
 
 static double friction_work(const Friction *friction, int64_t first, int64_t last)
@@ -70,19 +69,23 @@ static bool read_vectors(const ResultView *view, const Friction *friction, Resul
                  result_series_name(series), (long long)view->rows, friction->nodes);
 }
 
-static bool read_friction(ResultView *view, Friction *friction, Error *err)
+static bool read_nodes(const ResultView *view, ResultNodes nodes, double **values, Error *err)
 {
     int32_t count = 0;
-    if (view->line && !result_view_read_plane(view, err)) return false;
+    return result_file_read_nodes(view->file, nodes, values, &count, err) &&
+           (count == view->all_nodes ||
+            FAULT(err, ERROR_FILE, "%d values at %d contact nodes", count, view->all_nodes));
+}
+
+static bool read_friction(ResultView *view, Friction *friction, Error *err)
+{
     friction->nodes = view->all_nodes;
-    friction->x = view->line ? view->plane.x : view->x;
     friction->components = view->line ? 2 : 1;
     return read_vectors(view, friction, SERIES_SLIP, &friction->slip, err) &&
            read_vectors(view, friction, SERIES_SHEAR, &friction->shear, err) &&
            result_view_read(view, SERIES_PRESSURE, true, &friction->pressure, err) &&
-           result_file_read_nodes(view->file, NODES_WEIGHT, &friction->weight, &count, err) &&
-           (count == friction->nodes ||
-            FAULT(err, ERROR_FILE, "%d weights of %d contact nodes", count, friction->nodes));
+           read_nodes(view, NODES_WEIGHT, &friction->weight, err) &&
+           read_nodes(view, NODES_X, &friction->x, err);
 }
 
 static void name_column(CsvWriter *csv, const char *name, const char *unit)
@@ -159,6 +162,7 @@ bool events_table_write(const char *path, ResultView *view, Error *err)
     }
     TRY(csv_finish(csv, err));
 cleanup:
-    memory_free_all(friction.shear, friction.pressure, friction.slip, friction.weight, peak);
+    memory_free_all(friction.shear, friction.pressure, friction.slip, friction.weight, friction.x,
+                    peak);
     return error_is_clean(err);
 }

@@ -237,6 +237,25 @@ static bool has_data(const Simulation *simulation, const char *figure)
     return simulation->history.end.rows > 1 && (!fields || simulation->fields.written > 0);
 }
 
+// One after the other. What this result has nothing for is a warning: what was computed is there.
+static bool draw_each(Simulation *simulation, const PictureRequest *all, Error *err)
+{
+    simulation->figures = 0;
+    for (int32_t k = 0; k < all->figure_count; k++) {
+        PictureRequest one = *all;
+        one.figures = &all->figures[k];
+        one.figure_count = 1;
+        if (pictures_draw(simulation->folder.path, &one, err)) {
+            simulation->figures++;
+            continue;
+        }
+        if (err->code != ERROR_INPUT) return false;
+        warnings_add(&simulation->warnings, "a picture is not drawn: %.300s", err->message);
+        *err = (Error){0};
+    }
+    return true;
+}
+
 // By the module `render`, loaded here and only here.
 bool output_draw_figures(Simulation *simulation, Error *err)
 {
@@ -251,8 +270,12 @@ bool output_draw_figures(Simulation *simulation, Error *err)
     if (compare[0]) request.style.compare = compare;
     if (simulation->scene.output.cycle[0]) request.style.cycle = simulation->scene.output.cycle;
     double started = clock_seconds();
-    if (!pictures_draw(simulation->folder.path, &request, err)) return false;
     simulation->figures = count;
+    if (!pictures_draw(simulation->folder.path, &request, err)) {
+        if (err->code != ERROR_INPUT) return false;
+        *err = (Error){0};
+        if (!draw_each(simulation, &request, err)) return false;
+    }
     simulation->figures_seconds = clock_seconds() - started;
     return true;
 }

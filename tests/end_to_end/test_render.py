@@ -871,6 +871,19 @@ class Fields(unittest.TestCase):
         self.assertEqual(done.returncode, 2)
         self.assertIn("output.fields", done.stderr)
 
+    def test_a_picture_that_cannot_be_drawn(self):
+        """It is a warning of the run, whose answers and other pictures are there."""
+        result = self.folder + "/some"
+        done = self.call("run", os.path.join(self.folder, "scene.yaml"), "-o", result, "--set", "time.until.U=1e-3",
+                         "output.figures=[force, state-map, slip-map]", "output.fields=none")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("a picture is not drawn: figure state-map: the friction of this result remembers nothing", done.stderr)
+        with open(os.path.join(result, "run.json")) as file:
+            report = json.load(file)
+        self.assertEqual((report["status"], [words for words in report["warnings"] if "state-map" in words]),
+                         ("done", ["a picture is not drawn: figure state-map: the friction of this result remembers nothing: there is no state"]))
+        self.assertEqual(sorted(name for name in os.listdir(result + "/figures") if name.endswith(".png")), ["force.png", "slip-map.png"])
+
     def test_damaged_file(self):
         """A .vtu that is cut off or has another grid's numbers is named."""
         copy = self.folder + "/copy"
