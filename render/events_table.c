@@ -58,15 +58,17 @@ static double longest_front(const ResultView *view, int64_t first, int64_t last)
     return longest;
 }
 
-static bool read_vectors(const ResultView *view, const Friction *friction, ResultSeries series,
-                         double **values, Error *err)
+static bool read_vectors(ResultView *view, Friction *friction, ResultSeries series, double **values,
+                         Error *err)
 {
     int64_t rows = 0;
     int32_t width = 0;
     if (!result_file_read_series(view->file, series, values, &rows, &width, err)) return false;
-    return (rows >= view->rows && width == friction->nodes * friction->components) ||
-           FAULT(err, ERROR_FILE, "%s is not of %lld steps and %d contact nodes",
-                 result_series_name(series), (long long)view->rows, friction->nodes);
+    if (rows < view->rows) view->rows = rows;
+    if (friction->components == 0) friction->components = width == friction->nodes ? 1 : 2;
+    return width == friction->nodes * friction->components ||
+           FAULT(err, ERROR_FILE, "%s has %d columns, but there are %d contact nodes",
+                 result_series_name(series), width, friction->nodes);
 }
 
 static bool read_nodes(const ResultView *view, ResultNodes nodes, double **values, Error *err)
@@ -80,7 +82,6 @@ static bool read_nodes(const ResultView *view, ResultNodes nodes, double **value
 static bool read_friction(ResultView *view, Friction *friction, Error *err)
 {
     friction->nodes = view->all_nodes;
-    friction->components = view->line ? 2 : 1;
     return read_vectors(view, friction, SERIES_SLIP, &friction->slip, err) &&
            read_vectors(view, friction, SERIES_SHEAR, &friction->shear, err) &&
            result_view_read(view, SERIES_PRESSURE, true, &friction->pressure, err) &&
