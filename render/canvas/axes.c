@@ -133,7 +133,9 @@ static double left_width(const Page *page, const Axes *axes)
 double axes_left_margin(const Page *page, const Axes *axes)
 {
     double numbers = left_width(page, axes) / page->point;
-    double name = axes->y.label[0] ? LABEL_GAP + LABEL_SIZE + EDGE_GAP : 0;
+    double name = axes->y.label[0] ? LABEL_GAP + LABEL_SIZE + EDGE_GAP
+                  : axes->y.names  ? EDGE_GAP
+                                   : 0;
     return TICK_LENGTH + NUMBER_GAP + numbers + name;
 }
 

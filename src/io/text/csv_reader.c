@@ -659,6 +659,22 @@ static bool is_nameless_error(const CsvTable *table, int32_t column, CsvUnit *un
     return false;
 }
 
+// Of a quotient, l/L, the error of what stands above, l_error, without a unit: over the same. False
+// where the table has a column of that name by itself.
+static bool find_error_above(const CsvTable *table, const char *quotient, int32_t of,
+                             int32_t *column, CsvUnit *unit)
+{
+    char above[CSV_UNIT_SIZE + 1];
+    snprintf(above, sizeof above, "%.*s", (int)strcspn(quotient, "/"), quotient);
+    if (!strchr(quotient, '/')) return false;
+    for (int32_t k = 0; k < table->columns; k++)
+        if (is_called(table, k, above, unit)) return false;
+    for (*column = 0; *column < table->columns; ++*column)
+        if (*column != of && is_named_error(table, *column, above, unit) && unit->length == 0)
+            return true;
+    return false;
+}
+
 void csv_find_error(const CsvTable *table, int32_t of, int32_t *column, CsvUnit *unit)
 {
     char name[CSV_UNIT_SIZE + 1];
@@ -671,6 +687,7 @@ void csv_find_error(const CsvTable *table, int32_t of, int32_t *column, CsvUnit 
     for (*column = 0; *column < table->columns; ++*column)
         if (*column != of && length < CSV_UNIT_SIZE && is_named_error(table, *column, name, unit))
             return;
+    if (find_error_above(table, name, of, column, unit)) return;
     *column = of + 1;
     if (*column < table->columns && is_nameless_error(table, *column, unit)) return;
     *column = -1;

@@ -71,8 +71,8 @@ bool csv_take_unit(const char *rest, CsvUnit *unit);
 // The name of a column without its unit, and the unit; length 0: it has none.
 void csv_split(const CsvTable *table, int32_t column, int32_t *name_length, CsvUnit *unit);
 // *column: the one that holds the errors of column `of`, with its own unit: NAME_error, NAME error,
-// err, std, sd in the place of error, sigma_NAME; else one to its right that is called error, err,
-// std, sd or +- alone; -1: there is none.
+// err, std, sd in the place of error, sigma_NAME; l_error beside l/L; else one to its right that is
+// called error, err, std, sd or +- alone; -1: there is none.
 void csv_find_error(const CsvTable *table, int32_t of, int32_t *column, CsvUnit *unit);
 // Finds the factor that converts numbers of the column to SI base units. dimension NULL: any.
 // ERROR_INPUT: the unit is not of this dimension.

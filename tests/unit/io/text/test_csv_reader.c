@@ -243,6 +243,9 @@ TEST(columns_of_errors)
                  {"error;x;mu", 2, -1, ""},
                  {"mu_mean;x;mu_std", 0, 2, ""},
                  {"Friction coefficient;friction coefficient error;x", 0, 1, ""},
+                 {"x;l/L;l_error", 1, 2, ""},
+                 {"x;l/L;l_error (mm)", 1, -1, ""},
+                 {"l;l/L;l_error", 1, -1, ""},
                  {"mu;stdev;x", 0, -1, ""}};
     for (size_t k = 0; k < sizeof heads / sizeof *heads; ++k) {
         char text[80];
