@@ -203,7 +203,10 @@ bool formula_append(const char *text, const FormulaNames *names, Formula *formul
 {
     Reading reading = {.at = text, .names = names, .formula = formula, .err = err};
     read_sum(&reading);
-    if (error_is_clean(err) && next_of(&reading)) refuse(&reading, "an operator");
+    if (error_is_clean(err) && next_of(&reading))
+        refuse(&reading, isalpha((unsigned char)next_of(&reading))
+                             ? "an operator (numbers in a formula have no unit: SI base units)"
+                             : "an operator");
     return error_is_clean(err);
 }
 

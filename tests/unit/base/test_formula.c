@@ -67,6 +67,7 @@ TEST(test_refusals)
                  {"points(1, 2, 3)", "`)`: expected x and two points"},
                  {"points(1, 0, 1, -1, 1)", "not finite"},
                  {"min(1)", "`)`: expected a comma"},
+                 {"2 * 1 ms", "`ms`: expected an operator (numbers in a formula have no unit"},
                  {"3 $ 4", "`$ 4`: expected an operator"},
                  {"0x10", "`0x10`: expected a decimal number"},
                  {"2 * 0X1p3", "`0X1p3`: expected a decimal number"}};
