@@ -37,7 +37,7 @@ static rlim_t bytes_allowed(void)
 }
 
 // A limit that the user has set lower stays.
-static void limit(int resource, rlim_t most)
+static void limit(SystemLimit resource, rlim_t most)
 {
     struct rlimit now;
     if (getrlimit(resource, &now) != 0 || now.rlim_cur <= most) return;

@@ -15,6 +15,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <sys/resource.h>
 #include <sys/types.h>
 
 // --- processes -----------------------------------------------------------------------------------
@@ -32,6 +33,15 @@ int32_t system_processors(void);   // that this process may use
 bool system_program_path(char *path, size_t size);
 // The path of the shared object that `address` lies in; false: it is in the program itself.
 bool system_object_path(const void *address, char *path, size_t size);
+
+// --- limits --------------------------------------------------------------------------------------
+
+// What getrlimit takes, an enumeration in glibc.
+#ifdef __GLIBC__
+typedef __rlimit_resource_t SystemLimit;
+#else
+typedef int SystemLimit;
+#endif
 
 // --- memory --------------------------------------------------------------------------------------
 

@@ -42,10 +42,9 @@ static void occupy_standard_streams(void)
 
 // With less room than the libraries take (ulimit -v) OpenBLAS would end the program with its own
 // words.
-static bool meets_limit(int resource, rlim_t least, const char *what)
+static bool meets_limit(int asked, struct rlimit limit, rlim_t least, const char *what)
 {
-    struct rlimit limit;
-    if (getrlimit(resource, &limit) != 0 || limit.rlim_cur >= least) return true;
+    if (asked != 0 || limit.rlim_cur >= least) return true;
     fprintf(stderr, "amontons: error: only %lu kB of %s); to start takes %lu kB\n",
             (unsigned long)limit.rlim_cur >> 10, what, (unsigned long)least >> 10);
     return false;
@@ -156,8 +155,10 @@ int main(int argc, char **argv)
     occupy_standard_streams();
     signal(SIGXFSZ, SIG_IGN);   // a file that reaches its limit (ulimit -f) is an error with words
     signal(SIGCHLD, SIG_DFL);   // base/process; who starts this may ignore it
-    if (!meets_limit(RLIMIT_AS, ROOM_LEAST, "memory are allowed (ulimit -v") ||
-        !meets_limit(RLIMIT_STACK, STACK_LEAST, "stack are allowed (ulimit -s") ||
+    struct rlimit room = {0}, stack = {0};
+    int asked_room = getrlimit(RLIMIT_AS, &room), asked_stack = getrlimit(RLIMIT_STACK, &stack);
+    if (!meets_limit(asked_room, room, ROOM_LEAST, "memory are allowed (ulimit -v") ||
+        !meets_limit(asked_stack, stack, STACK_LEAST, "stack are allowed (ulimit -s") ||
         !meets_open_files() || !load_commands(&commands))
         return 1;
     if (again)

@@ -96,7 +96,7 @@ bool basis_finish(Basis *basis, bool modes, ReducedPart *part, Error *err)
     for (int32_t j = 0; BULK_SHAPE + j < basis->responses.term_count; j++) {
         part->shape[j] = NEW_ARRAY(double, all *all, err);
         part->shape_count = j + 1;
-        TRY(finish_square(basis, BULK_SHAPE + j, w, beside, half, part->shape[j], err));
+        TRY(finish_square(basis, bulk_shape(j), w, beside, half, part->shape[j], err));
     }
     if (modes) TRY(write_modes(basis, w, part, err));
 cleanup:

@@ -9,6 +9,12 @@
 
 // BULK_SHAPE + j is the shape matrix S_j, which may be K.
 typedef enum BulkTerm { BULK_STIFFNESS, BULK_DAMPING, BULK_MASS, BULK_SHAPE } BulkTerm;
+
+static inline BulkTerm bulk_shape(int32_t j)
+{
+    return (BulkTerm)(BULK_SHAPE + j);
+}
+
 enum { BULK_TERMS = BULK_SHAPE, BULK_TERMS_MAX = BULK_SHAPE + SPECTRUM_SHAPES_MAX };
 
 typedef struct OperatorTerms {

@@ -79,7 +79,7 @@ double branches_end_stage(Branches *branches, const Tableau *tableau, double ste
     for (int32_t j = 0; j < spectrum->shape_count; j++) {
         double *image = branches->image + (int64_t)j * dofs;
         if (j < spectrum->matrix_count)
-            bulk_operator_apply(system, BULK_SHAPE + j, velocity, image);
+            bulk_operator_apply(system, bulk_shape(j), velocity, image);
         else
             memcpy(image, elastic, (size_t)dofs * sizeof *image);
     }
@@ -117,7 +117,7 @@ void branches_add_force(Branches *branches, const State *state, double *force)
         for (int32_t k = 0; k < spectrum->count; k++)
             for (int32_t d = 0; d < dofs; d++)
                 sum[d] += spectrum->share[k][j] * state->stretch[(int64_t)k * dofs + d];
-        bulk_operator_apply(branches->system, BULK_SHAPE + j, sum, branches->image);
+        bulk_operator_apply(branches->system, bulk_shape(j), sum, branches->image);
         for (int32_t d = 0; d < dofs; d++) force[d] += branches->image[d];
     }
 }

@@ -254,7 +254,7 @@ static void pull_branches(Growth *growth, double s, const double *from)
             double factor = spectrum->share[k][j] / (s * (s + 1 / spectrum->time[k]));
             for (int32_t i = 0; i < n; i++) growth->sum[i] += factor * c[i];
         }
-        bulk_operator_apply(growth->system, BULK_SHAPE + j, growth->sum, growth->image);
+        bulk_operator_apply(growth->system, bulk_shape(j), growth->sum, growth->image);
         for (int32_t i = 0; i < n; i++) growth->rhs[i] += growth->image[i];
     }
 }
