@@ -137,12 +137,12 @@ bool events_table_write(const char *path, ResultView *view, Error *err)
     for (int32_t k = 0; k < view->event_count; ++k) {
         const ViewEvent *event = &view->events[k];
         bool sliding = event->kind == VIEW_LEADING;
-        if (!(sliding || event->kind == VIEW_BOUNDED)) continue;
+        if (!view_event_counts(event)) continue;
         if (!isfinite(event->U_start + event->U_stop)) continue;
         int64_t first = 0, last = 0;   // the step before, and that of its end
         result_view_event_rows(view, event->U_start, event->U_stop, &first, &last);
         csv_number(csv, cycle);
-        csv_text(csv, sliding ? "sliding" : "precursor");
+        csv_text(csv, view_event_word(event));
         csv_rounded(csv, event->U_start);
         csv_rounded(csv, view->t[first + 1 < view->rows ? first + 1 : first]);
         csv_rounded(csv, view->mu[first]);

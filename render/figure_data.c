@@ -63,11 +63,6 @@ static bool write_curve(const char *path, ResultView *view, MeasuredKind kind, E
     return write_columns(path, columns[kind], 3, curve.count, view->si, err);
 }
 
-static const char *event_word(const ViewEvent *event)
-{
-    return event->kind == VIEW_LEADING ? MEASURED_SLIDING : MEASURED_PRECURSOR;
-}
-
 static void write_length(CsvWriter *csv, double mu, double part, int32_t cycle, const char *event)
 {
     csv_rounded(csv, mu);
@@ -96,7 +91,7 @@ static bool write_lengths(const char *path, ResultView *view, Error *err)
         for (int32_t i = 0; i < view->event_count; ++i) {
             double mu = NAN, length = NAN;
             if (computed_event(view, &view->events[i], &mu, &length))
-                write_length(csv, mu, length / L, cycle, event_word(&view->events[i]));
+                write_length(csv, mu, length / L, cycle, view_event_word(&view->events[i]));
         }
         for (int64_t i = 0; i < curve.count; ++i)
             write_length(csv, curve.at[i], curve.value[i] / L, cycle, MEASURED_FARTHEST);
@@ -127,14 +122,13 @@ static bool write_speeds(const char *path, ResultView *view, Error *err)
         Zoom zoom = zoom_choose(view);
         for (int32_t e = 0; e < view->event_count; ++e) {
             const ViewEvent *event = &view->events[e];
-            bool counts = event->kind == VIEW_BOUNDED || event->kind == VIEW_LEADING;
-            if (!counts || !zoom_covers(&zoom, event->U_start)) continue;
+            if (!view_event_counts(event) || !zoom_covers(&zoom, event->U_start)) continue;
             TRY(computed_front_speed(view, event, &curve, err));
             for (int64_t i = 0; i < curve.count; ++i) {
                 csv_rounded(csv, curve.at[i] / view->number[NUMBER_LENGTH]);
                 csv_rounded(csv, curve.value[i] / view->number[NUMBER_C_RAYLEIGH]);
                 csv_number(csv, zoom.cycle);
-                csv_text(csv, event_word(event));
+                csv_text(csv, view_event_word(event));
                 csv_rounded(csv, event->U_start);
                 csv_end_row(csv);
             }

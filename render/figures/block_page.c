@@ -21,8 +21,7 @@ static const double CONTACT_GAP = 0.6,
 static const double LOAD_GAP = 1.5, LOAD_LENGTH = 8, LOAD_HEAD = 2;   // points
 static const double OUTLINE_WIDTH = 0.5, CONTOUR_WIDTH = 0.3, EDGE_WIDTH = 0.15;   // points
 static const double FACE_SLACK = 1e-3;   // of the rod's width: nodes of the face it pushes
-static const double SAME_PLACE =
-    1e-5;   // of the contact's length: a node of the fields at a contact node
+static const double SAME_PLACE = 1e-5;   // of the contact's length: nodes of fields and contact
 static const double TOP_SHARE = 1e-6;   // of the height: what is less below the top is the top
 
 static const Color CONTOUR = {0.08f, 0.08f, 0.10f, 0.55f};

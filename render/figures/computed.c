@@ -91,8 +91,8 @@ bool computed_event(const ResultView *view, const ViewEvent *event, double *mu, 
     int64_t before = 0, last = 0;
     Zoom zoom = zoom_choose(view);
     bool sliding = event->kind == VIEW_LEADING;
-    if (!(sliding || event->kind == VIEW_BOUNDED)) return false;
-    if (!isfinite(event->U_start + event->U_stop) || !zoom_covers(&zoom, event->U_start))
+    if (!view_event_counts(event) || !isfinite(event->U_start + event->U_stop) ||
+        !zoom_covers(&zoom, event->U_start))
         return false;
     result_view_event_rows(view, event->U_start, event->U_stop, &before, &last);
     *mu = view->mu[before];

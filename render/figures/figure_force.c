@@ -149,9 +149,8 @@ static const double SLIDING_HEIGHT = 4;   // points
 static int32_t slidings_draw(const Page *page, const ResultView *view, const Axes *axes)
 {
     int32_t count = 0;
-    double pads = 0;
-    for (int32_t i = 0; i < view->nodes; ++i) pads = fmax(pads, view->pad[i]);
-    for (int32_t k = 0; k < view->event_count && pads > 0; ++k) {
+    bool pads = result_view_pads(view) > 1;
+    for (int32_t k = 0; k < view->event_count && pads; ++k) {
         const ViewEvent *event = &view->events[k];
         bool shown = event->U_start >= axes->x.low && event->U_start <= axes->x.high;
         if (event->kind != VIEW_LEADING || !shown) continue;

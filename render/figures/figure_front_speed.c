@@ -58,8 +58,7 @@ static bool cycle_draw(const Page *page, const Axes *axes, ResultView *view, con
         const ViewEvent *event = &view->events[k];
         ViewCurve curve;
         bool sliding = event->kind == VIEW_LEADING;
-        if (!(sliding || event->kind == VIEW_BOUNDED) || !zoom_covers(&zoom, event->U_start))
-            continue;
+        if (!view_event_counts(event) || !zoom_covers(&zoom, event->U_start)) continue;
         bool found = computed_front_speed(view, event, &curve, err);
         if (found && axes)
             front_draw(page, axes, view, &curve, color[sliding],

@@ -54,7 +54,7 @@ static void key_of(Page *page, const Zoom *zoom)
 
 bool figure_pads_shows(const ResultView *view)
 {
-    return pad_count(view) > 1;
+    return result_view_pads(view) > 1;
 }
 
 bool figure_pads(Page *page, const FigureInput *input, Error *err)

@@ -43,26 +43,14 @@ enum { PAD_NAME_SIZE = 96 };
 static void pad_name(const ResultView *view, int32_t pad, char name[PAD_NAME_SIZE])
 {
     static const char common[] = "contact_";
-    const char *start = view->pad_names;
-    for (int32_t k = 0; start && k < pad; ++k) {
-        start = strchr(start, '\n');
-        if (start) ++start;
-    }
-    int length = start ? (int)strcspn(start, "\n") : 0, skip = sizeof common - 1;
+    int length = 0, skip = sizeof common - 1;
+    const char *start = result_view_name(view->pad_names, pad, &length);
     if (length == 0)
         snprintf(name, PAD_NAME_SIZE, "pad %d", pad + 1);
     else if (length > skip && strncmp(start, common, sizeof common - 1) == 0)
         snprintf(name, PAD_NAME_SIZE, "pad %.*s", length - skip, start + skip);
     else
         snprintf(name, PAD_NAME_SIZE, "%.*s", length, start);
-}
-
-// Pads are numbered from 0 without gaps; one is the least.
-static int32_t pad_count(const ResultView *view)
-{
-    double last = 0;
-    for (int32_t i = 0; i < view->nodes; ++i) last = fmax(last, view->pad[i]);
-    return (int32_t)last + 1;
 }
 
 // Extent of a pad along x; false: no node is on it.
@@ -82,7 +70,7 @@ static double pad_marks_width(const Page *page, const ResultView *view)
 {
     char name[PAD_NAME_SIZE];
     double widest = 0;
-    int32_t count = pad_count(view);
+    int32_t count = result_view_pads(view);
     if (count < 2) return 0;
     for (int32_t pad = 0; pad < count; ++pad) {
         pad_name(view, pad, name);
@@ -97,7 +85,7 @@ static void pad_marks_draw(const Page *page, const ResultView *view, const Axes 
     double point = page->point, from = 0, to = 0;
     double left = axes->box.right + (beside + PAD_GAP) * point;
     TextStyle style = {.size = SMALL_SIZE * point, .color = INK, .up = 0.5};
-    int32_t count = pad_count(view);
+    int32_t count = result_view_pads(view);
     for (int32_t pad = 0; count > 1 && pad < count; ++pad) {
         char name[PAD_NAME_SIZE];
         if (!pad_extent(view, pad, &from, &to)) continue;

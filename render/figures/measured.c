@@ -289,7 +289,7 @@ static bool shows_event(const CsvTable *table, int32_t row, MeasuredKind kind)
 {
     int32_t column = csv_column(table, "event");
     const char *event = csv_cell(table, row, column);
-    if (kind == MEASURED_SPEED) return !*event || strcmp(event, MEASURED_SLIDING) == 0;
+    if (kind == MEASURED_SPEED) return !*event || strcmp(event, VIEW_WORD_SLIDING) == 0;
     if (kind != MEASURED_LENGTH || strcmp(event, MEASURED_FARTHEST) != 0) return true;
     for (int32_t k = 0; k < table->rows; ++k)
         if (strcmp(csv_cell(table, k, column), MEASURED_FARTHEST) != 0) return false;

@@ -25,9 +25,7 @@
 
 enum { MEASURED_WORDS_SIZE = 200 };
 
-// Words of the column `event`.
-#define MEASURED_PRECURSOR "precursor"
-#define MEASURED_SLIDING "sliding"
+// A word of the column `event`, beside those of events (render/view/result_view).
 #define MEASURED_FARTHEST "farthest so far"
 
 typedef struct Measured {

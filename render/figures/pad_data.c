@@ -13,24 +13,12 @@
 enum { OPEN = 0, STICK = 1 };   // statuses in the history
 static const double CREEP = 0.1;   // of V (record/observation)
 
-int32_t pad_count(const ResultView *view)
-{
-    int32_t count = 0;
-    for (int32_t i = 0; i < view->nodes; ++i)
-        if (view->pad[i] >= count) count = (int32_t)view->pad[i] + 1;
-    return count;
-}
-
 void pad_words(const ResultView *view, int32_t pad, char words[PAD_WORDS_SIZE])
 {
-    const char *at = view->pad_names;
-    for (int32_t k = 0; at && *at && k < pad; ++k) {
-        at += strcspn(at, "\n");
-        at += *at == '\n';
-    }
-    int length = at ? (int)strcspn(at, "\n") : 0;
+    int length = 0;
+    const char *name = result_view_name(view->pad_names, pad, &length);
     if (length > 0)
-        snprintf(words, PAD_WORDS_SIZE, "%.*s", length < PAD_WORDS_SIZE ? length : 40, at);
+        snprintf(words, PAD_WORDS_SIZE, "%.*s", length < PAD_WORDS_SIZE ? length : 40, name);
     else
         snprintf(words, PAD_WORDS_SIZE, "pad %d", pad + 1);
 }
@@ -103,7 +91,7 @@ bool pad_courses_read(ResultView *view, PadCourses *courses, Error *err)
     Follower follower = {0};
     int32_t cycles = 0;
     int64_t first = 0;
-    *courses = (PadCourses){.pads = pad_count(view)};
+    *courses = (PadCourses){.pads = result_view_pads(view)};
     for (int32_t k = 0; k < view->event_count; ++k) {
         const ViewEvent *event = &view->events[k];
         cycles += event->kind == VIEW_LEADING && isfinite(event->U_start + event->U_stop);

@@ -22,7 +22,6 @@ typedef struct PadCourses {
     PadCourse *list;   // [count] cycle by cycle, pads by number; owned
 } PadCourses;
 
-int32_t pad_count(const ResultView *view);
 void pad_words(const ResultView *view, int32_t pad, char words[PAD_WORDS_SIZE]);   // its name
 
 // All cycles that ended in a sliding; without one the whole history is the first. In space only

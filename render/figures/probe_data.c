@@ -58,10 +58,9 @@ const char *probe_component(const ResultView *view, ProbeQuantity quantity, int3
 
 void probe_name(const ResultView *view, int32_t probe, char name[PROBE_NAME_SIZE])
 {
-    const char *at = view->probe_names;
-    for (int32_t k = 0; k < probe && *at; ++k)
-        at += strcspn(at, "\n") + (at[strcspn(at, "\n")] != 0);
-    snprintf(name, PROBE_NAME_SIZE, "%.*s", (int)strcspn(at, "\n"), at);
+    int length = 0;
+    const char *own = result_view_name(view->probe_names, probe, &length);
+    snprintf(name, PROBE_NAME_SIZE, "%.*s", length, length > 0 ? own : "");
 }
 
 void probe_column(const ResultView *view, int32_t probe, ProbeQuantity quantity, int32_t c,

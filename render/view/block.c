@@ -88,13 +88,9 @@ bool block_moment_read(const char *at, bool *is_U, double *value, Error *err)
 bool block_moment_seen(const ResultView *view, const char *at, bool *is_U, double *value,
                        Error *err)
 {
-    double low = INFINITY, high = -INFINITY;
+    double low = view->t[0], high = view->t[view->rows - 1];
     if (!block_moment_read(at, is_U, value, err)) return false;
-    for (int64_t row = 0; row < view->rows; ++row) {
-        double here = *is_U ? view->U[row] : view->t[row];
-        low = fmin(low, here);
-        high = fmax(high, here);
-    }
+    if (*is_U) result_view_range(view, &low, &high);
     double slack = MOMENT_SLACK * (high - low);
     if (*value >= low - slack && *value <= high + slack) return true;
     return REFUSE(err, "%.40s is outside of the history, which goes from %.6g to %.6g", at, low,

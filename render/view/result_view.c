@@ -76,6 +76,23 @@ void result_view_mu_range(const ResultView *view, const double U[2], double rang
     }
 }
 
+int32_t result_view_pads(const ResultView *view)
+{
+    double last = 0;
+    for (int32_t i = 0; i < view->nodes; ++i) last = fmax(last, view->pad[i]);
+    return (int32_t)last + 1;
+}
+
+const char *result_view_name(const char *names, int32_t k, int *length)
+{
+    for (; names && k > 0; --k) {
+        names = strchr(names, '\n');
+        if (names) ++names;
+    }
+    *length = names ? (int)strcspn(names, "\n") : 0;
+    return names;
+}
+
 int64_t result_view_nearest_row(const ResultView *view, const double *values, double value)
 {
     int64_t nearest = 0;

@@ -21,6 +21,18 @@ typedef struct ViewEvent {
     double reach;   // x, length; NaN: not known
 } ViewEvent;
 
+// Precursors and slidings, and what tables call them.
+#define VIEW_WORD_PRECURSOR "precursor"
+#define VIEW_WORD_SLIDING "sliding"
+static inline bool view_event_counts(const ViewEvent *event)
+{
+    return event->kind == VIEW_BOUNDED || event->kind == VIEW_LEADING;
+}
+static inline const char *view_event_word(const ViewEvent *event)
+{
+    return event->kind == VIEW_LEADING ? VIEW_WORD_SLIDING : VIEW_WORD_PRECURSOR;
+}
+
 typedef struct ViewPeak {
     double U, mu;   // length, 1
     bool counts;   // for mu_M
@@ -115,13 +127,18 @@ bool result_view_choose_line(ResultView *view, const char *words, Error *err);
 void result_view_range(const ResultView *view, double *low, double *high);
 void result_view_mu_range(const ResultView *view, const double U[2], double range[2]);
 
+// Pads are numbered from 0 without gaps; one is the least.
+int32_t result_view_pads(const ResultView *view);
+// Number `k` of such names, a line each, and how long it is; 0: there is none.
+const char *result_view_name(const char *names, int32_t k, int *length);
+
 double result_view_trailing_end(const ResultView *view);   // x, length
-// The block where its length is known, all contact nodes in any case.
 // The row whose entry of `values` [rows], U or t, is nearest to `value`.
 int64_t result_view_nearest_row(const ResultView *view, const double *values, double value);
 // The last row before the rod is at `start`, and the last one up to `stop`; 0 where there is none.
 void result_view_event_rows(const ResultView *view, double start, double stop, int64_t *before,
                             int64_t *last);
+// The block where its length is known, all contact nodes in any case.
 void result_view_x_extent(const ResultView *view, double *low, double *high);
 
 #endif

@@ -323,6 +323,13 @@ double levels_known_to(const Levels *levels, AnswerKind kind)
     return isnan(answer->bar) ? hypot(usual * answer->value, others) : answer->bar;
 }
 
+// What a first loading is known to on one mesh, or several without a bar: what they are known to as
+// of any answer, and what other precursors change.
+static double first_known_to(const FirstLoading *first, double known_to)
+{
+    return hypot(known_to, ONE_PRECURSOR * first->since_precursor);
+}
+
 void level_answer_for(const Level *level, Answers *answers)
 {
     double usual = usual_of_one(level);
@@ -330,8 +337,8 @@ void level_answer_for(const Level *level, Answers *answers)
     answers->mu_hold_known_to =
         hypot(usual * answers->mu_hold.value, known(answers->mu_hold.error));
     answers->mu_max_known_to = hypot(usual * answers->mu_max, answers->mu_max_jump);
-    answers->first_loading.known_to = hypot(usual * answers->first_loading.mu.value,
-                                            ONE_PRECURSOR * answers->first_loading.since_precursor);
+    answers->first_loading.known_to =
+        first_known_to(&answers->first_loading, usual * answers->first_loading.mu.value);
 }
 
 void levels_answer_for(const Levels *levels, Answers *answers)
@@ -360,8 +367,7 @@ void levels_answer_for(const Levels *levels, Answers *answers)
     answers->first_loading.known_to = levels_known_to(levels, ANSWER_MU_FIRST);
     if (isnan(mu_first->bar))
         answers->first_loading.known_to =
-            hypot(answers->first_loading.known_to,
-                  ONE_PRECURSOR * answers->first_loading.since_precursor);
+            first_known_to(&answers->first_loading, answers->first_loading.known_to);
 }
 
 double levels_order(const Levels *levels)

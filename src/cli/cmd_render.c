@@ -84,10 +84,9 @@ int command_render(const Command *command, int argc, char **argv)
          "Draw only this picture: force, slip-map, contact-density, contact-area (over that at "
          "rest), state-map (of friction that remembers), contact-plane (of a block in space), "
          "precursors (slip over F_T/F_N), front-speed, probes, pads (which lets go first), profile "
-         "(p, "
-         "tau, slip and gap along x), field or field-strip (up to six frames of one sliding). May "
-         "be given often; "
-         "without it those that the result has fields, events, states or --compare has data for",
+         "(p, tau, slip and gap along x), field or field-strip (up to six frames of one sliding). "
+         "May be given often; without it those that the result has fields, events, states or "
+         "--compare has data for",
          .words = &figures},
         {"panels", 0, "NAME,NAME",
          "Draw these of force, slip-map, contact-density, contact-area and state-map below each "

@@ -5,7 +5,6 @@
 #include "friction/friction_start.h"
 
 #include <math.h>
-
 #include <string.h>
 
 // `word` stands in `words`, which have blanks between them. words NULL: there are none.

@@ -93,13 +93,13 @@ double model_friction_slip(const Model *model)
     return friction_slip(&model->friction, pressure, model->height, model->materials.mean.young);
 }
 
-double model_fading_slip(const Model *model)
+double model_forgets(const Model *model)
 {
     double slowest = INFINITY, speed = model->scales.slip_velocity;
-    if (!friction_remembers(&model->friction, model->interface.contact_count)) return 0;
-    for (int32_t i = 0; i < model->interface.contact_count; i++)
+    int32_t count = model->interface.contact_count;
+    for (int32_t i = 0; i < count && friction_remembers(&model->friction, count); i++)
         slowest = fmin(slowest, friction_forgets(friction_at(&model->friction, i), speed));
-    return speed / slowest;
+    return slowest;
 }
 
 double model_slip_per_mu(const Model *model)

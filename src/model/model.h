@@ -69,15 +69,21 @@ void model_destroy(Model *model);   // zeroed and half-built too
 // An empty model of `scene`, with its materials and law: the same numbers, other structs.
 Model model_of(const Scene *scene);
 
+// The scene's law, completed by what the mesh says (scene/friction_law).
+static inline const FrictionLaw *model_law(const Model *model)
+{
+    return model->laws ? model->laws : &model->scene->friction;
+}
+
 // The slip that the drop of friction can drive, (mu_S - mu_K) p H / E with p the mean pressure and
 // E that of the mean material, length. For Coulomb friction, which has no drop, mu_S stands in its
 // place; without friction 1.
 // Tolerances of slip are measured by it, so that they hold for any load and any units.
 double model_friction_slip(const Model *model);
 
-// The slip over which steady slip at the rod's velocity forgets the slowest of what the contact
-// remembers to 1/e, length; 0: nothing is remembered.
-double model_fading_slip(const Model *model);
+// The slowest rate at which steady slip at the rod's velocity forgets what the contact remembers,
+// 1/time; INFINITY: nothing is remembered.
+double model_forgets(const Model *model);
 
 // The slip that a fall of the coefficient by 1 can drive, p H / E, length.
 double model_slip_per_mu(const Model *model);

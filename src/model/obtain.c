@@ -290,9 +290,8 @@ static void set_scales(Model *model)
     model->scales.trailing = model->middle - 0.5 * length;
     model->scales.time = length / material_speeds(material).longitudinal +
                          materials_viscous_time(&model->materials);
-    const FrictionLaw *law = model->laws ? model->laws : &scene->friction;
     model->scales.slip_velocity = scene->rod.velocity > 0 ? scene->rod.velocity
-                                                          : law->critical_velocity;
+                                                          : model_law(model)->critical_velocity;
     // Nothing gives a velocity: that with which the load would deform the block in that time.
     if (!(model->scales.slip_velocity > 0))
         model->scales.slip_velocity = model->scales.load / model->breadth / material->young /

@@ -70,7 +70,7 @@ static bool open_recorders(Simulation *simulation, Error *err)
     bool remembers = simulation->control.scheme.memory.node != NULL;
     simulation->drops.mu_static = remembers ? NAN : model->friction.mu_static;
     simulation->steady = steady_of(events, model_friction_slip(model) + model_machine_yield(model),
-                                   model_fading_slip(model));
+                                   model->scales.slip_velocity / model_forgets(model));
     if (program_jumps(&simulation->rod_course))
         simulation->readings.course = &simulation->rod_course;
     simulation->turning.contact = &simulation->contact;

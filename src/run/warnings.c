@@ -59,8 +59,7 @@ int32_t undamped_nodes(const Certificate *certificate, double load, double *wors
 
 void warnings_of_viscosity(const Scene *scene, const Model *model, RunWarnings *warnings)
 {
-    const FrictionLaw *law = model->laws ? model->laws : &scene->friction;
-    if (!(friction_law_drop(law) > 0) || amontons_scene_warning(scene)) return;
+    if (!(friction_law_drop(model_law(model)) > 0) || amontons_scene_warning(scene)) return;
     for (int32_t k = 0; k < model->materials.count; k++) {
         if (!model->on_contact[k] || model->materials.list[k].eta1 > 0) continue;
         warnings_add(warnings,

@@ -183,14 +183,20 @@ void *hdf5_memory_bytes(hid_t file, const char *path, int64_t *size, Error *err)
 
 // --- files on the disk --------------------------------------------------------------------------
 
+// No locks, which some file systems have not; all that is open in a file ends with it.
+static hid_t disk_properties(void)
+{
+    hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+    H5Pset_file_locking(access, false, true);
+    H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+    return access;
+}
+
 // A file that the host program has open, as h5py in the same process, is opened with the properties
 // that it has there, or not at all.
 static hid_t open_disk(const char *path)
 {
-    hid_t access = H5Pcreate(H5P_FILE_ACCESS), file;
-    H5Pset_file_locking(access, false, true);
-    H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
-    file = H5Fopen(path, H5F_ACC_RDONLY, access);
+    hid_t access = disk_properties(), file = H5Fopen(path, H5F_ACC_RDONLY, access);
     if (file < 0) file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
     close_properties(access);
     return file;
@@ -212,9 +218,7 @@ hid_t hdf5_disk_open(const char *path, Error *err)
 hid_t hdf5_disk_create(const char *path, Error *err)
 {
     start();
-    hid_t access = H5Pcreate(H5P_FILE_ACCESS);
-    H5Pset_file_locking(access, false, true);
-    H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+    hid_t access = disk_properties();
     hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, access);
     close_properties(access);
     hdf5_wrote(file < 0 ? -1 : 0, path, "the header", err);

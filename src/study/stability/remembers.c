@@ -56,12 +56,6 @@ static FrictionRates steady_rates(const StabilityPath *path, int32_t i, double p
     return friction_steady_rates(&node, path->model->scales.slip_velocity, state);
 }
 
-double stability_forgets(const StabilityPath *path, int32_t i)
-{
-    const Model *model = path->model;
-    return friction_forgets(friction_at(&model->friction, i), model->scales.slip_velocity);
-}
-
 void stability_let_slip(const StabilityPath *path, State *trial, int32_t i)
 {
     const Interface *interface = &path->model->interface;

@@ -99,16 +99,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// A part of the rate at which steady slip at V forgets, 1/time: states grow or decay at about that.
-static double slowest_memory(const StabilityPath *path)
-{
-    const Model *model = path->model;
-    double slowest = INFINITY;
-    for (int32_t i = 0; i < model->interface.contact_count; i++)
-        slowest = fmin(slowest, MEMORY_PART * stability_forgets(path, i));
-    return slowest;
-}
-
 // The path's own steps, from the state of the simulation: tolerance and certificate off, so that
 // every step is PATH_STEP_LIMIT long, and a rod of its own velocity that continues from where
 // the simulation's rod is. Memory for a point per contact node and the two ends.
@@ -154,7 +144,9 @@ static bool open_path(StabilityPath *path, Error *err)
     double mean = material_slip_speed(&model->materials.mean);   // with soft regions it is slower
     GrowthDef growth = growth_def(model->length, speed, (int32_t)elements);
     growth.slowest = fmin(growth.slowest * (mean / speed), mean / (4 * model->height));   // if tall
-    while (path->nodes && growth.slowest > slowest_memory(path)) growth.slowest /= 2;
+    // States grow or decay at about the rate at which steady slip at V forgets.
+    double memory = MEMORY_PART * model_forgets(model);
+    while (path->nodes && growth.slowest > memory) growth.slowest /= 2;
     path->slowest = growth.slowest;
     path->growth = growth_create(&block, &growth, err);
     path->room = interface->contact_count + 2;

@@ -47,8 +47,6 @@ bool stability_set_pace(StabilityPath *path, double velocity, Error *err);
 void stability_start_states(StabilityPath *path);
 // path->last is what the path has come to, in the scene's time.
 void stability_look(StabilityPath *path);
-// How fast node i forgets that slips steadily at V, 1/time; INFINITY: it remembers nothing.
-double stability_forgets(const StabilityPath *path, int32_t i);
 // Node i of `trial` slips forward: slowly, or where friction remembers steadily at the scene's V.
 void stability_let_slip(const StabilityPath *path, State *trial, int32_t i);
 // Stiffness of a massless body, stress over length, below which steady slip of node i at V under

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The spring that steady slip at V needs, against (b - a) N/D_c and its like; how fast it forgets.
+#include "friction/friction_start.h"
+
 #include "own_laws.h"
 #include "path_by_hand.h"
 
@@ -31,7 +33,7 @@ TEST(test_critical_spring)
              &node);
         assert_near("(b - a) N/D_c", stability_critical_spring(&rig.path, 0, 4), 0.005 * 4 / 2e-3,
                     1e-5);
-        assert_near("V/D_c", stability_forgets(&rig.path, 0), V / 2e-3, 1e-7);
+        assert_near("V/D_c", friction_forgets(&node, V), V / 2e-3, 1e-7);
     }
     rig.law.evolution_effect = 0.008;
     assert_near("it strengthens", stability_critical_spring(&rig.path, 0, 4), 0, 0);
@@ -45,7 +47,7 @@ TEST(test_critical_spring)
          &node);
     assert_near("drop phi N/D_c", stability_critical_spring(&rig.path, 0, 4), 0.3 / 3 * 4 / 2e-3,
                 1e-4);
-    assert_near("1/t_h + V/D_c", stability_forgets(&rig.path, 0), 1.0 / 40 + V / 2e-3, 1e-7);
+    assert_near("1/t_h + V/D_c", friction_forgets(&node, V), 1.0 / 40 + V / 2e-3, 1e-7);
     take(&rig,
          (FrictionLaw){.kind = FRICTION_AGEING,
                        .mu_static = 0.5,
