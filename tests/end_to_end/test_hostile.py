@@ -21,7 +21,13 @@ class Hostile(unittest.TestCase):
             ended = subprocess.run([sys.executable, FOLDER / "tries.py", "--every", "71", "-j", "1", "-o", folder],
                                    capture_output=True, text=True)
             self.assertEqual(ended.returncode, 0, ended.stdout + ended.stderr)
-            self.assertGreater(len(Path(folder, "tries.csv").read_text().splitlines()), 15)
+            rows = Path(folder, "tries.csv").read_text().splitlines(keepends=True)
+            self.assertGreater(len(rows), 15)
+            Path(folder, "tries.csv").write_text("".join(rows[:-1]) + rows[-1][:20])     # as if cut off while it wrote
+            again = subprocess.run([sys.executable, FOLDER / "tries.py", "--every", "71", "-j", "1", "-o", folder],
+                                   capture_output=True, text=True)
+            self.assertEqual(again.returncode, 0, again.stdout + again.stderr)
+            self.assertIn(f"{len(rows) - 1} tries, 1 of them now", again.stdout)
 
     def test_some_faults(self):
         """Calls to the file system that fail."""

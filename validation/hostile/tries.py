@@ -4,23 +4,28 @@
 or a sentence that names what is wrong; never in a crash, an endless loop, a wrong answer or the
 loss of a file.
 
-    validation/hostile/tries.py [-o FOLDER] [--only GROUP ...] [--every N] [-j N]
+    validation/hostile/tries.py [-o FOLDER] [--only GROUP ...] [--every N] [-j N] [--anew]
 
 cases.py describes them. Prints a table and leaves tries.md and tries.csv in FOLDER (default
-results/hostile). Exit status 1: some try ended as none should.
+results/hostile). It may be cut off at any time: each try that ended is a row of tries.csv, and the same
+command goes on with the others; --anew, or another program, begins again. Exit status 1: some try ended
+as none should.
 """
 import argparse
+import contextlib
 import csv
+import hashlib
 import json
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
 import time
 from collections import Counter
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 
 import cases
@@ -31,6 +36,7 @@ PATIENCE = 100     # seconds until a try counts as endless; a mesh may take 60 s
 # Thousands of files are synced: in memory, where there is room.
 SCRATCH = "/dev/shm" if os.access("/dev/shm", os.W_OK) else None
 WORDS = {0: "done", 1: "failed", 2: "refused"}
+COLUMNS = ["group", "try", "ended", "wrong", "seconds", "said"]
 
 
 class Stock:
@@ -60,18 +66,24 @@ def run(attempt, folder):
         words = ["sh", "-c", attempt.shell, "sh", *words]
     env = os.environ | {"AMONTONS_CACHE": ""} | attempt.env
     started = time.monotonic()
-    process = subprocess.Popen(words, cwd=folder, env=env, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                               stderr=subprocess.STDOUT)
-    try:
-        if attempt.signal:
-            time.sleep(attempt.seconds)
-            process.send_signal(attempt.signal)
-        said, _ = process.communicate(timeout=PATIENCE)
-    except subprocess.TimeoutExpired:
-        process.kill()
-        process.communicate()
-        return None, PATIENCE, ""
-    return process.returncode, time.monotonic() - started, said.decode(errors="replace")
+    # Its words go into a file, not a pipe: a child that lives on would hold that open.
+    with tempfile.TemporaryFile() as said:
+        process = subprocess.Popen(words, cwd=folder, env=env, stdin=subprocess.DEVNULL, stdout=said,
+                                   stderr=subprocess.STDOUT, start_new_session=True)
+        try:
+            if attempt.signal:
+                time.sleep(attempt.seconds)
+                process.send_signal(attempt.signal)
+            process.wait(timeout=PATIENCE)
+        except subprocess.TimeoutExpired:
+            return None, PATIENCE, ""
+        finally:
+            with contextlib.suppress(ProcessLookupError):
+                os.killpg(process.pid, signal.SIGKILL)      # it and what it began
+            process.wait()
+        seconds = time.monotonic() - started
+        said.seek(0)
+        return process.returncode, seconds, said.read().decode(errors="replace")
 
 
 def faults(attempt, status, said, folder, stock):
@@ -123,7 +135,7 @@ def after_signal(attempt, folder, stock):
 
 
 def attempt_once(attempt, number, stock):
-    """(attempt, how it ended, faults, seconds, what it said)."""
+    """A row of tries.csv."""
     folder = stock.scratch / f"try{number}"
     cases.put(folder, {"scene.yaml": SCENE, "block.msh": square(), "block.geo": ROOT / "meshes/block.geo"}
               | attempt.files)
@@ -132,21 +144,63 @@ def attempt_once(attempt, number, stock):
     word = ("signal" if attempt.signal and status is not None else "no end" if status is None else
             WORDS.get(status, "failed" if status == 127 else "crash"))
     shutil.rmtree(folder, ignore_errors=True)
-    return attempt, word, found, seconds, said
+    return dict(zip(COLUMNS, (attempt.group, attempt.name, word, "; ".join(found), f"{seconds:.2f}",
+                              " ".join(said.split())[-300:])))
 
 
-def table(ended):
+def table(rows):
     """Markdown: a row a group."""
     words = ["done", "refused", "failed", "signal", "crash", "no end"]
     lines = ["| group | tries | " + " | ".join(words) + " | wrong |", "|---" * (len(words) + 3) + "|"]
-    groups = dict.fromkeys(attempt.group for attempt, *_ in ended)
-    for group in [*groups, "all"]:
-        mine = [row for row in ended if group in (row[0].group, "all")]
-        counts = Counter(word for _, word, *_ in mine)
-        wrong = sum(bool(found) for _, _, found, *_ in mine)
+    for group in [*dict.fromkeys(row["group"] for row in rows), "all"]:
+        mine = [row for row in rows if group in (row["group"], "all")]
+        counts = Counter(row["ended"] for row in mine)
+        wrong = sum(bool(row["wrong"]) for row in mine)
         lines.append(f"| {group} | {len(mine)} | " + " | ".join(str(counts[word]) for word in words) +
                      f" | {wrong} |")
     return "\n".join(lines)
+
+
+def program_digest():
+    """Tells one build from another: what an earlier build did is tried again."""
+    digest = hashlib.sha256()
+    for path in sorted(path for path in PROGRAM.parent.iterdir() if path.is_file()):
+        digest.update(path.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+def rows_of_before(folder, anew):
+    """{(group, try): row} of tries.csv, when this program wrote them. Begins the file anew if not."""
+    path, mark = folder / "tries.csv", folder / "program"
+    digest = program_digest()
+    if not anew and path.exists() and mark.exists() and mark.read_text() == digest:
+        lines = path.read_text(errors="replace").splitlines(keepends=True)
+        whole = [line for line in lines if line.endswith("\n")]      # the last one may have been cut off
+        path.write_text("".join(whole), newline="")
+        return {(row["group"], row["try"]): row for row in csv.DictReader(whole)}
+    folder.mkdir(parents=True, exist_ok=True)
+    with path.open("w", newline="") as file:
+        csv.writer(file, lineterminator="\n").writerow(COLUMNS)
+    mark.write_text(digest)
+    return {}
+
+
+def attempt_all(todo, stock, jobs, path):
+    """Rows of the tries, each written as it ends; what is wrong is printed at once."""
+    rows, started = [], time.monotonic()
+    with ThreadPoolExecutor(jobs) as pool, path.open("a", newline="") as file:
+        pending = {pool.submit(attempt_once, attempt, number, stock) for number, attempt in enumerate(todo)}
+        for future in as_completed(pending):
+            row = future.result()
+            rows.append(row)
+            csv.DictWriter(file, COLUMNS, lineterminator="\n").writerow(row)
+            file.flush()
+            if row["wrong"]:
+                print(f"{row['group']}: {row['try']}: {row['ended']}; {row['wrong']}; {row['said'][-200:]}", flush=True)
+            if len(rows) % 100 == 0:
+                left = (time.monotonic() - started) * (len(todo) / len(rows) - 1)
+                print(f"{len(rows)} of {len(todo)} tries, perhaps {left / 60:.0f} min left", flush=True)
+    return rows
 
 
 def main():
@@ -155,8 +209,10 @@ def main():
     parser.add_argument("--only", nargs="*", help="groups with one of these names")
     parser.add_argument("--every", type=int, default=1, help="one try of so many")
     parser.add_argument("-j", type=int, default=os.cpu_count(), help="tries at a time")
+    parser.add_argument("--anew", action="store_true", help="also what was tried before with this program")
     options = parser.parse_args()
-    with tempfile.TemporaryDirectory(dir=SCRATCH) as scratch, ThreadPoolExecutor(options.j) as pool:
+    before = rows_of_before(options.output, options.anew)
+    with tempfile.TemporaryDirectory(dir=SCRATCH) as scratch:
         stock = Stock(Path(scratch))
         listed = [attempt for group in cases.GROUPS for attempt in group(stock)]
         if options.only:
@@ -164,19 +220,17 @@ def main():
         if options.every > 1:
             listed = [attempt for attempt in listed if not attempt.slow][::options.every]
         started = time.monotonic()
-        ended = list(pool.map(lambda pair: attempt_once(pair[1], pair[0], stock), enumerate(listed)))
-    text = table(ended)
-    for attempt, word, found, _, said in ended:
-        if found:
-            print(f"{attempt.group}: {attempt.name}: {word}; {'; '.join(found)}; {said.strip()[-200:]}")
-    options.output.mkdir(parents=True, exist_ok=True)
+        todo = [attempt for attempt in listed if (attempt.group, attempt.name) not in before]
+        done = attempt_all(todo, stock, options.j, options.output / "tries.csv")
+    found = before | {(row["group"], row["try"]): row for row in done}
+    rows = [found[attempt.group, attempt.name] for attempt in listed]
+    text = table(rows)
     (options.output / "tries.md").write_text(text + "\n")
-    with open(options.output / "tries.csv", "w", newline="") as file:
-        csv.writer(file).writerows([["group", "try", "ended", "wrong", "seconds", "said"]] + [
-            [attempt.group, attempt.name, word, "; ".join(found), f"{seconds:.2f}", " ".join(said.split())[:300]]
-            for attempt, word, found, seconds, said in ended])
-    wrong = sum(bool(found) for _, _, found, *_ in ended)
-    print(f"{text}\n\n{len(ended)} tries in {time.monotonic() - started:.0f} s, {wrong} wrong")
+    for row in rows:
+        if row["wrong"] and (row["group"], row["try"]) in before:
+            print(f"before: {row['group']}: {row['try']}: {row['ended']}; {row['wrong']}")
+    wrong = sum(bool(row["wrong"]) for row in rows)
+    print(f"{text}\n\n{len(rows)} tries, {len(todo)} of them now in {time.monotonic() - started:.0f} s, {wrong} wrong")
     return 1 if wrong else 0
 
 
