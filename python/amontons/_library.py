@@ -190,9 +190,16 @@ def words(texts: Any) -> Any:
     return (ctypes.c_char_p * max(len(texts), 1))(*map(c_text, texts))
 
 
+def settings_map(settings: Any) -> Mapping[str, Any]:
+    """Settings as a user gave them; none are an empty map."""
+    if settings is not None and not isinstance(settings, Mapping):
+        raise TypeError(f"{settings!r}: a map of keys and their values is wanted, not {type(settings).__name__}")
+    return settings or {}
+
+
 def setting_words(settings: Mapping[str, Any] | None) -> tuple[Any, int]:
     """{"load.pressure": 0.006} -> the words behind --set, and how many."""
-    settings = settings or {}
+    settings = settings_map(settings)
     return words(f"{key}={yaml_text(value)}" for key, value in settings.items()), len(settings)
 
 

@@ -14,13 +14,14 @@ from typing import Any
 import numpy as np
 
 from . import _structs as c
-from ._library import (Scene, c_text, c_text_or_none, c_word, call, call_stoppable, fields, lib, path_of, printed, setting_words, words)
+from ._library import (Scene, c_text, c_text_or_none, c_word, call, call_stoppable, fields, lib, path_of, printed, setting_words,
+                       settings_map, words)
 from .results import Answer, Result, plain
 
 Settings = Mapping[str, Any]
 Progress = Callable[[c.StepView], object]
 
-# Of points that callbacks hand over: [points] with the fields of the C struct.
+# Points that callbacks hand over: [points] with the fields of the C struct.
 _NUMPY = {ctypes.c_double: "f8", ctypes.c_int32: "i4", ctypes.c_int64: "i8", ctypes.c_bool: "?"}
 
 
@@ -58,7 +59,7 @@ def run(scene: Any, settings: Settings | None = None, folder: Any = None, *, ove
     progress: called after every step with a StepView (t, U, mu, fraction, ...), which it must not keep.
     Ctrl-C ends the run after the present step (KeyboardInterrupt); what was computed is in `folder`.
     """
-    given = dict(settings or {})
+    given = settings_map(settings)
     temporary = folder is None
     if temporary:
         folder, overwrite = tempfile.mkdtemp(prefix="amontons-"), True

@@ -155,8 +155,9 @@ class Result:
         self.folder = path_of(folder)
         self.summary: c.RunSummary | None = None
         self._history: History | None = None
-        if not (self.folder / "run.json").is_file() and not self.folder.is_dir():
-            raise FileNotFoundError(f"{self.folder} is not a result folder")
+        # A run that was killed has left no more than its history, a stopped search of an error bar no more than run.json.
+        if not any((self.folder / name).is_file() for name in ("run.json", "history.h5", "history.h5.part")):
+            raise FileNotFoundError(f"{self.folder}: not a result folder: no run.json and no history.h5 in it")
 
     def __getattr__(self, name: str) -> Any:
         if name.startswith("_") or name == "summary":

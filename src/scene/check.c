@@ -392,7 +392,8 @@ static bool check_output(const Check *check)
     if (!check_window(check)) return false;
     if (scene->output.figures.count > 0 && !scene->output.history)
         return blame(check, "output.figures",
-                     "pictures are drawn from the history: they need output.history: true");
+                     "pictures are drawn from the history: they need output.history: true, also "
+                     "under `set` of a study, whose points keep none otherwise");
     if (scene->output.probes.count > 0 && !scene->output.history)
         return blame(check, "output.probes",
                      "what probes read stands in the history: they need output.history: true, also "

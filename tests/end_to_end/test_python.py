@@ -183,9 +183,12 @@ class Run(InFolder):
                      lambda: amontons.render(None), lambda: amontons.render(result, "force"), lambda: amontons.render(result, at=5),
                      lambda: amontons.run(None), lambda: amontons.run(FIG1, SMALL, 5), lambda: amontons.open_result(None),
                      lambda: amontons.info(None), lambda: amontons.static(FIG1, SMALL, 5), lambda: amontons.sweep(5),
+                     lambda: amontons.run(FIG1, ["load.pressure"]), lambda: amontons.stability(FIG1, "a"),
                      lambda: amontons.render_plot("a.yaml", None), lambda: copy.copy(simulation), lambda: copy.deepcopy(simulation)):
             with self.assertRaises(TypeError):
                 call()
+        with self.assertRaisesRegex(FileNotFoundError, "no run.json and no history.h5"):    # opened, with no answers
+            amontons.open_result(self.folder)
         self.assertEqual(amontons.run(FIG1, SMALL, os.fsencode(self.folder / "bytes")).folder, self.folder / "bytes")
         simulation.advance()
         simulation.__del__()
