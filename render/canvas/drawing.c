@@ -97,15 +97,15 @@ void draw_outline(Canvas *canvas, const Stroke *stroke, const Box *box)
     cairo_stroke(cairo);
 }
 
-// Lines at 45 degrees that begin left of the box, as far as it is high; the clip cuts them off.
+// Lines at 45 degrees that begin left of the box, as far as it is high; the clip cuts them off. A box
+// beyond the page, as a damaged file may have one, is hatched on the page alone.
 void draw_hatch(Canvas *canvas, const Stroke *stroke, const Box *box, double spacing)
 {
-    double height = box->bottom - box->top;
-    canvas_clip(canvas, box);
-    double x = box->left - height;
-    while (x < box->right) {
-        draw_segment(canvas, stroke, (Point){x, box->bottom}, (Point){x + height, box->top});
-        x += spacing;
-    }
+    const Box seen = {fmax(box->left, 0), fmax(box->top, 0), fmin(box->right, canvas_width(canvas)),
+                      fmin(box->bottom, canvas_height(canvas))};
+    double height = seen.bottom - seen.top;
+    canvas_clip(canvas, &seen);
+    for (double x = seen.left - height; x < seen.right; x += spacing)
+        draw_segment(canvas, stroke, (Point){x, seen.bottom}, (Point){x + height, seen.top});
     canvas_clip(canvas, NULL);
 }

@@ -83,6 +83,14 @@ TEST_BETWEEN(dashes_leave_gaps, canvas_begin, canvas_end)
     assert_float_equal(area_read(), 200 * 2 * 0.6, 6);
 }
 
+// A damaged file may ask for a hatch that is 1e12 pixels wide.
+TEST_BETWEEN(a_hatch_ends_with_the_page, canvas_begin, canvas_end)
+{
+    Stroke stroke = {.color = BLACK, .width = 1};
+    draw_hatch(canvas, &stroke, &(Box){-1e12, -1e12, 1e12, 1e12}, 10);
+    assert_float_equal(area_read(), SIZE * SIZE * sqrt(2) / 10, 0.05 * SIZE * SIZE);
+}
+
 TEST_BETWEEN(broken_points_break_lines, canvas_begin, canvas_end)
 {
     Stroke stroke = {.color = BLACK, .width = 2};
