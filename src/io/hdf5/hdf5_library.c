@@ -208,7 +208,7 @@ hid_t hdf5_disk_open(const char *path, Error *err)
     if (!open_check(path, err)) return -1;
     if (stat(path, &status) == 0 && status.st_size == 0) {
         error_set(err, ERROR_FILE, __FILE__, __LINE__,
-                  "%s is empty: what wrote it ended before anything was on the disk", path);
+                  "%s is empty: the run is about to begin, or ended before anything was on the disk", path);
         return -1;
     }
     start();
