@@ -160,7 +160,9 @@ TEST(test_random_matrices)
         int32_t border_count = random_index(&random, size + 1);
         if (trial < 20) border_count = trial % 4 == 0 ? 0 : (trial % 4 == 1 ? 1 : size);
         make_case(&random, size, border_count, &made);
-        SparseAnalysis *analysis = sparse_analyse(&made.pattern, made.border, border_count, &err);
+        SparseOrder order = trial % 3 == 0 ? SPARSE_DISSECTION : SPARSE_MINIMUM_DEGREE;
+        SparseAnalysis *analysis =
+            sparse_analyse(&made.pattern, made.border, border_count, order, &err);
         if (!analysis) fail_msg("size %d, border %d: %s", size, border_count, err.message);
         SparseFactor *factor = sparse_factorise(analysis, made.values, &err);
         if (!factor) fail_msg("size %d, border %d: %s", size, border_count, err.message);
@@ -181,7 +183,8 @@ TEST(test_two_factors_without_allocation)
     Random random = {.state = 4};
     Case made;
     make_case(&random, 50, 12, &made);
-    SparseAnalysis *analysis = sparse_analyse(&made.pattern, made.border, 12, &err);
+    SparseAnalysis *analysis =
+        sparse_analyse(&made.pattern, made.border, 12, SPARSE_MINIMUM_DEGREE, &err);
     SparseFactor *first = sparse_factorise(analysis, made.values, &err);
     int32_t entries = made.pattern.start[made.size];
     for (int32_t k = 0; k < entries; k++) made.values[k] *= 2;
@@ -283,7 +286,8 @@ TEST(test_not_definite)
         make_case(&random, 30, 8, &made);
         for (int32_t k = made.pattern.start[spoilt]; k < made.pattern.start[spoilt + 1]; k++)
             if (made.pattern.index[k] == spoilt) made.values[k] = -1;
-        SparseAnalysis *analysis = sparse_analyse(&made.pattern, made.border, 8, &err);
+        SparseAnalysis *analysis =
+            sparse_analyse(&made.pattern, made.border, 8, SPARSE_MINIMUM_DEGREE, &err);
         assert_null(sparse_factorise(analysis, made.values, &err));
         assert_int_equal(err.code, ERROR_COMPUTE);
         assert_non_null(strstr(err.message, "not positive definite"));
@@ -304,7 +308,8 @@ TEST(test_memory_faults)
     for (int32_t k = 0; !done; k++) {
         Error err = {0};
         memory_fail_after(k);
-        SparseAnalysis *analysis = sparse_analyse(&made.pattern, made.border, 5, &err);
+        SparseAnalysis *analysis =
+            sparse_analyse(&made.pattern, made.border, 5, SPARSE_DISSECTION, &err);
         SparseFactor *factor = analysis ? sparse_factorise(analysis, made.values, &err) : NULL;
         memory_fail_after(-1);
         done = factor != NULL;
@@ -367,7 +372,8 @@ TEST(test_memory_of_the_library)
     for (; !done; failed++) {
         Error err = {0};
         library_left = failed;
-        SparseAnalysis *analysis = sparse_analyse(&made.pattern, made.border, 5, &err);
+        SparseAnalysis *analysis =
+            sparse_analyse(&made.pattern, made.border, 5, SPARSE_DISSECTION, &err);
         SparseFactor *factor = analysis ? sparse_factorise(analysis, made.values, &err) : NULL;
         bool answered = factor && sparse_expand_many(factor, motions, 3, x, &err);
         done = library_left >= 0;   // not one of so many failed
@@ -384,4 +390,48 @@ TEST(test_memory_of_the_library)
     assert_true(failed > 20);
     use_memory(malloc, calloc, free);
     free_case(&made);
+}
+
+// A block of N x N x N points, each joined to the 26 around it, its lowest layer the border: an
+// order by nested dissection is another one (S has other roundings), and answers as that by minimum
+// degree does.
+TEST(test_dissection)
+{
+    enum { N = 14, LAYER = N * N, SIZE = N * LAYER };
+    Error err = {0};
+    dense_use_one_thread();
+    SparsePattern pattern = {.size = SIZE,
+                             .start = calloc(SIZE + 1, sizeof(int32_t)),
+                             .index = calloc(27 * SIZE, sizeof(int32_t))};
+    double *values = calloc(27 * SIZE, sizeof *values);
+    int32_t border[LAYER], entries = 0;
+    for (int32_t j = 0; j < SIZE; j++) {
+        for (int32_t k = 0; k < SIZE; k++) {
+            bool beside = abs(k / LAYER - j / LAYER) < 2 && abs(k / N % N - j / N % N) < 2 &&
+                          abs(k % N - j % N) < 2;
+            if (!beside) continue;
+            values[entries] = k == j ? 30 : -1;
+            pattern.index[entries++] = k;
+        }
+        pattern.start[j + 1] = entries;
+    }
+    for (int32_t k = 0; k < LAYER; k++) border[k] = LAYER - 1 - k;
+    double *schur[2], *inside[2], given[LAYER];
+    for (int32_t k = 0; k < LAYER; k++) given[k] = sin(k);
+    for (SparseOrder by = SPARSE_MINIMUM_DEGREE; by <= SPARSE_DISSECTION; by++) {
+        schur[by] = hand_matrix(LAYER, LAYER);
+        inside[by] = hand_matrix(SIZE, 1);
+        SparseAnalysis *analysis = sparse_analyse(&pattern, border, LAYER, by, &err);
+        SparseFactor *factor = sparse_factorise(analysis, values, &err);
+        if (!factor) fail_msg("%s", err.message);
+        sparse_schur(factor, schur[by]);
+        assert_true(sparse_expand_many(factor, given, 1, inside[by], &err));
+        sparse_factor_destroy(factor);
+        sparse_analysis_destroy(analysis);
+    }
+    assert_all_near("S", schur[1], schur[0], LAYER * LAYER, 1e-12);
+    assert_all_near("x", inside[1], inside[0], SIZE, 1e-12);
+    assert_true(memcmp(schur[1], schur[0], LAYER * LAYER * sizeof(double)) != 0);
+    for (int32_t k = 0; k < 2; k++) free(schur[k]), free(inside[k]);
+    free(pattern.start), free(pattern.index), free(values);
 }
