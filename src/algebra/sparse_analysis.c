@@ -5,7 +5,12 @@
 
 #include "base/memory.h"
 
+#include <pthread.h>
 #include <string.h>
+
+// METIS draws from the process's rand(), which it seeds anew for each order: one thread at a time,
+// or an order would depend on what others do.
+static pthread_mutex_t dissection_lock = PTHREAD_MUTEX_INITIALIZER;
 
 #define NO_MEMORY "no memory for a sparse matrix of %d unknowns"
 
@@ -104,7 +109,9 @@ static bool dissect(SparseAnalysis *analysis, const int32_t *member, const int32
     common->method[0].ordering = CHOLMOD_METIS;
     common->supernodal = CHOLMOD_SIMPLICIAL;
     common->postorder = true;
+    pthread_mutex_lock(&dissection_lock);
     factor = cholmod_analyze(&interior, common);
+    pthread_mutex_unlock(&dissection_lock);
     const int32_t *permutation = factor ? factor->Perm : NULL;
     for (int32_t j = 0; factor && j < inside; j++) order[j] = inner[permutation[j]];
     memcpy(order + size - count, border, (size_t)count * sizeof *border);

@@ -8,6 +8,7 @@
 #include "near.h"
 #include "random_numbers.h"
 
+#include <pthread.h>
 #include <SuiteSparse_config.h>
 #include <dlfcn.h>
 
@@ -392,46 +393,113 @@ TEST(test_memory_of_the_library)
     free_case(&made);
 }
 
-// A block of N x N x N points, each joined to the 26 around it, its lowest layer the border: an
-// order by nested dissection is another one (S has other roundings), and answers as that by minimum
-// degree does.
+enum { SIDE = 14, LAYER = SIDE * SIDE, BLOCK = SIDE * LAYER };
+
+// A block of SIDE^3 points, each joined to the 26 around it, its lowest layer the border.
+typedef struct PointBlock {
+    SparsePattern pattern;
+    double *values;
+    int32_t border[LAYER];
+} PointBlock;
+
+static void point_block_build(PointBlock *block)
+{
+    int32_t entries = 0;
+    block->pattern = (SparsePattern){.size = BLOCK,
+                                     .start = calloc(BLOCK + 1, sizeof(int32_t)),
+                                     .index = calloc(27 * BLOCK, sizeof(int32_t))};
+    block->values = calloc(27 * BLOCK, sizeof(double));
+    for (int32_t j = 0; j < BLOCK; j++) {
+        for (int32_t k = 0; k < BLOCK; k++) {
+            bool beside = abs(k / LAYER - j / LAYER) < 2 &&
+                          abs(k / SIDE % SIDE - j / SIDE % SIDE) < 2 &&
+                          abs(k % SIDE - j % SIDE) < 2;
+            if (!beside) continue;
+            block->values[entries] = k == j ? 30 : -1;
+            block->pattern.index[entries++] = k;
+        }
+        block->pattern.start[j + 1] = entries;
+    }
+    for (int32_t k = 0; k < LAYER; k++) block->border[k] = LAYER - 1 - k;
+}
+
+static void point_block_destroy(PointBlock *block)
+{
+    free(block->pattern.start), free(block->pattern.index), free(block->values);
+}
+
+// schur [LAYER^2], x [BLOCK] with sines on the border.
+static void point_block_solve(const PointBlock *block, SparseOrder by, double *schur, double *x)
+{
+    Error err = {0};
+    double given[LAYER];
+    for (int32_t k = 0; k < LAYER; k++) given[k] = sin(k);
+    SparseAnalysis *analysis = sparse_analyse(&block->pattern, block->border, LAYER, by, &err);
+    SparseFactor *factor = analysis ? sparse_factorise(analysis, block->values, &err) : NULL;
+    if (!factor) fail_msg("%s", err.message);
+    sparse_schur(factor, schur);
+    if (x) assert_true(sparse_expand_many(factor, given, 1, x, &err));
+    sparse_factor_destroy(factor);
+    sparse_analysis_destroy(analysis);
+}
+
+// An order by nested dissection is another one (S has other roundings), and answers as that by
+// minimum degree does.
 TEST(test_dissection)
 {
-    enum { N = 14, LAYER = N * N, SIZE = N * LAYER };
-    Error err = {0};
     dense_use_one_thread();
-    SparsePattern pattern = {.size = SIZE,
-                             .start = calloc(SIZE + 1, sizeof(int32_t)),
-                             .index = calloc(27 * SIZE, sizeof(int32_t))};
-    double *values = calloc(27 * SIZE, sizeof *values);
-    int32_t border[LAYER], entries = 0;
-    for (int32_t j = 0; j < SIZE; j++) {
-        for (int32_t k = 0; k < SIZE; k++) {
-            bool beside = abs(k / LAYER - j / LAYER) < 2 && abs(k / N % N - j / N % N) < 2 &&
-                          abs(k % N - j % N) < 2;
-            if (!beside) continue;
-            values[entries] = k == j ? 30 : -1;
-            pattern.index[entries++] = k;
-        }
-        pattern.start[j + 1] = entries;
-    }
-    for (int32_t k = 0; k < LAYER; k++) border[k] = LAYER - 1 - k;
-    double *schur[2], *inside[2], given[LAYER];
-    for (int32_t k = 0; k < LAYER; k++) given[k] = sin(k);
+    PointBlock block;
+    double *schur[2], *x[2];
+    point_block_build(&block);
     for (SparseOrder by = SPARSE_MINIMUM_DEGREE; by <= SPARSE_DISSECTION; by++) {
         schur[by] = hand_matrix(LAYER, LAYER);
-        inside[by] = hand_matrix(SIZE, 1);
-        SparseAnalysis *analysis = sparse_analyse(&pattern, border, LAYER, by, &err);
-        SparseFactor *factor = sparse_factorise(analysis, values, &err);
-        if (!factor) fail_msg("%s", err.message);
-        sparse_schur(factor, schur[by]);
-        assert_true(sparse_expand_many(factor, given, 1, inside[by], &err));
-        sparse_factor_destroy(factor);
-        sparse_analysis_destroy(analysis);
+        x[by] = hand_matrix(BLOCK, 1);
+        point_block_solve(&block, by, schur[by], x[by]);
     }
     assert_all_near("S", schur[1], schur[0], LAYER * LAYER, 1e-12);
-    assert_all_near("x", inside[1], inside[0], SIZE, 1e-12);
+    assert_all_near("x", x[1], x[0], BLOCK, 1e-12);
     assert_true(memcmp(schur[1], schur[0], LAYER * LAYER * sizeof(double)) != 0);
-    for (int32_t k = 0; k < 2; k++) free(schur[k]), free(inside[k]);
-    free(pattern.start), free(pattern.index), free(values);
+    for (int32_t k = 0; k < 2; k++) free(schur[k]), free(x[k]);
+    point_block_destroy(&block);
+}
+
+enum { THREADS = 4, ORDERS = 6 };
+
+typedef struct OrderingThread {
+    const PointBlock *block;
+    double *schur[ORDERS];   // [LAYER^2]
+} OrderingThread;
+
+static void *order_often(void *self)
+{
+    OrderingThread *thread = self;
+    for (int32_t k = 0; k < ORDERS; k++)
+        point_block_solve(thread->block, SPARSE_DISSECTION, thread->schur[k], NULL);
+    return NULL;
+}
+
+// The same bits, whatever other threads order at the same time.
+TEST(test_dissection_in_threads)
+{
+    dense_use_one_thread();
+    PointBlock block;
+    pthread_t handle[THREADS];
+    OrderingThread thread[THREADS];
+    double *alone = hand_matrix(LAYER, LAYER);
+    point_block_build(&block);
+    point_block_solve(&block, SPARSE_DISSECTION, alone, NULL);
+    for (int32_t t = 0; t < THREADS; t++) {
+        thread[t].block = &block;
+        for (int32_t k = 0; k < ORDERS; k++) thread[t].schur[k] = hand_matrix(LAYER, LAYER);
+        assert_int_equal(pthread_create(&handle[t], NULL, order_often, &thread[t]), 0);
+    }
+    for (int32_t t = 0; t < THREADS; t++) {
+        pthread_join(handle[t], NULL);
+        for (int32_t k = 0; k < ORDERS; k++) {
+            assert_memory_equal(thread[t].schur[k], alone, LAYER * LAYER * sizeof(double));
+            free(thread[t].schur[k]);
+        }
+    }
+    free(alone);
+    point_block_destroy(&block);
 }
