@@ -209,6 +209,20 @@ void contact_half_add_forces(const ContactHalf *half, bool antisymmetric, const 
     }
 }
 
+void contact_half_symmetrise(const ContactHalf *half, double *motion, double *work)
+{
+    contact_half_fold(half, false, motion, work);
+    memset(motion, 0, (size_t)half->whole * sizeof *motion);
+    contact_half_add(half, false, work, motion);
+}
+
+void contact_half_symmetrise_forces(const ContactHalf *half, double *force, double *work)
+{
+    contact_half_fold_forces(half, false, force, work);
+    memset(force, 0, (size_t)half->whole * sizeof *force);
+    contact_half_add_forces(half, false, work, force);
+}
+
 void contact_half_fold_statuses(const ContactHalf *half, const uint8_t *status,
                                 const uint8_t *touches, const ContactSolution *out)
 {

@@ -56,6 +56,9 @@ void contact_half_add(const ContactHalf *half, bool antisymmetric, const double 
                       double *out);
 void contact_half_add_forces(const ContactHalf *half, bool antisymmetric, const double *force,
                              double *out);
+// Leaves the symmetric part of both sides alone, of motions, and of forces. work: [interface.count]
+void contact_half_symmetrise(const ContactHalf *half, double *motion, double *work);
+void contact_half_symmetrise_forces(const ContactHalf *half, double *force, double *work);
 // Statuses and which rod nodes touch: of one side, and the same of both.
 void contact_half_fold_statuses(const ContactHalf *half, const uint8_t *status,
                                 const uint8_t *touches, const ContactSolution *out);

@@ -57,8 +57,10 @@ bool bulk_operator_create(const Bulk *bulk, const double *position, const int32_
 {
     if (!allocate_full(bulk, interface_dofs, interface_count, system, err)) return false;
     memcpy(system->load, bulk->load, (size_t)bulk->dof_count * sizeof(double));
+    system->position = position;
     if (position && !list_rigid_motions(bulk, position, system, err)) return false;
-    system->analysis = sparse_analyse(&bulk->pattern, interface_dofs, interface_count, err);
+    SparseOrder order = bulk->dim > 2 ? SPARSE_DISSECTION : SPARSE_MINIMUM_DEGREE;
+    system->analysis = sparse_analyse(&bulk->pattern, interface_dofs, interface_count, order, err);
     return error_is_clean(err);
 }
 
@@ -67,6 +69,7 @@ bool bulk_operator_copy(const BulkOperator *from, BulkOperator *system, Error *e
     if (!allocate_full(from->bulk, from->interface_dofs, from->interface_count, system, err))
         return false;
     memcpy(system->load, from->load, (size_t)from->dof_count * sizeof(double));
+    system->position = from->position;
     system->analysis = sparse_analysis_copy(from->analysis, err);
     return error_is_clean(err);
 }

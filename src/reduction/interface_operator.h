@@ -27,6 +27,8 @@ typedef struct BulkOperator {
     double mass_total;   // of the block, mass/width
     Machine machine;   // behind the rod; set before an operator is made, rigid at first
     const Bulk *bulk;   // full: K, C, M; not owned; NULL when reduced
+    const double *position;   // [dof_count] full: places of its nodes, length; not owned; NULL: not
+        // given
     const ReducedBulk *reduced;   // reduced: likewise; not owned; NULL when full
     ReducedOperator *small;   // of it; owned
     SparseAnalysis *analysis;   // full; owned
@@ -35,9 +37,8 @@ typedef struct BulkOperator {
     int64_t solves;   // counted
 } BulkOperator;
 
-// position: [dof_count] of `bulk`, places of its nodes, length; NULL: no rigid motions are asked
-// for.
-// `bulk` must outlive the operator.
+// position: [dof_count] of `bulk`, places of its nodes, length; NULL: no rigid motions and no
+// mirror images are asked for. `bulk` and position must outlive the operator.
 bool bulk_operator_create(const Bulk *bulk, const double *position, const int32_t *interface_dofs,
                           int32_t interface_count, BulkOperator *system, Error *err);
 // Another one of a full bulk, for another thread: nothing is analysed again.

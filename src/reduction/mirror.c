@@ -81,14 +81,13 @@ static bool is_alike(const Finder *find)
     const Bulk *bulk = find->bulk;
     const SparsePattern *pattern = &bulk->pattern;
     for (int32_t j = 0; j < pattern->size; j++) {
-        int32_t across = image[j], first = pattern->start[across];
-        int32_t end = pattern->start[across + 1];
-        if (pattern->start[j + 1] - pattern->start[j] != end - first) return false;
+        int32_t across = image[j];
+        int32_t entries = pattern->start[across + 1] - pattern->start[across];
+        if (pattern->start[j + 1] - pattern->start[j] != entries) return false;
         if (!(fabs(bulk->mass[j] - bulk->mass[across]) <= ALIKE * bulk->mass[j])) return false;
         for (int32_t k = pattern->start[j]; k < pattern->start[j + 1]; k++) {
-            int32_t row = pattern->index[k], at = first;
-            while (at < end && pattern->index[at] != image[row]) at++;
-            if (at == end) return false;
+            int32_t row = pattern->index[k], at = sparse_entry(pattern, across, image[row]);
+            if (pattern->index[at] != image[row]) return false;
             double sign = sign_of(find, last, row) * sign_of(find, last, j);
             double beside = bulk->mass_beside ? bulk->mass_beside[k] - sign * bulk->mass_beside[at]
                                               : 0;

@@ -73,6 +73,16 @@ void reduced_operator_apply(const ReducedOperator *system, BulkTerm term, const 
     for (int32_t k = 0; k < reduced->count; k++) y[k] *= by;
 }
 
+void reduced_operator_keep(const ReducedOperator *system, const bool *kept, const double *x,
+                           double *out)
+{
+    const ReducedBulk *reduced = system->reduced;
+    reduced_bulk_split(reduced, x, system->local);
+    for (int p = 0; p < reduced->part_count; p++)
+        if (!kept[p]) memset(system->local[p], 0, (size_t)reduced->part[p].count * sizeof *x);
+    reduced_bulk_join(reduced, (const double *const *)system->local, out);
+}
+
 void condensed_bulk_destroy(CondensedBulk *condensed)
 {
     if (!condensed) return;

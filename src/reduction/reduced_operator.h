@@ -17,6 +17,10 @@ void reduced_operator_destroy(ReducedOperator *system);   // NULL is fine
 void reduced_operator_apply(const ReducedOperator *system, BulkTerm term, const double *x,
                             double *y);
 
+// out [count] := what x [count] has in those parts of the bulk that are kept; distinct.
+void reduced_operator_keep(const ReducedOperator *system, const bool *kept, const double *x,
+                           double *out);
+
 // A of one set of terms, condensed.
 typedef struct CondensedBulk CondensedBulk;
 // Fills schur [interface_count^2].

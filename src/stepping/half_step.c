@@ -29,6 +29,23 @@ static bool create_rod(const Rod *whole, const ContactHalf *half, Rod *rod, Erro
     return alike;
 }
 
+// The symmetric part of the bulk, by the images that the interface has.
+static bool find_bulk(const BulkOperator *system, const ContactHalf *half, SymmetricPart *bulk,
+                      Error *err)
+{
+    int32_t *image = NEW_ARRAY(int32_t, half->whole, err);
+    double *sign = NEW_ARRAY(double, half->whole, err);
+    for (int32_t k = 0; error_is_clean(err) && k < half->interface.count; k++) {
+        int32_t own = half->unknown[k], across = half->image[k];
+        image[own] = across;
+        image[across] = own;
+        sign[own] = sign[across] = half->sign[k];
+    }
+    bool done = error_is_clean(err) && symmetric_part_find(system, image, sign, bulk, err);
+    memory_free_all(image, sign);
+    return done;
+}
+
 bool half_step_create(const Block *block, const Certificate *whole, HalfStep *half, Error *err)
 {
     const Interface *side = &half->half.interface;
@@ -37,6 +54,8 @@ bool half_step_create(const Block *block, const Certificate *whole, HalfStep *ha
     if (side->contact_count == 0) return true;
     bool alike = create_rod(block->rod, &half->half, &half->rod, err);
     if (!state_create(&(BulkOperator){0}, side, &half->state, err)) return false;
+    if (!state_create(block->system, block->interface, &half->whole, err)) return false;
+    if (!find_bulk(block->system, &half->half, &half->bulk, err)) return false;
     if (!contact_solver_create(side, &half->solver, err)) return false;
     half->nodes = NEW_ARRAY(FrictionNode, block->interface->contact_count, err);
     half->g = NEW_ARRAY(double, side->count, err);
@@ -63,6 +82,8 @@ void half_step_destroy(HalfStep *half)
     contact_solver_destroy(&half->solver);
     contact_half_destroy(&half->half);
     state_destroy(&half->state);
+    state_destroy(&half->whole);
+    symmetric_part_destroy(&half->bulk);
     memory_free_all(half->rod.softness, half->rod.lag, half->nodes, half->g, half->bound,
                     half->anti_g, half->anti_bound, half->anti_velocity, half->anti_reaction);
     contact_newton_destroy(&half->newton);
@@ -99,6 +120,48 @@ const State *half_step_fold(HalfStep *half, const State *state)
     ContactSolution to = {one->slip_rate, one->reaction, one->status, one->rod_touches};
     fold_solution(&half->half, &from, &to);
     return one;
+}
+
+// u'K u/2 + v'M v/2 of two states' difference.
+static double energy_between(const State *one, const State *other)
+{
+    double sum = 0;
+    for (int32_t k = 0; k < one->dof_count; k++)
+        sum += (one->displacement[k] - other->displacement[k]) *
+                   (one->elastic_force[k] - other->elastic_force[k]) +
+               (one->velocity[k] - other->velocity[k]) * (one->momentum[k] - other->momentum[k]);
+    return 0.5 * sum;
+}
+
+// K, C and M join no symmetric motion to an antisymmetric one, so that the energy lost is that of
+// what is dropped.
+void half_step_symmetrise(HalfStep *half, State *state, double *bound)
+{
+    const ContactHalf *side = &half->half;
+    const int32_t *interface_dofs = half->bulk.exists ? half->bulk.system->interface_dofs : NULL;
+    State *to = &half->whole;
+    if (!interface_dofs) return;
+    state_copy(state, to);
+    symmetric_part_take(&half->bulk, state->displacement, to->displacement);
+    symmetric_part_take(&half->bulk, state->velocity, to->velocity);
+    symmetric_part_take(&half->bulk, state->elastic_force, to->elastic_force);
+    symmetric_part_take(&half->bulk, state->momentum, to->momentum);
+    symmetric_part_take(&half->bulk, state->inertia, to->inertia);
+    for (int32_t k = 0; k < state->branch_count; k++) {
+        int64_t at = (int64_t)k * state->dof_count;
+        symmetric_part_take(&half->bulk, state->stretch + at, to->stretch + at);
+        symmetric_part_take(&half->bulk, state->pull + at, to->pull + at);
+    }
+    double energy = state_elastic_energy(to) +
+                    0.5 * dense_dot(to->velocity, to->momentum, to->dof_count);
+    if (!(energy_between(state, to) <= ALIKE * ALIKE * energy)) return;
+    contact_half_symmetrise(side, to->slip_rate, half->g);
+    contact_half_symmetrise(side, bound, half->g);
+    contact_half_symmetrise_forces(side, to->reaction, half->g);
+    for (int32_t k = 0; k < to->interface_count; k++)
+        to->velocity[interface_dofs[k]] = to->slip_rate[k];
+    state_copy(to, state);
+    half->asymmetry = 0;
 }
 
 // Adds the antisymmetric part, to first order. one: the problem of the symmetric part.

@@ -4,14 +4,15 @@
 // disturbance to one side is antisymmetric and would not show. So each state is asked, too, whether
 // its antisymmetric part can gain energy, S_C - W of that part positive definite
 // (stepping/certificate): where it cannot, a disturbance to one side decays whatever else happens,
-// and the symmetric part is enough. Where it may, the antisymmetric part, if only rounding, is
-// stepped along to first order. From the first problem on whose antisymmetric part is above
-// rounding contact is solved as a whole. Owned by
-// stepping/step_control, which decides that.
+// the symmetric part is enough, and an antisymmetric part that is only rounding is dropped. Where
+// it may, that part is stepped along to first order. From the first problem on whose antisymmetric
+// part is above rounding contact is solved as a whole. Owned by stepping/step_control, which
+// decides that.
 #ifndef AMONTONS_STEPPING_HALF_STEP_H
 #define AMONTONS_STEPPING_HALF_STEP_H
 
 #include "contact/contact_solver.h"
+#include "reduction/symmetric_part.h"
 #include "stepping/certificate.h"
 
 typedef struct HalfStep {
@@ -22,6 +23,8 @@ typedef struct HalfStep {
     FrictionNode *nodes;   // [contact_count of both sides] its nodes
     Rod rod;   // of one side: softness and lag
     State state;   // one side of the last one folded: what the contact knows of it, nothing else
+    SymmetricPart bulk;   // of both sides
+    State whole;   // both sides: the symmetric part of a state, work
     double *g, *bound;   // [interface.count] work, like the next
     ContactNewton newton;   // of the antisymmetric part, like the next four
     double *anti_g, *anti_bound, *anti_velocity, *anti_reaction;   // [interface.count] work
@@ -40,6 +43,11 @@ bool half_step_take_friction(HalfStep *half, const Friction *friction);
 
 // `state` on one side; stands until the next is folded.
 const State *half_step_fold(HalfStep *half, const State *state);
+
+// Drops the antisymmetric part of `state`, in which it decays, and of the bounds [interface.count
+// of both sides] of the step that led there. It stays where the bulk is not split by the mirror, or
+// where it has more than 1e-18 of the state's energy: ALIKE, squared.
+void half_step_symmetrise(HalfStep *half, State *state, double *bound);
 
 // Solves `problem`, whose matrix is that of the symmetric part, all else of both sides, from what
 // is in `solution`. antisymmetric: the matrix of that part; NULL: it decays. *alike: whether the

@@ -364,6 +364,11 @@ bool step_control_advance(StepControl *control, double remaining, Error *err)
              control->now.time, control->def.step_min, reasons[verdict]);
     }
 
+    // An antisymmetric part that is rounding and decays is dropped: friction would hold it, and the
+    // next event begin with what earlier ones have made of it.
+    if (control->scheme.part == PART_SYMMETRIC && antisymmetric_decays)
+        half_step_symmetrise(&control->half, &control->next, control->scheme.bound);
+
     // Accepted: the ledger is booked, and `now` and `next` exchange their arrays.
     control->ledger = book_step(control, k, &outcome);
     State accepted = control->next;

@@ -3,6 +3,7 @@
 // full matrices, dense and by hand: S within what the reduction allows, products and solves to
 // rounding, rigid motions that nothing resists.
 #include "reduction/mirror_nodes.h"
+#include "reduction/symmetric_part.h"
 #include "space_mesh.h"
 #include "unit/reduction/reduced_checks.h"
 
@@ -137,6 +138,83 @@ TEST(test_rigid_motions)
         }
         bulk_operator_destroy(&system);
         free(full), free(force);
+        reduced_block_destroy(&block);
+    }
+}
+
+// Node across y of each node, by its place: -1 where there is none.
+static int32_t *nodes_across(const ReducedBlock *block, double breadth)
+{
+    const Mesh *mesh = &block->mesh;
+    int32_t *across = calloc((size_t)mesh->node_count, sizeof *across);
+    for (int32_t i = 0; i < mesh->node_count; i++) {
+        const double *at = mesh->position + 3 * i;
+        across[i] = -1;
+        for (int32_t j = 0; j < mesh->node_count; j++) {
+            const double *there = mesh->position + 3 * j;
+            if (hypot(hypot(at[0] - there[0], at[2] - there[2]), at[1] + there[1] - breadth) < 1e-9)
+                across[i] = j;
+        }
+    }
+    return across;
+}
+
+// Half of what a node and its image have, node by node of the mesh: on the mesh, and in parts,
+// whose states are recovered. Nothing joins both parts. Blocks that are not their own images have
+// none.
+TEST(test_symmetric_part)
+{
+    for (int32_t s = 0; s < CASE_COUNT; s++) {
+        Error err = {0};
+        ReducedBlock block;
+        BulkOperator system[2];
+        SymmetricPart part[2];
+        build(&CASES[s], &block);
+        int32_t m = block.interface_count, n = block.bulk.dof_count, place = 0;
+        int32_t *across = nodes_across(&block, CASES[s].shape.size[1]);
+        int32_t *image = calloc((size_t)m, sizeof *image);
+        double *sign = hand_matrix(m, 1);
+        bool split = CASES[s].parts == 4;
+        Random random = {.state = 17 + (uint64_t)s};
+        for (int32_t k = 0; k < m; k++) {
+            int32_t dof = 3 * across[block.dofs[k] / 3] + block.dofs[k] % 3;
+            for (place = 0; place < m && block.dofs[place] != dof;) place++;
+            image[k] = place < m ? place : k;
+            sign[k] = dof % 3 == 1 ? -1 : 1;
+        }
+        assert_true(bulk_operator_create(&block.bulk, block.mesh.position, block.dofs, m,
+                                         &system[0], &err));
+        assert_true(bulk_operator_reduce(&block.reduced, 1, 1, &system[1], &err));
+        for (int32_t k = 0; k < 2; k++) {
+            assert_true(symmetric_part_find(&system[k], image, sign, &part[k], &err));
+            assert_int_equal(part[k].exists, split);
+            if (!split) continue;
+            int32_t size = system[k].dof_count;
+            double *x = hand_matrix(size, 1), *even = hand_matrix(size, 1);
+            double *force = hand_matrix(size, 1), *full = hand_matrix(n, 1);
+            double *full_even = hand_matrix(n, 1);
+            for (int32_t i = 0; i < size; i++) x[i] = random_between(&random, -1, 1);
+            symmetric_part_take(&part[k], x, even);
+            bulk_operator_apply(&system[k], BULK_STIFFNESS, even, force);
+            double joined = 0, own = 0;
+            for (int32_t i = 0; i < size; i++) joined += force[i] * (x[i] - even[i]);
+            for (int32_t i = 0; i < size; i++) own += force[i] * even[i];
+            assert_true(own > 0 && fabs(joined) < 1e-11 * own);
+            assert_true(bulk_operator_recover(&system[k], 1, (const double *const[]){x},
+                                              (double *[]){full}, &err));
+            assert_true(bulk_operator_recover(&system[k], 1, (const double *const[]){even},
+                                              (double *[]){full_even}, &err));
+            for (int32_t i = 0; i < n; i++) {
+                double there = (i % 3 == 1 ? -1 : 1) * full[3 * across[i / 3] + i % 3];
+                assert_near("u", full_even[i], 0.5 * (full[i] + there), 1e-10);
+            }
+            free(x), free(even), free(force), free(full), free(full_even);
+        }
+        for (int32_t k = 0; k < 2; k++) {
+            symmetric_part_destroy(&part[k]);
+            bulk_operator_destroy(&system[k]);
+        }
+        free(across), free(image), free(sign);
         reduced_block_destroy(&block);
     }
 }
