@@ -232,7 +232,8 @@ bool sdirk_step(Sdirk *scheme, int32_t k, const State *from, State *to, StepOutc
         if (!outcome->solved) goto cleanup;
     }
 
-    // Size of the local error of u, as stepping/tableau estimates it, and that of friction's states.
+    // Size of the local error of u, as stepping/tableau estimates it, and that of friction's
+    // states.
     const Tableau *tableau = &scheme->tableau;
     const BulkOperator *system = scheme->system;
     double step = dt_level_step(scheme->dt_levels, k), *error = scheme->rhs;

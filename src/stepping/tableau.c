@@ -44,7 +44,8 @@ Tableau tableau_of(TableauKind kind)
     for (int32_t i = 0; i < stages; i++) tableau.c[i] = power[1 + (i + 1) * rows];
 
     // Weights of the error. There are as many stages as the order p: p + 1 values of v just suffice
-    // for e_0 v_n + e_1 v_1 + ... without powers of z below p, and with 1/(p + 1)! - b A^p 1 of z^p.
+    // for e_0 v_n + e_1 v_1 + ... without powers of z below p, and with 1/(p + 1)! - b A^p 1 of
+    // z^p.
     double matrix[VALUES_MAX * VALUES_MAX], factorial = 1;
     int32_t pivots[VALUES_MAX];
     for (int32_t j = 0; j < values; j++) {
