@@ -14,7 +14,7 @@
 // Steps that follow an event at least, for what is read off its course to be more than one step's.
 enum { STEPS_ENOUGH = 8, NAME_SIZE = 48 };
 
-// Of the whole contact, not of the line that figures of a block in space show.
+// Series of the whole contact, not of the line that figures of a block in space show.
 typedef struct Friction {
     int32_t nodes, components;   // components: of slip and shear, in space 2
     double *shear, *slip;   // [rows * nodes * components] stress, length
@@ -79,16 +79,6 @@ static bool read_nodes(const ResultView *view, ResultNodes nodes, double **value
             FAULT(err, ERROR_FILE, "%d values at %d contact nodes", count, view->all_nodes));
 }
 
-static bool read_friction(ResultView *view, Friction *friction, Error *err)
-{
-    friction->nodes = view->all_nodes;
-    return read_vectors(view, friction, SERIES_SLIP, &friction->slip, err) &&
-           read_vectors(view, friction, SERIES_SHEAR, &friction->shear, err) &&
-           result_view_read(view, SERIES_PRESSURE, true, &friction->pressure, err) &&
-           read_nodes(view, NODES_WEIGHT, &friction->weight, err) &&
-           read_nodes(view, NODES_X, &friction->x, err);
-}
-
 static void name_column(CsvWriter *csv, const char *name, const char *unit)
 {
     char text[NAME_SIZE];
@@ -129,7 +119,12 @@ bool events_table_write(const char *path, ResultView *view, Error *err)
     double times = !view->line && thickness > 0 ? thickness : 1;
     double load = view->number[NUMBER_LOAD] * times;
     CsvWriter *csv = NULL;
-    TRY(read_friction(view, &friction, err));
+    friction.nodes = view->all_nodes;
+    TRY(read_vectors(view, &friction, SERIES_SLIP, &friction.slip, err) &&
+        read_vectors(view, &friction, SERIES_SHEAR, &friction.shear, err) &&
+        result_view_read(view, SERIES_PRESSURE, true, &friction.pressure, err) &&
+        read_nodes(view, NODES_WEIGHT, &friction.weight, err) &&
+        read_nodes(view, NODES_X, &friction.x, err));
     TRY(result_view_read_front(view, err));
     TRY(result_file_read_table(view->file, EVENTS_PEAK_RATE, &peak, &peaks, err));
     TRY(csv = csv_create(path, err));

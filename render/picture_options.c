@@ -57,18 +57,6 @@ static double read_end(const char *text, const char **rest, bool *is_part)
     return *is_part ? value / 100 : value;
 }
 
-static bool check_range(const PictureOption *option, const char *value, Error *err)
-{
-    const char *rest = NULL;
-    bool part[2];
-    double low = read_end(value, &rest, &part[0]);
-    double high = *rest == ',' ? read_end(rest + 1, &rest, &part[1]) : NAN;
-    if (!isfinite(low + high) || *rest || (part[0] == part[1] && !(high > low)))
-        return REFUSE(err, "%s %.40s: two rising numbers are allowed, or percents: 1%%,99%%",
-                      option->name, value);
-    return true;
-}
-
 static const PictureOption *find_option(const char *name, Error *err)
 {
     char names[NAMES_SIZE] = "";
@@ -90,7 +78,15 @@ bool picture_option_set(PictureStyle *style, const char *name, const char *value
     if (option->kind == OPTION_NUMBER) return set_number(option, value, place, err);
     if (option->kind == OPTION_WORD && !is_among(option->words, value))
         return REFUSE(err, "%s %.40s: one of these is allowed: %s", name, value, option->words);
-    if (option->kind == OPTION_RANGE && !check_range(option, value, err)) return false;
+    if (option->kind == OPTION_RANGE) {
+        const char *rest = NULL;
+        bool part[2];
+        double low = read_end(value, &rest, &part[0]);
+        double high = *rest == ',' ? read_end(rest + 1, &rest, &part[1]) : NAN;
+        if (!isfinite(low + high) || *rest || (part[0] == part[1] && !(high > low)))
+            return REFUSE(err, "%s %.40s: two rising numbers are allowed, or percents: 1%%,99%%",
+                          option->name, value);
+    }
     *(const char **)place = value;
     return error_is_clean(err);
 }

@@ -51,20 +51,6 @@ static int32_t picture_count(const PictureRequest *request)
     return request->panels ? 1 : request->figure_count > 0 ? request->figure_count : FIGURE_COUNT;
 }
 
-// "field", or "field-stress_xx" where that was asked for.
-static bool picture_path(const char *folder, const PictureRequest *request, const Figure *figure,
-                         char path[PATH_MAX], Error *err)
-{
-    bool takes = figure && figure->shape->draw_whole && figure->id != FIGURE_PROFILE;
-    const char *of = takes ? request->field.of : NULL;
-    int length =
-        snprintf(path, PATH_MAX, "%s/figures/%s%s%s.%s", folder, figure ? figure->name : "panels",
-                 of ? "-" : "", of ? of : "",
-                 request->style.format ? request->style.format : canvas_ending(CANVAS_PNG));
-    return (length >= 0 && length < PATH_MAX) ||
-           REFUSE(err, "the result folder's path is too long");
-}
-
 // One picture from nothing to its file. Whatever fails, all that was made for it is freed.
 static bool make_picture(const char *folder, const PictureRequest *request, const Picture *picture,
                          ResultView *view, Error *err)
@@ -72,7 +58,16 @@ static bool make_picture(const char *folder, const PictureRequest *request, cons
     Page page = {0};
     char path[PATH_MAX];
     const Figure *figure = picture->figure;
-    TRY(picture_path(folder, request, figure, path, err));
+
+    // "field", or "field-stress_xx" where that was asked for.
+    bool takes = figure && figure->shape->draw_whole && figure->id != FIGURE_PROFILE;
+    const char *of = takes ? request->field.of : NULL;
+    int length =
+        snprintf(path, PATH_MAX, "%s/figures/%s%s%s.%s", folder, figure ? figure->name : "panels",
+                 of ? "-" : "", of ? of : "",
+                 request->style.format ? request->style.format : canvas_ending(CANVAS_PNG));
+    TRY((length >= 0 && length < PATH_MAX) || REFUSE(err, "the result folder's path is too long"));
+
     TRY(picture_draw(picture, folder, request, view, &page, err));
     TRY(page_finish(&page, path, figure ? figure->title : view->title, err));
     for (int32_t k = 0; k < picture->count; ++k)

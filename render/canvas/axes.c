@@ -284,16 +284,6 @@ static void left_numbers(const Page *page, const Axes *axes, const TextStyle *st
                    &ticks);
 }
 
-// Draws names at y = 1, 2, ... in the place of numbers; there are no minor ticks between names.
-static void left_names(const Page *page, const Axes *axes, const TextStyle *style, double edge)
-{
-    for (int32_t k = 0; k < axes->y.name_count; ++k) {
-        Point foot = axes_place(axes, axes->x.low, k + 1);
-        tick_mark(page, axes, foot, false, TICK_LENGTH);
-        if (!axes->bare_y) text_draw(page->text, style, (Point){edge, foot.y}, axes->y.names[k]);
-    }
-}
-
 // With the frame, last: its line covers where ticks and data meet it.
 void axes_draw_left(const Page *page, const Axes *axes)
 {
@@ -301,9 +291,16 @@ void axes_draw_left(const Page *page, const Axes *axes)
     TextStyle style = {
         .size = axes_number_size(axes) * page->point, .color = INK, .across = 1, .up = 0.5};
     double edge = axes->box.left - (TICK_LENGTH + NUMBER_GAP) * page->point;
-    if (axes->y.names)
-        left_names(page, axes, &style, edge);
-    else
+    if (axes->y.names) {
+        // Draws names at y = 1, 2, ... in the place of numbers; there are no minor ticks between
+        // names.
+        for (int32_t k = 0; k < axes->y.name_count; ++k) {
+            Point foot = axes_place(axes, axes->x.low, k + 1);
+            tick_mark(page, axes, foot, false, TICK_LENGTH);
+            if (!axes->bare_y)
+                text_draw(page->text, &style, (Point){edge, foot.y}, axes->y.names[k]);
+        }
+    } else
         left_numbers(page, axes, &style, edge);
     style =
         (TextStyle){.size = LABEL_SIZE * page->point, .color = INK, .across = 0.5, .rising = true};

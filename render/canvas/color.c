@@ -87,19 +87,14 @@ static Color color_of_lab(Lab lab)
                    (float)srgb_value(0.0556434 * x - 0.2040259 * y + 1.0572252 * z), 1};
 }
 
-static Lab lab_of_color(Color color)
+Color color_on_dark(Color color)
 {
     double red = srgb_linear((double)color.red), green = srgb_linear((double)color.green);
     double blue = srgb_linear((double)color.blue);
     double x = lab_root((0.4124564 * red + 0.3575761 * green + 0.1804375 * blue) / 0.95047);
     double y = lab_root(0.2126729 * red + 0.7151522 * green + 0.0721750 * blue);
     double z = lab_root((0.0193339 * red + 0.1191920 * green + 0.9503041 * blue) / 1.08883);
-    return (Lab){116 * y - 16, 500 * (x - y), 200 * (y - z)};
-}
-
-Color color_on_dark(Color color)
-{
-    Lab lab = lab_of_color(color);
+    Lab lab = {116 * y - 16, 500 * (x - y), 200 * (y - z)};
     lab.L = DARK_INK + (DARK_PAPER - DARK_INK) * lab.L / 100;
     Color turned = color_of_lab(lab);
     turned.alpha = color.alpha;

@@ -250,23 +250,17 @@ static void buffers_create(Gl *gl)
     gl->PixelStorei(GL_UNPACK_ALIGNMENT, 1);
 }
 
-static bool calls_find(Gl *gl, Error *err)
-{
-#define X(type, name, arguments)                                                                   \
-    gl->name = (type(*) arguments)gl->context.find("gl" #name);                                    \
-    if (!gl->name) return FAULT(err, ERROR_LIBRARY, "OpenGL has no gl%s", #name);
-    GL_CALLS(X)
-#undef X
-    return true;
-}
-
 static bool gl_open(Gl *gl, GlSource source, Error *err)
 {
     if (!(source == GL_OSMESA ? mesa_open(&gl->context, err) : egl_open(&gl->context, err)))
         return false;
     if (!context_use(&gl->context, true))
         return FAULT(err, ERROR_LIBRARY, "OpenGL's context cannot be used");
-    if (!calls_find(gl, err)) return false;
+#define X(type, name, arguments)                                                                   \
+    gl->name = (type(*) arguments)gl->context.find("gl" #name);                                    \
+    if (!gl->name) return FAULT(err, ERROR_LIBRARY, "OpenGL has no gl%s", #name);
+    GL_CALLS(X)
+#undef X
     buffers_create(gl);
     gl->ready = true;
     gl->process = getpid();
@@ -312,16 +306,6 @@ static GLint uniform(const Gl *gl, GlKind kind, const char *name)
     return gl->GetUniformLocation(gl->program[kind], name);
 }
 
-static void values_load(const Gl *gl, const GlImageDef *def)
-{
-    gl->ActiveTexture(GL_TEXTURE0 + UNIT_VALUES);
-    gl->TexImage2D(GL_TEXTURE_2D, 0, GL_R32F, def->columns, def->rows, 0, GL_RED, GL_FLOAT,
-                   def->values);
-    gl->Uniform1i(uniform(gl, BY_VALUES, "values"), UNIT_VALUES);
-    gl->Uniform2f(uniform(gl, BY_VALUES, "scale"), (float)def->columns / (float)def->width,
-                  (float)def->rows / (float)def->height);
-}
-
 // Values that are a texture fill the image by one triangle that is larger than it.
 static bool image_draw(Gl *gl, const GlImageDef *def, uint32_t *pixels, Error *err)
 {
@@ -337,7 +321,14 @@ static bool image_draw(Gl *gl, const GlImageDef *def, uint32_t *pixels, Error *e
     gl->Uniform1f(uniform(gl, kind, "last"), (float)(def->color_count - 1));
     gl->Uniform1ui(uniform(gl, kind, "below"), def->below);
     gl->Uniform2f(uniform(gl, kind, "size"), width, height);
-    if (def->values) values_load(gl, def);
+    if (def->values) {
+        gl->ActiveTexture(GL_TEXTURE0 + UNIT_VALUES);
+        gl->TexImage2D(GL_TEXTURE_2D, 0, GL_R32F, def->columns, def->rows, 0, GL_RED, GL_FLOAT,
+                       def->values);
+        gl->Uniform1i(uniform(gl, BY_VALUES, "values"), UNIT_VALUES);
+        gl->Uniform2f(uniform(gl, BY_VALUES, "scale"), (float)def->columns / (float)def->width,
+                      (float)def->rows / (float)def->height);
+    }
     if (def->values)
         corners_draw(gl, all, 3);
     else

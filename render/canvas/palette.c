@@ -19,36 +19,12 @@ static int32_t bin_of(const uint8_t *pixel)
     return pixel[2] >> DROPPED << 2 * BITS | pixel[1] >> DROPPED << BITS | pixel[0] >> DROPPED;
 }
 
-static void count_pixels(const PalettePixels *picture, Bin *bins)
-{
-    for (int32_t row = 0; row < picture->height; ++row) {
-        const uint8_t *pixel = picture->bytes + (int64_t)row * picture->stride;
-        for (int32_t k = 0; k < picture->width; ++k, pixel += 4) {
-            Bin *bin = &bins[bin_of(pixel)];
-            for (int32_t c = 0; c < 3; ++c) bin->sum[c] += pixel[2 - c];
-            ++bin->count;
-        }
-    }
-}
-
 // The most frequent first; equally frequent ones by their place: same picture, same palette.
 static int compare_bins(const void *left, const void *right)
 {
     const Bin *a = left, *b = right;
     if (a->count != b->count) return a->count < b->count ? 1 : -1;
     return a->place - b->place;
-}
-
-// *used: those that hold pixels, moved to the front and sorted.
-static void sort_bins(Bin *bins, int32_t *used)
-{
-    *used = 0;
-    for (int32_t k = 0; k < BINS; ++k) {
-        if (bins[k].count == 0) continue;
-        bins[k].place = k;
-        bins[(*used)++] = bins[k];
-    }
-    qsort(bins, (size_t)*used, sizeof *bins, compare_bins);
 }
 
 // The colour of the palette nearest to the mean of a bin.
@@ -79,8 +55,24 @@ bool palette_make(const PalettePixels *picture, Palette *palette, Error *err)
     TRY(bins);
     TRY(of_bin = NEW_ARRAY(uint8_t, BINS, err));
     TRY(palette->index = memory_bytes(pixels, err));
-    count_pixels(picture, bins);
-    sort_bins(bins, &used);
+    for (int32_t row = 0; row < picture->height; ++row) {
+        const uint8_t *pixel = picture->bytes + (int64_t)row * picture->stride;
+        for (int32_t k = 0; k < picture->width; ++k, pixel += 4) {
+            Bin *bin = &bins[bin_of(pixel)];
+            for (int32_t c = 0; c < 3; ++c) bin->sum[c] += pixel[2 - c];
+            ++bin->count;
+        }
+    }
+
+    // Those that hold pixels, `used` of them, are moved to the front and sorted.
+    used = 0;
+    for (int32_t k = 0; k < BINS; ++k) {
+        if (bins[k].count == 0) continue;
+        bins[k].place = k;
+        bins[used++] = bins[k];
+    }
+    qsort(bins, (size_t)used, sizeof *bins, compare_bins);
+
     palette->count = used < PALETTE_SIZE ? used : PALETTE_SIZE;
     for (int32_t k = 0; k < palette->count; ++k)
         for (int32_t c = 0; c < 3; ++c)

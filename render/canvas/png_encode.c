@@ -47,16 +47,6 @@ static void bytes_flush(png_structp png)
     (void)png;   // they are in memory
 }
 
-static void palette_write(png_structp png, png_infop info, const Palette *palette)
-{
-    png_color colors[PALETTE_SIZE];
-    for (int32_t k = 0; k < palette->count; ++k)
-        colors[k] = (png_color){.red = palette->color[k][0],
-                                .green = palette->color[k][1],
-                                .blue = palette->color[k][2]};
-    png_set_PLTE(png, info, colors, palette->count);
-}
-
 // Three bytes a pixel, which libpng would make by itself in twice the time. Most rows of a figure
 // are the one before once more.
 static void row_pack(const PngPicture *picture, int32_t row, uint8_t *packed)
@@ -69,14 +59,6 @@ static void row_pack(const PngPicture *picture, int32_t row, uint8_t *packed)
         packed[3 * k + 1] = pixels[4 * k + 1];
         packed[3 * k + 2] = pixels[4 * k];
     }
-}
-
-static void row_write(png_structp png, const PngPicture *picture, const Palette *palette,
-                      int32_t row, uint8_t *packed)
-{
-    if (palette->count == 0) row_pack(picture, row, packed);
-    png_write_row(png, palette->count == 0 ? packed
-                                           : palette->index + (size_t)row * (size_t)picture->width);
 }
 
 // Size, colour space, density for print, title and program: everything before the rows.
@@ -98,7 +80,14 @@ static void head_write(png_structp png, png_infop info, const PngPicture *pictur
     png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
     png_set_pHYs(png, info, density, density, PNG_RESOLUTION_METER);
     png_set_text(png, info, texts, TEXTS);
-    if (small) palette_write(png, info, palette);
+    if (small) {
+        png_color colors[PALETTE_SIZE];
+        for (int32_t k = 0; k < palette->count; ++k)
+            colors[k] = (png_color){.red = palette->color[k][0],
+                                    .green = palette->color[k][1],
+                                    .blue = palette->color[k][2]};
+        png_set_PLTE(png, info, colors, palette->count);
+    }
     png_write_info(png, info);
 }
 
@@ -127,8 +116,12 @@ bool png_encode(const PngPicture *picture, PngSink sink, void *context, Error *e
     if (setjmp(png_jmpbuf(png)) == 0) {
         png_set_write_fn(png, &output, bytes_pass, bytes_flush);
         head_write(png, info, picture, &palette);
-        for (int32_t row = 0; row < picture->height; ++row)
-            row_write(png, picture, &palette, row, packed);
+        for (int32_t row = 0; row < picture->height; ++row) {
+            if (palette.count == 0) row_pack(picture, row, packed);
+            png_write_row(png, palette.count == 0
+                                   ? packed
+                                   : palette.index + (size_t)row * (size_t)picture->width);
+        }
         png_write_end(png, info);
     }
     png_destroy_write_struct(&png, &info);

@@ -19,18 +19,6 @@ typedef struct Mark {
     const char *begin, *end;   // markup around what stands in ~{}, _{}, ^{}
 } Mark;
 
-static Mark mark_of(char letter, bool svg)
-{
-    static const Mark marks[3][2] = {
-        {{"<i>", "</i>"}, {"<tspan font-style='italic'>", "</tspan>"}},
-        {{"<sub>", "</sub>"},
-         {"<tspan dy='4' font-size='75%'>", "</tspan><tspan dy='-4'>\u200b</tspan>"}},
-        {{"<sup>", "</sup>"},
-         {"<tspan dy='-4' font-size='75%'>", "</tspan><tspan dy='4'>\u200b</tspan>"}},
-    };
-    return marks[letter == '~' ? 0 : letter == '_' ? 1 : 2][svg];
-}
-
 // A bracket without its mark, or more of them than DEPTH_MAX in each other, is text.
 static void write_words(HtmlWriter *html, const char *words, bool svg)
 {
@@ -38,7 +26,14 @@ static void write_words(HtmlWriter *html, const char *words, bool svg)
     int32_t depth = 0;
     for (const char *at = words; *at;) {
         if (strchr("~_^", *at) && at[1] == '{' && depth < DEPTH_MAX) {
-            Mark mark = mark_of(*at, svg);
+            static const Mark marks[3][2] = {
+                {{"<i>", "</i>"}, {"<tspan font-style='italic'>", "</tspan>"}},
+                {{"<sub>", "</sub>"},
+                 {"<tspan dy='4' font-size='75%'>", "</tspan><tspan dy='-4'>\u200b</tspan>"}},
+                {{"<sup>", "</sup>"},
+                 {"<tspan dy='-4' font-size='75%'>", "</tspan><tspan dy='4'>\u200b</tspan>"}},
+            };
+            Mark mark = marks[*at == '~' ? 0 : *at == '_' ? 1 : 2][svg];
             html_raw(html, mark.begin);
             ends[depth++] = mark.end;
             at += 2;

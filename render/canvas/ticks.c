@@ -105,24 +105,20 @@ static int32_t power_of(double value)
     return (int32_t)floor(log10(value) + END_SLACK);
 }
 
-// Numbers that stand for themselves, or all with a power of ten where one would be long.
-static void label_third(const Ticks *ticks, int32_t k, char label[TICK_LABEL_SIZE])
-{
-    double value = tick_value(ticks, k);
-    int32_t power = power_of(value), last = power_of(tick_value(ticks, ticks->count - 1));
-    bool short_all = power_of(tick_value(ticks, 0)) >= EXPONENT_LOW - 1 &&
-                     last <= EXPONENT_HIGH + 1;
-    if (short_all)
-        snprintf(label, TICK_LABEL_SIZE, "%.*f", power < 0 ? -power : 0, value);
-    else
-        snprintf(label, TICK_LABEL_SIZE, "%.0f\u00d710^{%d}", value / pow(10, power), power);
-}
-
 // The sign is written by hand: 0 must not become "-0", and a minus sign is not a hyphen.
 void tick_label(const Ticks *ticks, int32_t k, char label[TICK_LABEL_SIZE])
 {
     if (ticks->thirds) {
-        label_third(ticks, k, label);
+        // Numbers that stand for themselves, or all with a power of ten where one would be long.
+        double value = tick_value(ticks, k);
+        int32_t power = power_of(value), last = power_of(tick_value(ticks, ticks->count - 1));
+        bool short_all = power_of(tick_value(ticks, 0)) >= EXPONENT_LOW - 1 &&
+                         last <= EXPONENT_HIGH + 1;
+        if (short_all)
+            snprintf(label, TICK_LABEL_SIZE, "%.*f", power < 0 ? -power : 0, value);
+        else
+            snprintf(label, TICK_LABEL_SIZE, "%.0f\u00d710^{%d}", value / pow(10, power), power);
+
         return;
     }
     if (ticks->is_log) {

@@ -132,19 +132,6 @@ bool block_cut_read(const ResultView *view, const char *words, SpaceCut *cut, Er
 
 // --- the block -----------------------------------------------------------------------------------
 
-// At the numbers of the bar.
-static void draw_contours(const Page *page, const BlockPage *map, const Block *block,
-                          const Axes *axes)
-{
-    Stroke stroke = {.color = CONTOUR, .width = CONTOUR_WIDTH * map->share * page->point};
-    Ticks ticks = colorbar_ticks(&map->bar);
-    for (int32_t k = 0; k < ticks.count; ++k) {
-        double level = tick_value(&ticks, k);
-        if (level > map->bar.low && level < map->bar.high)
-            block_contour_draw(page, block, axes, level / map->bar.factor, &stroke);
-    }
-}
-
 static SpacePage space_of(const Page *page, const BlockPage *map, const Axes *axes)
 {
     static const SpaceCut whole = {0};
@@ -304,7 +291,16 @@ bool block_page_draw(const Page *page, const BlockPage *map, const Block *block,
                            map->bar.high / map->bar.factor, err))
         return false;
     if (map->edges) block_edges_draw(page, block, axes, &edge);
-    draw_contours(page, map, block, axes);
+
+    // At the numbers of the bar.
+    Stroke stroke = {.color = CONTOUR, .width = CONTOUR_WIDTH * map->share * page->point};
+    Ticks ticks = colorbar_ticks(&map->bar);
+    for (int32_t k = 0; k < ticks.count; ++k) {
+        double level = tick_value(&ticks, k);
+        if (level > map->bar.low && level < map->bar.high)
+            block_contour_draw(page, block, axes, level / map->bar.factor, &stroke);
+    }
+
     if (!block_outline_draw(page, block, axes, &outline, err)) return false;
     draw_contact(page, map, block, block->row, axes);
     Point left = axes_place(axes, axes->x.low, 0), right = axes_place(axes, axes->x.high, 0);

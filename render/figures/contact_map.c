@@ -16,28 +16,6 @@ Axes contact_map_axes(const ResultView *view)
                   .y = figure_length_axis(view, "y", plane->low[1], plane->high[1])};
 }
 
-// Its edge, too: between shapes side by side the paper would shine through.
-static void draw_neutral(const Page *page, Color color, const Point corner[PATCH_CORNERS])
-{
-    Stroke stroke = {.color = color, .width = fmax(1, SEAM * page->point)};
-    Point round[PATCH_CORNERS + 1];
-    memcpy(round, corner, PATCH_CORNERS * sizeof *corner);
-    round[PATCH_CORNERS] = corner[0];
-    draw_polygon(page->canvas, color, corner, PATCH_CORNERS);
-    draw_line(page->canvas, &stroke, round, PATCH_CORNERS + 1);
-}
-
-static void draw_outline_of(const Page *page, const ContactPlane *plane, const Axes *axes)
-{
-    Stroke stroke = {.color = INK, .width = OUTLINE_WIDTH * page->point};
-    for (int32_t k = 0; k < plane->side_count; ++k) {
-        Point line[3];
-        for (int32_t c = 0; c < 3; ++c)
-            line[c] = axes_place(axes, plane->sides[k].point[c][0], plane->sides[k].point[c][1]);
-        draw_line(page->canvas, &stroke, line, 3);
-    }
-}
-
 // Patches in colours as an image; what has none is a shape.
 bool contact_map_draw(const Page *page, const ContactPlane *plane, const float *level,
                       Color neutral, const Axes *axes, Error *err)
@@ -51,7 +29,17 @@ bool contact_map_draw(const Page *page, const ContactPlane *plane, const float *
         Point corner[PATCH_CORNERS];
         for (int32_t c = 0; c < PATCH_CORNERS; ++c)
             corner[c] = axes_place(axes, patch->corner[c][0], patch->corner[c][1]);
-        if (level[patch->node] < 0) draw_neutral(page, neutral, corner);
+
+        if (level[patch->node] < 0) {
+            // Its edge, too: between shapes side by side the paper would shine through.
+            Stroke stroke = {.color = neutral, .width = fmax(1, SEAM * page->point)};
+            Point round[PATCH_CORNERS + 1];
+            memcpy(round, corner, PATCH_CORNERS * sizeof *corner);
+            round[PATCH_CORNERS] = corner[0];
+            draw_polygon(page->canvas, neutral, corner, PATCH_CORNERS);
+            draw_line(page->canvas, &stroke, round, PATCH_CORNERS + 1);
+        }
+
         for (int32_t c = 0; c < 6 && level[patch->node] >= 0; ++c) {
             const Point *at = &corner[turn[c]];
             corners[count++] = (GlCorner){(float)(at->x - axes->box.left),
@@ -59,7 +47,13 @@ bool contact_map_draw(const Page *page, const ContactPlane *plane, const float *
         }
     }
     if (count > 0) canvas_heat_triangles(page->canvas, &axes->box, corners, count);
-    draw_outline_of(page, plane, axes);
+    Stroke stroke = {.color = INK, .width = OUTLINE_WIDTH * page->point};
+    for (int32_t k = 0; k < plane->side_count; ++k) {
+        Point line[3];
+        for (int32_t c = 0; c < 3; ++c)
+            line[c] = axes_place(axes, plane->sides[k].point[c][0], plane->sides[k].point[c][1]);
+        draw_line(page->canvas, &stroke, line, 3);
+    }
 cleanup:
     memory_free(corners);
     return error_is_clean(err);

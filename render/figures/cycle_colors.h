@@ -10,8 +10,8 @@
 enum { CYCLE_KEYS = 8, CYCLE_WORDS_SIZE = 48 };
 typedef char CycleWords[CYCLE_KEYS][CYCLE_WORDS_SIZE];
 
-// Of cycle number k, from 1, of `count`: up to eight colours of their own, beyond that from blue in
-// the first to orange in the last.
+// Colour of cycle number k, from 1, of `count`: up to eight colours of their own, beyond that from
+// blue in the first to orange in the last.
 Color cycle_color(int32_t k, int32_t count);
 
 // Adds what the colours mean to the entries of a key; returns how many these are then. words: must

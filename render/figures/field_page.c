@@ -28,19 +28,6 @@ double field_page_lay_out(FieldPage *field, double page_width)
     return (WORDS_HEIGHT + field->height + axes_bottom_margin(&axes) + LEGEND_HEIGHT) / page_width;
 }
 
-// "U / L_0 = 0.0117   deformation x 50".
-static void draw_words(const Page *page, const FieldPage *field, const BlockPage *map,
-                       const Block *block, const Axes *axes)
-{
-    char words[WORDS_SIZE];
-    Axis U = figure_length_axis(map->view, "U", block->U, block->U);
-    TextStyle style = {.size = SMALL_SIZE * page->point, .color = INK};
-    snprintf(words, sizeof words, "%s = %.5g    deformation \u00d7 %g", U.label,
-             block->U * U.factor, field->magnification);
-    text_draw_within(page->text, &style, (Point){axes->box.left, axes->box.top - 3.5 * page->point},
-                     axes->box.right - axes->box.left, words);
-}
-
 bool field_page_draw(const Page *page, const FieldPage *field, const BlockPage *map,
                      const Block *block, Error *err)
 {
@@ -55,7 +42,16 @@ bool field_page_draw(const Page *page, const FieldPage *field, const BlockPage *
     axes.box.bottom = axes.box.top + round(field->height * point);
     if (!block_page_draw(page, map, block, &axes, err)) return false;
     block_page_axes(page, map, block, &axes);
-    draw_words(page, field, map, block, &axes);
+
+    // "U / L_0 = 0.0117   deformation x 50".
+    char words[WORDS_SIZE];
+    Axis U = figure_length_axis(map->view, "U", block->U, block->U);
+    TextStyle style = {.size = SMALL_SIZE * page->point, .color = INK};
+    snprintf(words, sizeof words, "%s = %.5g    deformation \u00d7 %g", U.label,
+             block->U * U.factor, field->magnification);
+    text_draw_within(page->text, &style, (Point){axes.box.left, axes.box.top - 3.5 * page->point},
+                     axes.box.right - axes.box.left, words);
+
     colorbar_draw(page, &map->bar, &axes.box, BAR_GAP);
     double below = axes.box.bottom + (axes_bottom_margin(&axes) + 0.5 * LEGEND_HEIGHT) * point;
     block_page_legend(page, (Point){axes.box.left, below}, 0);

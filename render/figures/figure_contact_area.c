@@ -52,7 +52,8 @@ bool figure_contact_area(const Page *whole, ResultView *view, Error *err)
     MapPage map = {.sign = -1};
     bool asked = page.style.from || page.style.to, open = false;
 
-    // What is shown, and the part of it that the colours are for: sliding is darker than any.
+    // The range that is shown, and the part of it that the colours are for: sliding is darker than
+    // any.
     TRY(view_range_find(view, &page.style, &shown, err));
     if (zoom.found && !asked) {
         shown.low = zoom.U_low;

@@ -32,24 +32,6 @@ static Precursors precursors_look(const ResultView *view, const Zoom *zoom, doub
     return seen;
 }
 
-// The precursors fill the scale: far below v_c they would hardly show between 0 and 1. In sliding
-// phi is below the scale, which the scale says.
-static double range_low(double density_min)
-{
-    int32_t k = 0;
-    while (k < RANGES - 1 && RANGE_LOW[k] > density_min) ++k;
-    return RANGE_LOW[k];
-}
-
-static void key_of_map(Page *page, const ResultView *view, const Zoom *zoom,
-                       const Measured *measured)
-{
-    KeyEntry entries[4] = {{KEY_LINE, INK, "front of slip"}};
-    int32_t count = 1 + map_page_key(view, NULL, entries + 1);
-    if (zoom->words[0]) entries[count++] = (KeyEntry){.words = zoom->words};
-    key_draw(page, entries, measured_key(measured, KEY_RING, entries, count));
-}
-
 bool figure_contact_density(const Page *whole, ResultView *view, Error *err)
 {
     Page page = *whole;
@@ -67,13 +49,22 @@ bool figure_contact_density(const Page *whole, ResultView *view, Error *err)
     TRY(result_view_read_status(view, err));
     map.status = view->status;
     Precursors seen = precursors_look(view, &zoom, critical);
-    map.bar.low = range_low(seen.density_min);
+
+    // The precursors fill the scale: far below v_c they would hardly show between 0 and 1. In
+    // sliding phi is below the scale, which the scale says.
+    int32_t k = 0;
+    while (k < RANGES - 1 && RANGE_LOW[k] > seen.density_min) ++k;
+    map.bar.low = RANGE_LOW[k];
+
     map.bar.clipped = map.bar.low > 0;
     map.bar.neutral = seen.open ? "open" : NULL;
     map.bar.neutral_color = MAP_OPEN;
     if (!figure_contact_area_shows(view))   // else that figure has them
         TRY(measured_read(page.style.compare, MEASURED_AREA, view, &measured, err));
-    key_of_map(&page, view, &zoom, &measured);
+    KeyEntry entries[4] = {{KEY_LINE, INK, "front of slip"}};
+    int32_t count = 1 + map_page_key(view, NULL, entries + 1);
+    if (zoom.words[0]) entries[count++] = (KeyEntry){.words = zoom.words};
+    key_draw(&page, entries, measured_key(&measured, KEY_RING, entries, count));
     TRY(map_page_draw(&page, view, (double[]){zoom.U_low, zoom.U_high}, &map, err));
     map_page_draw_front(&page, view, &map);
     map_page_draw_areas(&page, &measured, &map);

@@ -224,19 +224,6 @@ static void write_words(const Maps *maps, int32_t k, char words[WORDS_SIZE])
     if (maps->quantity == CONTACT_ARRIVAL) words[0] = '\0';
 }
 
-// Writes the note that says what the words above the maps count.
-static void write_note(const Maps *maps, char words[WORDS_SIZE])
-{
-    const ResultView *view = maps->view;
-    int64_t row = maps->moments.first;
-    Axis U = figure_length_axis(view, "U", view->U[row], view->U[row]);
-    if (maps->moments.asked)
-        snprintf(words, WORDS_SIZE, "above the maps: %s", U.label);
-    else
-        snprintf(words, WORDS_SIZE, "times from when slip turns rapid, %.60s = %.6g", U.label,
-                 view->U[row] * U.factor);
-}
-
 // --- the page ------------------------------------------------------------------------------------
 
 // As many maps in a line as make all of them nearest to a square, but not so that they would be
@@ -262,15 +249,6 @@ static double lay_out(Maps *maps, double room)
     return maps->lines * (maps->height + WORDS_HEIGHT);
 }
 
-static bool draw_map(const Page *page, const Maps *maps, int32_t k, const Axes *axes, Error *err)
-{
-    const ContactPlane *plane = &maps->view->plane;
-    const double *values = maps->values + (int64_t)k * plane->nodes;
-    for (int32_t i = 0; i < plane->nodes; ++i)
-        maps->level[i] = colorbar_level(&maps->bar, values[i]);
-    return contact_map_draw(page, plane, maps->level, maps->bar.neutral_color, axes, err);
-}
-
 static bool draw_maps(const Page *page, const Maps *maps, double left, Error *err)
 {
     double point = page->point;
@@ -287,7 +265,12 @@ static bool draw_maps(const Page *page, const Maps *maps, double left, Error *er
         axes.box.bottom = axes.box.top + round(maps->height * point);
         axes.bare_y = column > 0;
         axes.bare_x = k + maps->columns < maps->count;
-        if (!draw_map(page, maps, k, &axes, err)) return false;
+        const ContactPlane *plane = &maps->view->plane;
+        const double *values = maps->values + (int64_t)k * plane->nodes;
+        for (int32_t i = 0; i < plane->nodes; ++i)
+            maps->level[i] = colorbar_level(&maps->bar, values[i]);
+        if (!contact_map_draw(page, plane, maps->level, maps->bar.neutral_color, &axes, err))
+            return false;
         axes_draw(page, &axes);
         write_words(maps, k, words);
         text_draw_within(page->text, &style, (Point){axes.box.left, axes.box.top - 2.5 * point},
@@ -318,7 +301,17 @@ static bool draw_page(Page *page, const FigureInput *input, Maps *maps, Error *e
         left += (room - used) / 2;
         def.height = height / width;
     }
-    write_note(maps, note);
+
+    // Writes the note that says what the words above the maps count.
+    const ResultView *view = maps->view;
+    int64_t row = maps->moments.first;
+    Axis U = figure_length_axis(view, "U", view->U[row], view->U[row]);
+    if (maps->moments.asked)
+        snprintf(note, WORDS_SIZE, "above the maps: %s", U.label);
+    else
+        snprintf(note, WORDS_SIZE, "times from when slip turns rapid, %.60s = %.6g", U.label,
+                 view->U[row] * U.factor);
+
     if (!draw_maps(page, maps, round(left * page->point), err)) return false;
     Page same = *page;   // what is warned of stands below all of its room
     key_draw(&same, &(KeyEntry){.words = note}, 1);

@@ -164,21 +164,6 @@ static int32_t slidings_draw(const Page *page, const ResultView *view, const Axe
     return count;
 }
 
-// Frames the part that the inset shows, with lines from it to below the inset's numbers: all in one
-// colour.
-static void outline_draw(const Page *page, const Axes *axes, const Axes *inset)
-{
-    Stroke stroke = {.color = ZOOM_FORCE, .width = 0.5 * page->point};
-    Point from = axes_place(axes, inset->x.low, inset->y.high);
-    Point to = axes_place(axes, inset->x.high, inset->y.low);
-    Box box = {from.x, from.y, to.x, to.y};
-    draw_outline(page->canvas, &stroke, &box);
-    stroke.width *= 0.6;
-    double foot = inset->box.bottom + axes_bottom_margin(inset) * page->point;
-    draw_segment(page->canvas, &stroke, from, (Point){inset->box.left, foot});
-    draw_segment(page->canvas, &stroke, (Point){to.x, from.y}, (Point){inset->box.right, foot});
-}
-
 // Where the zoom lies in what is shown, and the style does not forbid it.
 static bool has_inset(const ResultView *view, const PictureStyle *style, const ViewRange *shown)
 {
@@ -261,17 +246,6 @@ static void key_of_peaks(Page *page, const ResultView *view, const ViewRange *sh
     key_draw(page, entries, measured_key(measured, KEY_DISC, entries, count));
 }
 
-// Both frames are equally wide: the wider numbers say where they begin.
-static void frames_align(const Page *page, Axes *axes, Axes *inset, bool enlarged)
-{
-    double left = enlarged ? round(page->room.left + axes_left_margin(page, inset) * page->point)
-                           : 0;
-    axes->box.left = fmax(axes->box.left, left);
-    axes_settle(page, axes);
-    inset->box.left = axes->box.left;
-    inset->box.right = axes->box.right;
-}
-
 bool figure_force(const Page *whole, ResultView *view, Error *err)
 {
     Page page = *whole;
@@ -287,14 +261,33 @@ bool figure_force(const Page *whole, ResultView *view, Error *err)
     double below = inset.box.bottom + (axes_bottom_margin(&inset) + INSET_GAP) * page.point;
     double top = enlarged ? round(below) : page.room.top;
     int32_t count = axes_layout(&page, view, &shown, top, &axes, level);
-    frames_align(&page, &axes, &inset, enlarged);
+
+    // Both frames are equally wide: the wider numbers say where they begin.
+    double left = enlarged ? round(page.room.left + axes_left_margin(&page, &inset) * page.point)
+                           : 0;
+    axes.box.left = fmax(axes.box.left, left);
+    axes_settle(&page, &axes);
+    inset.box.left = axes.box.left;
+    inset.box.right = axes.box.right;
+
     levels_draw(&page, &axes, level, count);
     curve_draw(&page, view, &axes);
     peaks_draw(&page, view, &axes);
     slidings_draw(&page, view, &axes);
     measured_draw(&page, &measured, &axes);
     if (enlarged) {
-        outline_draw(&page, &axes, &inset);
+        // Frames the part that the inset shows, with lines from it to below the inset's numbers:
+        // all in one colour.
+        Stroke stroke = {.color = ZOOM_FORCE, .width = 0.5 * page.point};
+        Point from = axes_place(&axes, inset.x.low, inset.y.high);
+        Point to = axes_place(&axes, inset.x.high, inset.y.low);
+        Box box = {from.x, from.y, to.x, to.y};
+        draw_outline(page.canvas, &stroke, &box);
+        stroke.width *= 0.6;
+        double foot = inset.box.bottom + axes_bottom_margin(&inset) * page.point;
+        draw_segment(page.canvas, &stroke, from, (Point){inset.box.left, foot});
+        draw_segment(page.canvas, &stroke, (Point){to.x, from.y}, (Point){inset.box.right, foot});
+
         curve_draw(&page, view, &inset);
         measured_draw(&page, &measured, &inset);
         axes_draw(&page, &inset);

@@ -18,7 +18,7 @@ static const double OF_PRECURSOR = 0.6, OF_SLIDING = 0.8;   // radius of marks, 
 
 static const Color PRECURSOR = {0.85f, 0.47f, 0.10f, 1};
 
-// What the fronts that are shown have.
+// Numbers of the fronts that are shown.
 typedef struct Fronts {
     int32_t precursors, slidings;   // with a front that the steps resolve
     double fastest;   // velocity

@@ -43,15 +43,6 @@ static void course_draw(const Page *page, const Axes *axes, const PadCourse *cou
     text_draw(page->text, &style, at, number);
 }
 
-static void key_of(Page *page, const Zoom *zoom)
-{
-    KeyEntry entries[3] = {{KEY_LINE, FIGURE_CURVE, "slips in part"},
-                           {KEY_DISC, INK, "all of it has let go, in this order"}};
-    int32_t count = 2;
-    if (zoom->words[0]) entries[count++] = (KeyEntry){.words = zoom->words};
-    key_draw(page, entries, count);
-}
-
 bool figure_pads_shows(const ResultView *view)
 {
     return result_view_pads(view) > 1;
@@ -92,7 +83,11 @@ bool figure_pads(Page *page, const FigureInput *input, Error *err)
     def.height = page_shape(def.style, stack_shape(1) + 0.05 * courses.pads);
     TRY(page_begin(page, &def, err));
     Page whole = *page;
-    key_of(&whole, &zoom);
+    KeyEntry entries[3] = {{KEY_LINE, FIGURE_CURVE, "slips in part"},
+                           {KEY_DISC, INK, "all of it has let go, in this order"}};
+    int32_t count = 2;
+    if (zoom.words[0]) entries[count++] = (KeyEntry){.words = zoom.words};
+    key_draw(&whole, entries, count);
     axes_fit(&whole, &whole.room, RIGHT_MARGIN, &axes);
     for (int32_t k = 0; k < courses.count; ++k)
         if (is_shown(&courses.list[k], &zoom)) course_draw(&whole, &axes, &courses.list[k]);

@@ -14,7 +14,7 @@ enum { ENTRIES = 6 + CYCLE_KEYS };
 static const double RIGHT_MARGIN = 10;   // points: half a number, and the name l_c
 static const double HEADROOM = 1.02;   // of the load ratio
 
-// What the cycles hold that are shown.
+// Extent of the cycles that are shown.
 typedef struct Extent {
     double top;   // the largest load ratio
     int32_t precursors, slidings;
@@ -93,19 +93,6 @@ static bool cycles_draw(const Page *page, ResultView *view, const Axes *axes, Er
     return error_is_clean(err);
 }
 
-// A line from each measured length to the event that it stands beside.
-static void matches_draw(const Page *page, const Axes *axes, const Measured *measured)
-{
-    Stroke stroke = {.color = FIGURE_LEVEL, .width = 0.5 * page->point};
-    canvas_clip(page->canvas, &axes->box);
-    for (int32_t k = 0; k < measured->count && measured->matched; ++k)
-        if (isfinite(measured->computed[k]))
-            draw_segment(page->canvas, &stroke,
-                         axes_place(axes, measured->at[k], measured->value[k]),
-                         axes_place(axes, measured->x[k], measured->computed[k]));
-    canvas_clip(page->canvas, NULL);
-}
-
 static Axes axes_layout(const Page *page, const ResultView *view, double top,
                         const Measured *measured)
 {
@@ -136,7 +123,16 @@ bool figure_precursors(const Page *whole, ResultView *view, Error *err)
     Axes axes = axes_layout(&page, view, extent.top, &measured);
     if (isfinite(critical)) axes_level(&page, &axes, &dashed, critical, 1.6, "~{l}_{c}");
     if (cycles_draw(&page, view, &axes, err)) {
-        matches_draw(&page, &axes, &measured);
+        // A line from each measured length to the event that it stands beside.
+        Stroke stroke = {.color = FIGURE_LEVEL, .width = 0.5 * page.point};
+        canvas_clip(page.canvas, &axes.box);
+        for (int32_t k = 0; k < measured.count && measured.matched; ++k)
+            if (isfinite(measured.computed[k]))
+                draw_segment(page.canvas, &stroke,
+                             axes_place(&axes, measured.at[k], measured.value[k]),
+                             axes_place(&axes, measured.x[k], measured.computed[k]));
+        canvas_clip(page.canvas, NULL);
+
         measured_draw(&page, &measured, &axes);
         axes_draw(&page, &axes);
     }

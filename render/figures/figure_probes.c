@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What points inside the bodies saw, against U: a frame for each component, a curve for each probe.
+// Readings of points inside the bodies against U: a frame for each component, a curve for each
+// probe.
 #include "render/figures/figures.h"
 
 #include "base/memory.h"

@@ -32,46 +32,6 @@ static void name_axis(const ResultView *view, ProfileQuantity quantity, Axis *ax
                  normalised);
 }
 
-// Gaps between pads break the curve.
-static void curve_draw(const Page *page, const ResultView *view, const Axes *axes,
-                       const double *values, Color color)
-{
-    Stroke stroke = {.color = color, .width = CURVE_WIDTH * page->point};
-    canvas_clip(page->canvas, &axes->box);
-    LinePen pen = line_begin(page->canvas, &stroke);
-    for (int32_t i = 0; i < view->nodes; ++i) {
-        if (i > 0 && view->pad[i] != view->pad[i - 1]) line_add(&pen, (Point){NAN, NAN});
-        line_add(&pen, axes_place(axes, view->x[i], values[i]));
-    }
-    line_end(&pen);
-    canvas_clip(page->canvas, NULL);
-}
-
-static void open_draw(const Page *page, const ResultView *view, const Axes *axes,
-                      const Profiles *profiles, int32_t k)
-{
-    double radius = KEY_RADIUS * page->point;
-    for (int32_t i = 0; i < view->nodes; ++i) {
-        int64_t at_node = (int64_t)k * view->nodes + i;
-        if (profiles->status[at_node] != 0) continue;
-        Point at = axes_place(axes, view->x[i], profiles->values[PROFILE_PRESSURE][at_node]);
-        draw_disc(page->canvas, stack_color(k), at, radius);
-        draw_disc(page->canvas, PAPER, at, RING * radius);
-    }
-}
-
-static void key_of(Page *page, const Profiles *profiles)
-{
-    KeyEntry entries[PROFILES_MAX + 2];
-    int32_t count = 0;
-    for (int32_t k = 0; k < profiles->count; ++k)
-        entries[count++] = (KeyEntry){KEY_LINE, stack_color(k), profiles->words[k]};
-    if (profiles->count > 1)
-        entries[count++] = (KeyEntry){.words = "slip is that since the first of these moments"};
-    if (profiles->opens) entries[count++] = (KeyEntry){KEY_RING, INK, "open: no contact"};
-    key_draw(page, entries, count);
-}
-
 bool figure_profile(Page *page, const FigureInput *input, Error *err)
 {
     ResultView *view = input->view;
@@ -97,14 +57,42 @@ bool figure_profile(Page *page, const FigureInput *input, Error *err)
     def.height = page_shape(def.style, stack_shape(frames));
     TRY(page_begin(page, &def, err));
     Page whole = *page;
-    key_of(&whole, &profiles);
+    KeyEntry entries[PROFILES_MAX + 2];
+    int32_t count = 0;
+    for (int32_t k = 0; k < profiles.count; ++k)
+        entries[count++] = (KeyEntry){KEY_LINE, stack_color(k), profiles.words[k]};
+    if (profiles.count > 1)
+        entries[count++] = (KeyEntry){.words = "slip is that since the first of these moments"};
+    if (profiles.opens) entries[count++] = (KeyEntry){KEY_RING, INK, "open: no contact"};
+    key_draw(&whole, entries, count);
     stack_fit(&whole, axes, frames);
     for (int32_t f = 0; f < frames; ++f) {
-        for (int32_t k = 0; k < profiles.count; ++k)
-            curve_draw(&whole, view, &axes[f],
-                       profiles.values[shown[f]] + (int64_t)k * profiles.nodes, stack_color(k));
-        for (int32_t k = 0; shown[f] == PROFILE_PRESSURE && k < profiles.count; ++k)
-            open_draw(&whole, view, &axes[f], &profiles, k);
+        for (int32_t k = 0; k < profiles.count; ++k) {
+            // Gaps between pads break the curve.
+            Stroke stroke = {.color = stack_color(k), .width = CURVE_WIDTH * whole.point};
+            canvas_clip(whole.canvas, &axes[f].box);
+            LinePen pen = line_begin(whole.canvas, &stroke);
+            for (int32_t i = 0; i < view->nodes; ++i) {
+                if (i > 0 && view->pad[i] != view->pad[i - 1]) line_add(&pen, (Point){NAN, NAN});
+                line_add(&pen,
+                         axes_place(&axes[f], view->x[i],
+                                    (profiles.values[shown[f]] + (int64_t)k * profiles.nodes)[i]));
+            }
+            line_end(&pen);
+            canvas_clip(whole.canvas, NULL);
+        }
+
+        for (int32_t k = 0; shown[f] == PROFILE_PRESSURE && k < profiles.count; ++k) {
+            double radius = KEY_RADIUS * whole.point;
+            for (int32_t i = 0; i < view->nodes; ++i) {
+                int64_t at_node = (int64_t)k * view->nodes + i;
+                if (profiles.status[at_node] != 0) continue;
+                Point at =
+                    axes_place(&axes[f], view->x[i], profiles.values[PROFILE_PRESSURE][at_node]);
+                draw_disc(whole.canvas, stack_color(k), at, radius);
+                draw_disc(whole.canvas, PAPER, at, RING * radius);
+            }
+        }
         axes_draw(&whole, &axes[f]);
     }
 cleanup:

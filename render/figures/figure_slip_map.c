@@ -20,13 +20,6 @@ static const double ZOOM_ABOVE = 11;   // points above the frame that bar and na
 static const double EXPONENT_WIDTH = 4;   // of the numbers' size: a power of ten at the left
 static const double ZOOM_LEADER = 0.5;   // points: width of the line from its name to the bar
 
-// The critical length of the quasi-static precursor, as the paper's figure has it: a dashed line.
-static void critical_length_draw(const Page *page, const MapPage *map, double x)
-{
-    Stroke stroke = dashed_stroke(page, INK, 0.6);
-    axes_level(page, &map->axes, &stroke, x, 1.6, "~{l}_{c}");
-}
-
 // A bar above the frame, in the colour of the contact-density map's frame: what that one enlarges.
 // Its name stands beside it, where there is more room, with a line that leads from it to the bar.
 static void zoom_draw(const Page *page, const Zoom *zoom, const Axes *axes)
@@ -51,15 +44,6 @@ static void zoom_draw(const Page *page, const Zoom *zoom, const Axes *axes)
     text_draw(page->text, &style, (Point){line[2].x + space, height}, page->zoom_name);
 }
 
-// The line l_c has its name at its end.
-static void key_of_map(Page *page, const ResultView *view, const ViewRange *shown,
-                       const Measured *measured)
-{
-    KeyEntry entries[3];
-    int32_t count = map_page_key(view, shown, entries);
-    key_draw(page, entries, measured_key(measured, KEY_DISC, entries, count));
-}
-
 bool figure_slip_map(const Page *whole, ResultView *view, Error *err)
 {
     Page page = *whole;
@@ -79,11 +63,22 @@ bool figure_slip_map(const Page *whole, ResultView *view, Error *err)
              map.mean ? "mean" : "largest");
     if (isfinite(length)) map.mark_width = MARK_WIDTH;
     TRY(measured_read(page.style.compare, MEASURED_FRONT, view, &measured, err));
-    key_of_map(&page, view, &shown, &measured);
+
+    // The line l_c has its name at its end.
+    KeyEntry entries[3];
+    int32_t count = map_page_key(view, &shown, entries);
+    key_draw(&page, entries, measured_key(&measured, KEY_DISC, entries, count));
+
     TRY(map_page_draw(&page, view, (double[]){shown.low, shown.high}, &map, err));
     if (marked) zoom_draw(&page, &zoom, &map.axes);
-    if (isfinite(length))
-        critical_length_draw(&page, &map, result_view_trailing_end(view) + length);
+    if (isfinite(length)) {
+        // The critical length of the quasi-static precursor, as the paper's figure has it: a dashed
+        // line.
+        Stroke stroke = dashed_stroke(&page, INK, 0.6);
+        axes_level(&page, &map.axes, &stroke, result_view_trailing_end(view) + length, 1.6,
+                   "~{l}_{c}");
+    }
+
     measured_draw(&page, &measured, &map.axes);
     map_page_draw_frame(&page, view, &map);
 cleanup:

@@ -54,19 +54,6 @@ static bool find_event(const FigureInput *input, const BlockSource *source, cons
     return true;
 }
 
-// How much of the slip of an event is done at a step: the mean over the contact nodes, 0 to 1.
-static double slip_done(const ResultView *view, int64_t row, int64_t first, int64_t last)
-{
-    double sum = 0;
-    for (int32_t i = 0; i < view->nodes; ++i) {
-        double start = view->slip[first * view->nodes + i];
-        double way = view->slip[last * view->nodes + i] - start;
-        double part = way > 0 ? (view->slip[row * view->nodes + i] - start) / way : 0;
-        sum += fmin(fmax(part, 0), 1);
-    }
-    return sum / view->nodes;
-}
-
 // chosen: indices of the times nearest to equal parts of the slip, each once; returns how many.
 static int32_t choose_times(const BlockSource *source, const ViewEvent *event,
                             int32_t chosen[FRAMES_MAX])
@@ -81,7 +68,17 @@ static int32_t choose_times(const BlockSource *source, const ViewEvent *event,
         int32_t best = from;
         double least = INFINITY, wanted = (double)k / (FRAMES_MAX - 1);
         for (int32_t at = from; at <= to; ++at) {
-            double done = slip_done(view, row[at], row[from], row[to]);
+            // How much of the slip of an event is done at a step: the mean over the contact nodes,
+            // 0 to 1.
+            double sum = 0;
+            for (int32_t i = 0; i < view->nodes; ++i) {
+                double start = view->slip[row[from] * view->nodes + i];
+                double way = view->slip[row[to] * view->nodes + i] - start;
+                double part = way > 0 ? (view->slip[row[at] * view->nodes + i] - start) / way : 0;
+                sum += fmin(fmax(part, 0), 1);
+            }
+            double done = sum / view->nodes;
+
             if (fabs(done - wanted) < least) best = at;
             least = fmin(least, fabs(done - wanted));
         }
@@ -113,16 +110,6 @@ static bool read_strip(const FigureInput *input, Strip *strip, BlockQuantity qua
 cleanup:
     block_source_close(&source);
     return error_is_clean(err);
-}
-
-// One magnification and one scale for all.
-static void lay_out(const FigureInput *input, Strip *strip)
-{
-    double room = page_width(input->def.style) - LEFT - RIGHT;
-    block_page_deform(strip->blocks, strip->count, &strip->magnification, strip->extent);
-    strip->width = (room - (COLUMNS - 1) * GAP) / COLUMNS;
-    strip->scale = block_page_scale(strip->extent, strip->width, SHARE);
-    strip->height = block_page_height(strip->extent, strip->scale, SHARE);
 }
 
 // With an odd number of frames, the last one has nothing beside it: the legend stands there if the
@@ -198,7 +185,14 @@ bool figure_strip(Page *page, const FigureInput *input, Error *err)
     TRY(strip);
     if (input->field->of) TRY(block_quantity_find(input->field->of, &quantity, err));
     TRY(read_strip(input, strip, quantity, err));
-    lay_out(input, strip);
+
+    // One magnification and one scale for all.
+    double room = page_width(input->def.style) - LEFT - RIGHT;
+    block_page_deform(strip->blocks, strip->count, &strip->magnification, strip->extent);
+    strip->width = (room - (COLUMNS - 1) * GAP) / COLUMNS;
+    strip->scale = block_page_scale(strip->extent, strip->width, SHARE);
+    strip->height = block_page_height(strip->extent, strip->scale, SHARE);
+
     int32_t rows = (strip->count + COLUMNS - 1) / COLUMNS;
     double below = has_free_place(strip) ? 0 : LEGEND_HEIGHT + NOTE_HEIGHT;
     def.height = (rows * (strip->height + WORDS_HEIGHT) + below + BOTTOM) / page_width(def.style);

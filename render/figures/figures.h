@@ -41,7 +41,7 @@ bool figure_strip(Page *page, const FigureInput *input, Error *err);
 bool figure_contact_plane(Page *page, const FigureInput *input, Error *err);
 bool figure_contact_plane_shows(ResultView *view, const char *quantity);
 
-// What the probes saw, strains where nothing is named, against U.
+// Readings of the probes, strains where nothing is named, against U.
 bool figure_probes(Page *page, const FigureInput *input, Error *err);
 bool figure_probes_show(const char *quantity);   // whether it knows that
 // Which pad lets go first.

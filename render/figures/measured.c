@@ -186,18 +186,6 @@ static bool find_probes(const CsvTable *table, const ResultView *view, Columns *
     return true;
 }
 
-static bool find_columns(const CsvTable *table, const ResultView *view, Columns *found, Error *err)
-{
-    return find_ratio(table, view, &found->ratio, err) &&
-           find_quantity(table, "U", "length", view, &found->U, err) &&
-           find_quantity(table, "t", "time", view, &found->t, err) &&
-           find_quantity(table, "x", "length", view, &found->x, err) &&
-           find_number(table, "A/A_0", NULL, &found->area, err) &&
-           find_quantity(table, "l", "length", view, &found->length, err) &&
-           find_quantity(table, "v", "velocity", view, &found->speed, err) &&
-           find_probes(table, view, found, err);
-}
-
 // Which columns `kind` has: over what, and the value. false: the file does not have it.
 static bool choose(const Columns *found, MeasuredKind kind, Column *at, Column *value)
 {
@@ -334,7 +322,14 @@ static bool read_table(const char *path, const ResultView *view, CsvTable *table
                        Error *err)
 {
     if (!csv_read(path, table, err)) return false;
-    TRY(find_columns(table, view, found, err));
+    TRY(find_ratio(table, view, &found->ratio, err) &&
+        find_quantity(table, "U", "length", view, &found->U, err) &&
+        find_quantity(table, "t", "time", view, &found->t, err) &&
+        find_quantity(table, "x", "length", view, &found->x, err) &&
+        find_number(table, "A/A_0", NULL, &found->area, err) &&
+        find_quantity(table, "l", "length", view, &found->length, err) &&
+        find_quantity(table, "v", "velocity", view, &found->speed, err) &&
+        find_probes(table, view, found, err));
     if (!has_any(found))
         FAIL(err, ERROR_INPUT,
              "%s: it needs the columns U (or t) and mu, F_T/F_N, F_T and F_N, or F_T in newtons "
@@ -389,19 +384,6 @@ static void describe(Measured *measured, const ResultView *view)
                  sqrt(parts / count));
 }
 
-// How far the loads of neighbouring events lie apart at most; infinite: there is one.
-static bool widest_gap(const ViewCurve *events, double *gap, Error *err)
-{
-    double *loads = NEW_ARRAY(double, events->count, err);
-    *gap = events->count > 1 ? 0 : INFINITY;
-    if (!loads) return false;
-    for (int64_t k = 0; k < events->count; ++k) loads[k] = events->at[k];
-    qsort(loads, (size_t)events->count, sizeof *loads, order_doubles);
-    for (int64_t k = 0; k + 1 < events->count; ++k) *gap = fmax(*gap, loads[k + 1] - loads[k]);
-    memory_free(loads);
-    return true;
-}
-
 // Beside each measured length that of the precursor whose load is nearest, whose load becomes `x`;
 // no farther from it than neighbouring precursors are apart. What slipped over the whole contact is
 // a sliding, and stands beside one. Without precursors nothing is done.
@@ -411,7 +393,16 @@ static bool match_events(Measured *measured, ResultView *view, Error *err)
     double gap = 0;
     TRY(computed_events(view, VIEW_BOUNDED, &precursors, err));
     TRY(computed_events(view, VIEW_LEADING, &slidings, err));
-    TRY(widest_gap(&precursors, &gap, err));
+
+    // gap: how far the loads of neighbouring events lie apart at most; infinite: there is one.
+    double *loads = NEW_ARRAY(double, precursors.count, err);
+    gap = precursors.count > 1 ? 0 : INFINITY;
+    TRY(loads);
+    for (int64_t k = 0; k < precursors.count; ++k) loads[k] = precursors.at[k];
+    qsort(loads, (size_t)precursors.count, sizeof *loads, order_doubles);
+    for (int64_t k = 0; k + 1 < precursors.count; ++k) gap = fmax(gap, loads[k + 1] - loads[k]);
+    memory_free(loads);
+
     measured->matched = precursors.count > 0;
     for (int32_t k = 0; k < measured->count && measured->matched; ++k) {
         bool whole = measured->value[k] >= WHOLE_CONTACT * view->number[NUMBER_LENGTH];
@@ -430,7 +421,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Of each measurement what its probe saw then, linear between steps.
+// The reading of each measurement's probe at its time, linear between steps.
 static bool compute_probes(Measured *measured, ResultView *view, Error *err)
 {
     double *values = NULL;

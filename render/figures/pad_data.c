@@ -29,29 +29,6 @@ typedef struct Follower {
     bool *stuck, *slipped;   // [nodes] seen sticking in this cycle; slipped or opened since; owned
 } Follower;
 
-static bool follower_create(const ResultView *view, Follower *follower, Error *err)
-{
-    follower->creeps = true;
-    for (int64_t k = 0; k < view->rows * view->nodes && follower->creeps; ++k)
-        follower->creeps = view->status[k] != STICK;
-    return (follower->stuck = NEW_ARRAY(bool, view->nodes, err)) &&
-           (follower->slipped = NEW_ARRAY(bool, view->nodes, err));
-}
-
-static void mark_nodes(const ResultView *view, int64_t row, Follower *follower)
-{
-    double least = CREEP * fabs(view->number[NUMBER_ROD_VELOCITY]);
-    for (int32_t i = 0; i < view->nodes; ++i) {
-        int64_t k = row * view->nodes + i;
-        bool rests = view->status[k] == STICK || (follower->creeps && view->status[k] != OPEN &&
-                                                  fabs(view->slip_rate[k]) < least);
-        if (rests)
-            follower->stuck[i] = true;
-        else if (follower->stuck[i])
-            follower->slipped[i] = true;
-    }
-}
-
 // One row of a pad's course. *letting_go: one more where the pad lets go in it.
 static void follow_pad(const ResultView *view, int64_t row, const Follower *follower,
                        int32_t let_go, PadCourse *course, int32_t *letting_go)
@@ -79,7 +56,16 @@ static void follow_cycle(const ResultView *view, int64_t first, int64_t end, int
     memset(follower->slipped, 0, (size_t)view->nodes * sizeof *follower->slipped);
     for (int64_t row = first; row < end && let_go < pads; ++row) {
         int32_t letting_go = 0;
-        mark_nodes(view, row, follower);
+        double least = CREEP * fabs(view->number[NUMBER_ROD_VELOCITY]);
+        for (int32_t i = 0; i < view->nodes; ++i) {
+            int64_t k = row * view->nodes + i;
+            bool rests = view->status[k] == STICK || (follower->creeps && view->status[k] != OPEN &&
+                                                      fabs(view->slip_rate[k]) < least);
+            if (rests)
+                follower->stuck[i] = true;
+            else if (follower->stuck[i])
+                follower->slipped[i] = true;
+        }
         for (int32_t p = 0; p < pads; ++p)
             follow_pad(view, row, follower, let_go, &courses[p], &letting_go);
         let_go += letting_go;
@@ -97,7 +83,11 @@ bool pad_courses_read(ResultView *view, PadCourses *courses, Error *err)
         cycles += event->kind == VIEW_LEADING && isfinite(event->U_start + event->U_stop);
     }
     TRY(result_view_read_status(view, err) && result_view_read_slip_rate(view, err));
-    TRY(follower_create(view, &follower, err));
+    follower.creeps = true;
+    for (int64_t k = 0; k < view->rows * view->nodes && follower.creeps; ++k)
+        follower.creeps = view->status[k] != STICK;
+    TRY((follower.stuck = NEW_ARRAY(bool, view->nodes, err)) &&
+        (follower.slipped = NEW_ARRAY(bool, view->nodes, err)));
     TRY(courses->list = NEW_ARRAY(PadCourse, (int64_t)courses->pads * (cycles ? cycles : 1), err));
     for (int32_t k = 0; k < view->event_count || (cycles == 0 && courses->count == 0); ++k) {
         const ViewEvent *event = k < view->event_count ? &view->events[k] : NULL;

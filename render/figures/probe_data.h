@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the probes of a result saw, by quantities and components. Called by figure_probes,
+// Readings of the probes of a result, by quantities and components. Called by figure_probes,
 // figure_data and measured.
 #ifndef AMONTONS_RENDER_FIGURES_PROBE_DATA_H
 #define AMONTONS_RENDER_FIGURES_PROBE_DATA_H
@@ -35,7 +35,7 @@ const char *probe_component(const ResultView *view, ProbeQuantity quantity, int3
 
 void probe_name(const ResultView *view, int32_t probe, char name[PROBE_NAME_SIZE]);
 
-// What a column of a table is called that has component c of a probe: "gauge1 strain_xx".
+// Name of the column of a table with component c of a probe: "gauge1 strain_xx".
 enum { PROBE_COLUMN_SIZE = PROBE_NAME_SIZE + 24 };
 void probe_column(const ResultView *view, int32_t probe, ProbeQuantity quantity, int32_t c,
                   char name[PROBE_COLUMN_SIZE]);

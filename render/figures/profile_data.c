@@ -21,21 +21,6 @@ static void add_row(const ResultView *view, int64_t row, const char *words, Prof
              view->mu[row], view->U[row] * (view->si ? 1e3 : 1), view->si ? " mm" : "");
 }
 
-// The rows at which F_T/F_N rises through mu, the last PROFILES_MAX of them.
-static bool add_crossings(const ResultView *view, double mu, Profiles *profiles, Error *err)
-{
-    int64_t found[PROFILES_MAX];
-    int32_t count = 0;
-    for (int64_t row = view->rows - 1; row > 0 && count < PROFILES_MAX; --row) {
-        if (!(view->mu[row - 1] < mu && view->mu[row] >= mu)) continue;
-        bool nearer = fabs(view->mu[row - 1] - mu) < fabs(view->mu[row] - mu);
-        found[count++] = nearer ? row - 1 : row;
-    }
-    if (count == 0) return REFUSE(err, "F_T/F_N never rises through %g", mu);
-    while (count > 0) add_row(view, found[--count], "", profiles);
-    return true;
-}
-
 static bool add_asked(const ResultView *view, const char *at, Profiles *profiles, Error *err)
 {
     char word[MOMENT_SIZE], *end = NULL;
@@ -47,7 +32,18 @@ static bool add_asked(const ResultView *view, const char *at, Profiles *profiles
             value = strtod(word + 3, &end);
             if (!word[3] || *end || at[strcspn(at, ",")])
                 return REFUSE(err, "a load is given alone, as in mu=0.2, not as \"%.40s\"", word);
-            return add_crossings(view, value, profiles, err);
+
+            // The rows at which F_T/F_N rises through mu, the last PROFILES_MAX of them.
+            int64_t found[PROFILES_MAX];
+            int32_t count = 0;
+            for (int64_t row = view->rows - 1; row > 0 && count < PROFILES_MAX; --row) {
+                if (!(view->mu[row - 1] < value && view->mu[row] >= value)) continue;
+                bool nearer = fabs(view->mu[row - 1] - value) < fabs(view->mu[row] - value);
+                found[count++] = nearer ? row - 1 : row;
+            }
+            if (count == 0) return REFUSE(err, "F_T/F_N never rises through %g", value);
+            while (count > 0) add_row(view, found[--count], "", profiles);
+            return true;
         }
         if (profiles->count == PROFILES_MAX)
             return REFUSE(err, "profile shows %d moments at most", PROFILES_MAX);

@@ -120,20 +120,6 @@ static void draw_contour(const Page *page, const SpacePage *space, const Block *
     if (found == 2) depth_image_line(image, page->canvas, at, &stroke, ends);
 }
 
-// At the numbers of the bar.
-static void draw_contours(const Page *page, const SpacePage *space, const Block *block,
-                          const Surface *surface, const DepthImage *image)
-{
-    Ticks ticks = colorbar_ticks(space->bar);
-    for (int32_t k = 0; k < ticks.count; ++k) {
-        double number = tick_value(&ticks, k);
-        if (!(number > space->bar->low && number < space->bar->high)) continue;
-        for (int64_t t = 0; t < surface->triangles.count; ++t)
-            draw_contour(page, space, block, surface->triangles.points + 3 * t,
-                         number / space->bar->factor, image);
-    }
-}
-
 // --- marks ---------------------------------------------------------------------------------------
 
 // How far above or below the strip a node of the trailing face is; INFINITY: it is beside it.
@@ -226,19 +212,6 @@ static void draw_load(const Page *page, const SpacePage *space, const Block *blo
 
 // --- the floor -----------------------------------------------------------------------------------
 
-static void draw_patch(const Page *page, const SpacePage *space, const Block *block,
-                       const ContactPatch *patch, Color color)
-{
-    Stroke seam = {.color = color, .width = fmax(1, SEAM * space->unit)};
-    Point corner[PATCH_CORNERS + 1];
-    for (int32_t c = 0; c <= PATCH_CORNERS; ++c) {
-        const double *at = patch->corner[c % PATCH_CORNERS];
-        corner[c] = see_on_page(space, block, at[0], at[1], floor_height(block));
-    }
-    draw_polygon(page->canvas, color, corner, PATCH_CORNERS);
-    draw_line(page->canvas, &seam, corner, PATCH_CORNERS + 1);
-}
-
 void space_page_floor(const Page *page, const SpacePage *space, const Block *block, int64_t row)
 {
     static const int32_t round[5][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}};
@@ -249,8 +222,17 @@ void space_page_floor(const Page *page, const SpacePage *space, const Block *blo
     for (int32_t k = 0; k < plane->patch_count && space->view->contact_status; ++k) {
         const ContactPatch *patch = &plane->patches[k];
         double status = space->view->contact_status[row * plane->nodes + patch->node];
-        if (status >= 0 && status < STATUSES)
-            draw_patch(page, space, block, patch, space->status[(int32_t)status]);
+        if (status >= 0 && status < STATUSES) {
+            Color color = space->status[(int32_t)status];
+            Stroke seam = {.color = color, .width = fmax(1, SEAM * space->unit)};
+            Point corner[PATCH_CORNERS + 1];
+            for (int32_t c = 0; c <= PATCH_CORNERS; ++c) {
+                const double *at = patch->corner[c % PATCH_CORNERS];
+                corner[c] = see_on_page(space, block, at[0], at[1], floor_height(block));
+            }
+            draw_polygon(page->canvas, color, corner, PATCH_CORNERS);
+            draw_line(page->canvas, &seam, corner, PATCH_CORNERS + 1);
+        }
     }
     for (int32_t k = 0; k < plane->side_count; ++k) {
         for (int32_t c = 0; c < 3; ++c)
@@ -328,7 +310,17 @@ bool space_page_draw(const Page *page, const SpacePage *space, const Block *bloc
     space_page_floor(page, space, block, block->row);
     TRY(draw_colors(page, space, block, &surface, &image, err));
     draw_parts(page, space, block, &surface.edges, &image, &edge);
-    draw_contours(page, space, block, &surface, &image);
+
+    // At the numbers of the bar.
+    Ticks ticks = colorbar_ticks(space->bar);
+    for (int32_t k = 0; k < ticks.count; ++k) {
+        double number = tick_value(&ticks, k);
+        if (!(number > space->bar->low && number < space->bar->high)) continue;
+        for (int64_t t = 0; t < surface.triangles.count; ++t)
+            draw_contour(page, space, block, surface.triangles.points + 3 * t,
+                         number / space->bar->factor, &image);
+    }
+
     draw_parts(page, space, block, &surface.outline, &image, &outline);
     draw_load(page, space, block);
     draw_rod(page, space, block);

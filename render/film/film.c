@@ -16,17 +16,6 @@ enum { RATE = 30, RATE_MAX = 240, FRAMES_MAX = 100000 };
 enum { WIDTH = 1920, HEIGHT = 1080, WIDTH_LEAST = 640, HEIGHT_LEAST = 360 };
 enum { GIF_RATE = 20, GIF_WIDTH = 800, GIF_HEIGHT = 450 };
 
-static bool check_size(const FilmRequest *film, Error *err)
-{
-    bool fits = film->width >= WIDTH_LEAST && film->width <= CANVAS_SIZE_MAX &&
-                film->height >= HEIGHT_LEAST && film->height <= CANVAS_SIZE_MAX;
-    if (!fits || film->width % 2 || film->height % 2)
-        return REFUSE(
-            err, "a film of %d by %d pixels: even numbers from %d by %d to %d by %d are allowed",
-            film->width, film->height, WIDTH_LEAST, HEIGHT_LEAST, CANVAS_SIZE_MAX, CANVAS_SIZE_MAX);
-    return true;
-}
-
 // Fills in the parts of the request that were left open, and checks it.
 static bool complete(const FilmRequest *request, FilmRequest *film, int32_t *frames, Error *err)
 {
@@ -40,7 +29,12 @@ static bool complete(const FilmRequest *request, FilmRequest *film, int32_t *fra
         film->width = gif ? GIF_WIDTH : WIDTH;
         film->height = gif ? GIF_HEIGHT : HEIGHT;
     }
-    if (!check_size(film, err)) return false;
+    bool fits = film->width >= WIDTH_LEAST && film->width <= CANVAS_SIZE_MAX &&
+                film->height >= HEIGHT_LEAST && film->height <= CANVAS_SIZE_MAX;
+    if (!fits || film->width % 2 || film->height % 2)
+        return REFUSE(
+            err, "a film of %d by %d pixels: even numbers from %d by %d to %d by %d are allowed",
+            film->width, film->height, WIDTH_LEAST, HEIGHT_LEAST, CANVAS_SIZE_MAX, CANVAS_SIZE_MAX);
     if (film->rate < 1 || film->rate > RATE_MAX)
         return REFUSE(err, "%d frames a second: from 1 to %d are allowed", film->rate, RATE_MAX);
     double count = film->seconds * film->rate;
@@ -55,24 +49,20 @@ static bool complete(const FilmRequest *request, FilmRequest *film, int32_t *fra
     return true;
 }
 
-// The largest |slip rate| at each step, of nodes in contact: one that has lifted off does not slip.
-static bool find_fastest(const ResultView *view, double **fastest, Error *err)
-{
-    if (!(*fastest = NEW_ARRAY(double, view->rows, err))) return false;
-    for (int64_t row = 0; row < view->rows; ++row)
-        for (int64_t i = row * view->nodes; i < (row + 1) * view->nodes; ++i)
-            if (view->status[i] != 0)
-                (*fastest)[row] = fmax((*fastest)[row], fabs(view->slip_rate[i]));
-    return true;
-}
-
 static bool set_clock(const FilmRequest *film, const ResultView *view, int32_t frames,
                       FilmClock *clock, Error *err)
 {
     double *fastest = NULL, t[2] = {0, 0};
     FilmSpan span = {film->begin, film->end, film->cycle};
     TRY(film_span_find(view, &span, t, err));
-    TRY(find_fastest(view, &fastest, err));
+
+    // The largest |slip rate| at each step, of nodes in contact: one that has lifted off does not
+    // slip.
+    TRY((fastest = NEW_ARRAY(double, view->rows, err)));
+    for (int64_t row = 0; row < view->rows; ++row)
+        for (int64_t i = row * view->nodes; i < (row + 1) * view->nodes; ++i)
+            if (view->status[i] != 0) fastest[row] = fmax(fastest[row], fabs(view->slip_rate[i]));
+
     FilmClockDef def = {.rows = view->rows,
                         .t = view->t,
                         .fastest = fastest,
@@ -104,16 +94,6 @@ static bool shoot(const FilmRequest *film, FilmPage *page, FilmSink *sink, int32
     return true;
 }
 
-static bool read_view(const char *folder, ResultView *view, Error *err)
-{
-    if (!result_view_open(folder, view, err)) return false;
-    if (!result_view_read_slip_rate(view, err)) return false;
-    if (!result_view_read_status(view, err)) return false;
-    double V = fabs(view->number[NUMBER_ROD_VELOCITY]);
-    if (!(V > 0)) return REFUSE(err, "the result does not say how fast the rod moves");
-    return true;
-}
-
 __attribute__((visibility("default"))) bool
 amontons_render_film(const char *folder, const FilmRequest *request, Error *err)
 {
@@ -124,7 +104,11 @@ amontons_render_film(const char *folder, const FilmRequest *request, Error *err)
     FilmSink *sink = NULL;
     int32_t frames = 0;
     TRY(complete(request, &film, &frames, err));
-    TRY(read_view(folder, &view, err));
+    TRY(result_view_open(folder, &view, err));
+    TRY(result_view_read_slip_rate(&view, err));
+    TRY(result_view_read_status(&view, err));
+    double V = fabs(view.number[NUMBER_ROD_VELOCITY]);
+    if (!(V > 0)) FAIL(err, ERROR_INPUT, "the result does not say how fast the rod moves");
     TRY(set_clock(&film, &view, frames, &clock, err));
     const PictureStyle titled = {.title = film.title};
     FilmPageDef def = {folder, &view, &clock, &film, page_title(&titled, view.title, true)};

@@ -146,18 +146,6 @@ static void draw_strip(const Page *page, const FilmBand *band)
     draw_outline(page->canvas, &stroke, &band->strip);
 }
 
-// Where the film, from frame *k on, comes to U.
-static Point tick_foot(const FilmBand *band, double U, int32_t *k)
-{
-    const FilmClock *clock = band->clock;
-    const ResultView *view = band->view;
-    while (*k + 1 < clock->frames && film_moment(view, clock->t[*k]).U < U) ++*k;
-    int32_t first = *k > 0 ? *k - 1 : 0;
-    double after = film_moment(view, clock->t[*k]).U, before = film_moment(view, clock->t[first]).U;
-    double part = after > before ? fmin(fmax((U - before) / (after - before), 0), 1) : 0;
-    return axes_place(&band->map.axes, (first + part) / clock->rate, band->map.axes.y.low);
-}
-
 // Handy numbers of U, less those that would touch the one before.
 static void draw_numbers(const Page *page, const FilmBand *band, const Ticks *ticks, double factor)
 {
@@ -167,7 +155,19 @@ static void draw_numbers(const Page *page, const FilmBand *band, const Ticks *ti
     int32_t k = 0;
     for (int32_t i = 0; i < ticks->count; ++i) {
         char label[TICK_LABEL_SIZE];
-        Point foot = tick_foot(band, tick_value(ticks, i) / factor, &k);
+
+        // Where the film, from frame k on, comes to U.
+        double U = tick_value(ticks, i) / factor;
+        const FilmClock *clock = band->clock;
+        const ResultView *view = band->view;
+        while (k + 1 < clock->frames && film_moment(view, clock->t[k]).U < U) ++k;
+        int32_t first = k > 0 ? k - 1 : 0;
+        double after = film_moment(view, clock->t[k]).U,
+               before = film_moment(view, clock->t[first]).U;
+        double part = after > before ? fmin(fmax((U - before) / (after - before), 0), 1) : 0;
+        Point foot =
+            axes_place(&band->map.axes, (first + part) / clock->rate, band->map.axes.y.low);
+
         Point end = {foot.x, foot.y + TICK_LENGTH * point};
         draw_segment(page->canvas, &stroke, foot, end);
         tick_label(ticks, i, label);

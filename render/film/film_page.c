@@ -92,58 +92,7 @@ static int32_t decimals_of(double step, double range)
     return least > 0 ? (int32_t)fmin(fmax(ceil(-log10(least)), 0), DECIMALS_MAX) : 0;
 }
 
-static void choose_decimals(FilmPage *page)
-{
-    const FilmClock *clock = page->def.clock;
-    const ResultView *view = page->def.view;
-    double V = fabs(view->number[NUMBER_ROD_VELOCITY]);
-    double step = page->band.speed_low / clock->rate;
-    double range = clock->t[clock->frames - 1] - clock->t[0];
-    double last = film_moment(view, clock->t[clock->frames - 1]).U;
-    double factor = figure_length_axis(view, "U", 0, last).factor;
-    page->t_decimals = decimals_of(step, range);
-    page->U_decimals = decimals_of(step * V * factor, range * V * factor);
-}
-
-// --- what stands ---------------------------------------------------------------------------------
-
-static void draw_title(const FilmPage *page)
-{
-    double point = page->base.point;
-    TextStyle style = {.size = TITLE_SIZE * point, .color = INK};
-    if (page->def.title[0])
-        text_draw(page->base.text, &style, (Point){2 * MARGIN * point, BASELINE * point},
-                  page->def.title);
-}
-
-static void draw_standing(FilmPage *page)
-{
-    draw_title(page);
-    film_band_draw(&page->base, &page->band);
-    if (page->in_space)
-        film_plane_draw(&page->base, &page->plane);
-    else
-        film_profile_draw(&page->base, &page->profile);
-    film_force_draw(&page->base, &page->force);
-    if (page->block.stored) film_block_draw(&page->base, &page->block);
-}
-
 // --- what moves ----------------------------------------------------------------------------------
-
-// "t = 1148.12 t_0", or in SI "t = 12.345 s", and U.
-static void draw_clock(const FilmPage *page, const FilmMoment *now)
-{
-    char words[WORDS_SIZE];
-    double point = page->frame.point;
-    const ResultView *view = page->def.view;
-    TextStyle style = {.size = TITLE_SIZE * point, .color = INK, .across = 1};
-    const FilmClock *clock = page->def.clock;
-    Axis U = figure_length_axis(view, "U", 0, film_moment(view, clock->t[clock->frames - 1]).U);
-    snprintf(words, sizeof words, "%s = %.*f     ~{t} %s = %.*f", U.label, page->U_decimals,
-             now->U * U.factor, view->si ? "(s)" : "/ ~{t}_{0}", page->t_decimals, now->t);
-    text_draw(page->frame.text, &style,
-              (Point){page->def.film->width - 2 * MARGIN * point, BASELINE * point}, words);
-}
 
 bool film_page_show(FilmPage *page, int32_t k, const uint8_t **pixels, int32_t *stride, Error *err)
 {
@@ -152,7 +101,19 @@ bool film_page_show(FilmPage *page, int32_t k, const uint8_t **pixels, int32_t *
         return false;
     film_force_pass(&page->base, &page->force, &now);
     canvas_copy(page->frame.canvas, page->base.canvas);
-    draw_clock(page, &now);
+
+    // "t = 1148.12 t_0", or in SI "t = 12.345 s", and U.
+    char words[WORDS_SIZE];
+    double point = page->frame.point;
+    const ResultView *view = page->def.view;
+    TextStyle style = {.size = TITLE_SIZE * point, .color = INK, .across = 1};
+    const FilmClock *clock = page->def.clock;
+    Axis U = figure_length_axis(view, "U", 0, film_moment(view, clock->t[clock->frames - 1]).U);
+    snprintf(words, sizeof words, "%s = %.*f     ~{t} %s = %.*f", U.label, page->U_decimals,
+             now.U * U.factor, view->si ? "(s)" : "/ ~{t}_{0}", page->t_decimals, now.t);
+    text_draw(page->frame.text, &style,
+              (Point){page->def.film->width - 2 * MARGIN * point, BASELINE * point}, words);
+
     film_band_now(&page->frame, &page->band, k);
     film_force_now(&page->frame, &page->force, &now);
     if (page->in_space && !film_plane_now(&page->frame, &page->plane, &now, err)) return false;
@@ -211,9 +172,28 @@ FilmPage *film_page_create(const FilmPageDef *def, Error *err)
     TRY(page_open(page, &page->frame, err));
     TRY(film_block_open(&page->block, err));
     TRY(lay_out(page, err));
-    choose_decimals(page);
+    const FilmClock *clock = page->def.clock;
+    const ResultView *view = page->def.view;
+    double V = fabs(view->number[NUMBER_ROD_VELOCITY]);
+    double step = page->band.speed_low / clock->rate;
+    double range = clock->t[clock->frames - 1] - clock->t[0];
+    double last = film_moment(view, clock->t[clock->frames - 1]).U;
+    double factor = figure_length_axis(view, "U", 0, last).factor;
+    page->t_decimals = decimals_of(step, range);
+    page->U_decimals = decimals_of(step * V * factor, range * V * factor);
     page->block.U_decimals = page->U_decimals;
-    draw_standing(page);
+    double point = page->base.point;
+    TextStyle style = {.size = TITLE_SIZE * point, .color = INK};
+    if (page->def.title[0])
+        text_draw(page->base.text, &style, (Point){2 * MARGIN * point, BASELINE * point},
+                  page->def.title);
+    film_band_draw(&page->base, &page->band);
+    if (page->in_space)
+        film_plane_draw(&page->base, &page->plane);
+    else
+        film_profile_draw(&page->base, &page->profile);
+    film_force_draw(&page->base, &page->force);
+    if (page->block.stored) film_block_draw(&page->base, &page->block);
     return page;
 cleanup:
     film_page_destroy(page);

@@ -44,15 +44,6 @@ typedef struct Frames {
     Axes strip[STRIPS], force;
 } Frames;
 
-static void frames_destroy(Frames *frames)
-{
-    result_view_close(&frames->view);
-    block_source_close(&frames->source);
-    memory_free_all(frames->rows, frames->x, frames->status);
-    memory_free_list((void *const *)frames->y, STRIPS);
-    *frames = (Frames){0};
-}
-
 // --- which times ---------------------------------------------------------------------------------
 
 // With some fields their times, else all steps.
@@ -251,19 +242,6 @@ static void write_chart(const Frames *frames, int32_t k, HtmlWriter *html)
     html_markup(html, "</svg>");
 }
 
-static void write_caption(const Frames *frames, int32_t k, HtmlWriter *html)
-{
-    const ResultView *view = &frames->view;
-    int64_t row = frames->rows[frames->chosen[k]];
-    html_markup(html, "<figcaption>Frame %d of %d: ", k + 1, frames->count);
-    html_words(html, frames->force.x.label);
-    html_markup(html,
-                " = %.6g, <i>t</i> = %.6g%s, <i>F</i><sub>T</sub>/<i>F</i><sub>N</sub> = "
-                "%.4f</figcaption>",
-                view->U[row] * frames->force.x.factor, view->t[row],
-                view->si ? "\u202fs" : " <i>t</i><sub>0</sub>", view->mu[row]);
-}
-
 // Some frames, evenly spread, are for paper, too.
 static bool is_printed(const Frames *frames, int32_t k)
 {
@@ -291,7 +269,15 @@ static bool write_frame(const Frames *frames, const FrameImages *images, int32_t
                 is_printed(frames, k) ? " printed" : "", k + 1);
     if (frames->fields) frame_images_html(images, frames->chosen[k], html, err);
     write_chart(frames, k, html);
-    write_caption(frames, k, html);
+    const ResultView *view = &frames->view;
+    int64_t row = frames->rows[frames->chosen[k]];
+    html_markup(html, "<figcaption>Frame %d of %d: ", k + 1, frames->count);
+    html_words(html, frames->force.x.label);
+    html_markup(html,
+                " = %.6g, <i>t</i> = %.6g%s, <i>F</i><sub>T</sub>/<i>F</i><sub>N</sub> = "
+                "%.4f</figcaption>",
+                view->U[row] * frames->force.x.factor, view->t[row],
+                view->si ? "\u202fs" : " <i>t</i><sub>0</sub>", view->mu[row]);
     html_markup(html, "</figure>\n");
     return error_is_clean(err);
 }
@@ -320,6 +306,9 @@ amontons_render_frames(const char *folder, HtmlWriter *html, RenderFrames *found
     found->stored = frames.stored;
     found->fields = frames.fields;
 cleanup:
-    frames_destroy(&frames);
+    result_view_close(&frames.view);
+    block_source_close(&frames.source);
+    memory_free_all(frames.rows, frames.x, frames.status);
+    memory_free_list((void *const *)frames.y, STRIPS);
     return error_is_clean(err);
 }

@@ -60,23 +60,18 @@ typedef struct Drawing {
     const char *format, *alt, *caption;
 } Drawing;
 
-static bool make_picture(const Drawing *drawing, bool dark, Page *page, PictureBytes *picture,
-                         Error *err)
-{
-    const PictureStyle style = {
-        .format = drawing->format, .width = WIDTH, .dpi = DPI, .dark = dark};
-    return drawing->draw(drawing->context, &style, page, err) &&
-           canvas_finish(page->canvas, "", true, picture, err);
-}
-
 // Both are drawn before anything is written: a failure leaves no half markup.
 static bool write_figure(HtmlWriter *html, const Drawing *drawing, Error *err)
 {
     Page pages[2] = {0};
     PictureBytes pictures[2];
     const char *type = strcmp(drawing->format, "svg") == 0 ? "image/svg+xml" : "image/png";
-    for (int32_t dark = 0; dark < 2; ++dark)
-        TRY(make_picture(drawing, dark, &pages[dark], &pictures[dark], err));
+    for (int32_t dark = 0; dark < 2; ++dark) {
+        const PictureStyle style = {
+            .format = drawing->format, .width = WIDTH, .dpi = DPI, .dark = dark};
+        TRY(drawing->draw(drawing->context, &style, &pages[dark], err) &&
+            canvas_finish(pages[dark].canvas, "", true, &pictures[dark], err));
+    }
     html_markup(html, "<figure><picture><source media='screen and (prefers-color-scheme: dark)' "
                       "srcset='");
     html_data(html, type, pictures[1].bytes, pictures[1].size);
@@ -166,20 +161,6 @@ static bool add_curve(Curves *curves, const char *folder, const char *name, Html
     return true;
 }
 
-static void write_legend(HtmlWriter *html, const char *const *names, int32_t count)
-{
-    html_markup(html, "<ul class='legend'>");
-    for (int32_t k = 0; k < count; ++k) {
-        html_markup(html,
-                    "<li><svg width='34' height='12' aria-hidden='true'><path class='curve%d' "
-                    "d='M2 6h30'/></svg> ",
-                    k + 1);
-        html_text(html, names[k]);
-        html_markup(html, "</li>");
-    }
-    html_markup(html, "</ul>");
-}
-
 __attribute__((visibility("default"))) bool amontons_render_curves(const char *const *folders,
                                                                    const char *const *names,
                                                                    int32_t count, HtmlWriter *html,
@@ -205,7 +186,16 @@ __attribute__((visibility("default"))) bool amontons_render_curves(const char *c
         svg_curve(html, &axes, class, views[k].U, views[k].mu, views[k].rows);
     }
     html_markup(html, "</svg>");
-    write_legend(html, curves.names, curves.count);
+    html_markup(html, "<ul class='legend'>");
+    for (int32_t k = 0; k < curves.count; ++k) {
+        html_markup(html,
+                    "<li><svg width='34' height='12' aria-hidden='true'><path class='curve%d' "
+                    "d='M2 6h30'/></svg> ",
+                    k + 1);
+        html_text(html, curves.names[k]);
+        html_markup(html, "</li>");
+    }
+    html_markup(html, "</ul>");
     html_markup(html,
                 "<figcaption><i>F</i><sub>T</sub>/<i>F</i><sub>N</sub> against the rod\u2019s "
                 "displacement <i>U</i></figcaption></figure>\n");

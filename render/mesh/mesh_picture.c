@@ -209,18 +209,6 @@ static Box curve_extent(const MeshPage *map, const MeshGroup *group)
     return extent;
 }
 
-static void draw_curve(const MeshPage *map, const MeshGroup *group, Color color)
-{
-    Stroke stroke = {.color = color, .width = CURVE_WIDTH_NAMED * map->page->point};
-    for (int32_t k = 0; k < group->face_count; ++k) {
-        const int32_t *nodes = group->face_nodes + (int64_t)k * group->nodes_per_face;
-        Point from = node_place(map, nodes[0]), to = node_place(map, nodes[1]);
-        Point through = group->nodes_per_face == 3 ? node_place(map, nodes[2]) : to;
-        const Point line[3] = {from, through, to};
-        draw_line(map->page->canvas, &stroke, line, 3);
-    }
-}
-
 // Name of a curve: "contact_3" as it is, "pad 3" or "3", by `form` 0, 1, 2.
 static const char *group_name(const MeshGroup *group, int32_t form, char name[GROUP_NAME_SIZE + 4])
 {
@@ -281,7 +269,14 @@ static void draw_groups(const MeshPage *map)
         if (group->dimension != 1 || group->face_count == 0) continue;
         Color color = group_color(group, contact);
         contact += is_contact(group);
-        draw_curve(map, group, color);
+        Stroke stroke = {.color = color, .width = CURVE_WIDTH_NAMED * map->page->point};
+        for (int32_t k = 0; k < group->face_count; ++k) {
+            const int32_t *nodes = group->face_nodes + (int64_t)k * group->nodes_per_face;
+            Point from = node_place(map, nodes[0]), to = node_place(map, nodes[1]);
+            Point through = group->nodes_per_face == 3 ? node_place(map, nodes[2]) : to;
+            const Point line[3] = {from, through, to};
+            draw_line(map->page->canvas, &stroke, line, 3);
+        }
         draw_name(map, group, color, form);
     }
 }
@@ -314,26 +309,23 @@ static void draw_head(const MeshPage *map)
 
 // --- the module's third entry -------------------------------------------------------------------
 
-// A single surface needs no name.
-static void draw_key(const MeshPage *map)
-{
-    KeyEntry entries[REGIONS];
-    int32_t count = 0;
-    for (int32_t g = 0; g < map->mesh->group_count && count < REGIONS; ++g) {
-        const MeshGroup *group = &map->mesh->groups[g];
-        if (group->dimension != 2 || group->element_count == 0) continue;
-        entries[count] = (KeyEntry){KEY_PATCH, REGION[count], group->name};
-        ++count;
-    }
-    if (count > 1) key_draw(map->page, entries, count);
-}
-
 static void draw_page(const RenderMesh *mesh, Page *page)
 {
     MeshPage map = {.mesh = mesh, .page = page};
     for (int32_t node = 0; node < mesh->node_count; ++node)
         map.base_below = map.base_below || mesh->position[2 * (int64_t)node + 1] < BASE_BELOW;
-    draw_key(&map);
+
+    // A single surface needs no name.
+    KeyEntry entries[REGIONS];
+    int32_t count = 0;
+    for (int32_t g = 0; g < map.mesh->group_count && count < REGIONS; ++g) {
+        const MeshGroup *group = &map.mesh->groups[g];
+        if (group->dimension != 2 || group->element_count == 0) continue;
+        entries[count] = (KeyEntry){KEY_PATCH, REGION[count], group->name};
+        ++count;
+    }
+    if (count > 1) key_draw(map.page, entries, count);
+
     place_frame(&map);
     canvas_clip(page->canvas, &map.axes.box);
     draw_elements(&map);

@@ -127,18 +127,6 @@ static bool see_face(const MeshView *view, const Axes *axes, const int32_t *node
     return below || turned < 0;   // counter-clockwise from outside; y goes down on the page
 }
 
-static void draw_faces(const Page *page, SeenFace *faces, int32_t count)
-{
-    Stroke edge = {.color = EDGE, .width = EDGE_WIDTH * page->point};
-    qsort(faces, (size_t)count, sizeof *faces, order_doubles);
-    for (int32_t f = 0; f < count; ++f) {
-        draw_polygon(page->canvas, faces[f].color, faces[f].corner, faces[f].corners);
-        for (int32_t k = 0; k < faces[f].corners; ++k)
-            draw_segment(page->canvas, &edge, faces[f].corner[k],
-                         faces[f].corner[(k + 1) % faces[f].corners]);
-    }
-}
-
 // In its middle on the floor: colours repeat.
 static void draw_contact_name(const Page *page, const MeshView *view, const Axes *axes,
                               const MeshGroup *group)
@@ -185,7 +173,14 @@ bool mesh_space_draw(const RenderMesh *mesh, const Page *page, const Box *box, c
         if (group >= 0 && is_contact(&mesh->groups[group]))
             seen += see_face(&view, &axes, nodes, corners, true, &faces[seen]);
     }
-    draw_faces(page, faces, seen);
+    Stroke edge = {.color = EDGE, .width = EDGE_WIDTH * page->point};
+    qsort(faces, (size_t)seen, sizeof *faces, order_doubles);
+    for (int32_t f = 0; f < seen; ++f) {
+        draw_polygon(page->canvas, faces[f].color, faces[f].corner, faces[f].corners);
+        for (int32_t k = 0; k < faces[f].corners; ++k)
+            draw_segment(page->canvas, &edge, faces[f].corner[k],
+                         faces[f].corner[(k + 1) % faces[f].corners]);
+    }
     for (int32_t g = 0; g < mesh->group_count; ++g)
         if (is_contact(&mesh->groups[g]) && mesh->groups[g].face_count > 0)
             draw_contact_name(page, &view, &axes, &mesh->groups[g]);

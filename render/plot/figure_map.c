@@ -231,16 +231,6 @@ static void level_label(const MapDrawing *drawing, double level, const Point *pi
     labels[(*labelled)++] = place;
 }
 
-// Dark on a pale band, to be seen on every colour.
-static void level_draw(const MapDrawing *drawing, const Point *pieces, int64_t count)
-{
-    const Page *page = drawing->page;
-    Stroke halo = {.color = HALO, .width = HALO_WIDTH * page->point};
-    Stroke line = {.color = INK, .width = CONTOUR_WIDTH * page->point};
-    draw_line(page->canvas, &halo, pieces, count);
-    draw_line(page->canvas, &line, pieces, count);
-}
-
 static bool levels_draw(const MapDrawing *drawing, const LineField *field, Error *err)
 {
     const Axis *range = &drawing->scale->contours;
@@ -259,7 +249,14 @@ static bool levels_draw(const MapDrawing *drawing, const LineField *field, Error
             pieces[count + 2] = (Point){NAN, NAN};
             count += 3;
         }
-        level_draw(drawing, pieces, count);
+
+        // Dark on a pale band, to be seen on every colour.
+        const Page *page = drawing->page;
+        Stroke halo = {.color = HALO, .width = HALO_WIDTH * page->point};
+        Stroke line = {.color = INK, .width = CONTOUR_WIDTH * page->point};
+        draw_line(page->canvas, &halo, pieces, count);
+        draw_line(page->canvas, &line, pieces, count);
+
         level_label(drawing, level, pieces, count, labels, &labelled);
     }
     memory_free(pieces);

@@ -7,17 +7,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-// Slope at a point from the slopes before and behind it, over distances h: 0 at a summit, never so
-// steep that the cubic leaves the values; where there is but one of them, that one.
-static double limited_slope(double before, double behind, double h_before, double h_behind)
-{
-    if (!isfinite(before)) return isfinite(behind) ? behind : 0;
-    if (!isfinite(behind)) return before;
-    if (!(before * behind > 0)) return 0;
-    double w1 = 2 * h_behind + h_before, w2 = h_behind + 2 * h_before;
-    return (w1 + w2) / (w1 / before + w2 / behind);
-}
-
 static double slope_between(const double *x, const double *y, int32_t k, int32_t count)
 {
     return k < 0 || k + 1 >= count ? NAN : (y[k + 1] - y[k]) / (x[k + 1] - x[k]);
@@ -26,8 +15,16 @@ static double slope_between(const double *x, const double *y, int32_t k, int32_t
 static double slope_at(const double *x, const double *y, int32_t k, int32_t count)
 {
     double h_before = k > 0 ? x[k] - x[k - 1] : 0, h_behind = k + 1 < count ? x[k + 1] - x[k] : 0;
-    return limited_slope(slope_between(x, y, k - 1, count), slope_between(x, y, k, count), h_before,
-                         h_behind);
+
+    // Slope at a point from the slopes before and behind it, over distances h: 0 at a summit, never
+    // so steep that the cubic leaves the values; where there is but one of them, that one.
+    double before = slope_between(x, y, k - 1, count);
+    double behind = slope_between(x, y, k, count);
+    if (!isfinite(before)) return isfinite(behind) ? behind : 0;
+    if (!isfinite(behind)) return before;
+    if (!(before * behind > 0)) return 0;
+    double w1 = 2 * h_behind + h_before, w2 = h_behind + 2 * h_before;
+    return (w1 + w2) / (w1 / before + w2 / behind);
 }
 
 // fine: [(count - 1) * parts + 1] values of the cubics through (x, y), [count].

@@ -22,17 +22,6 @@ static void bars_draw(const Page *page, const Axes *axes, const PlotSeries *seri
     }
 }
 
-// A mark on the frame is drawn whole, one beyond it not at all.
-static void marks_draw(const Page *page, const Axes *axes, const PlotSeries *series, double share)
-{
-    for (int32_t i = 0; i < series->count; ++i) {
-        Point at = axes_place(axes, series->x[i], series->y[i]);
-        bool inside = at.x >= axes->box.left - 1 && at.x <= axes->box.right + 1 &&
-                      at.y >= axes->box.top - 1 && at.y <= axes->box.bottom + 1;
-        if (inside) mark_draw(page, series, at, share);
-    }
-}
-
 // Lines and bars are cut off at the frame. A NaN breaks a line; so does what a logarithmic axis
 // cannot show.
 static void series_draw(const Page *page, const Axes *axes, const PlotPanel *panel, double share)
@@ -46,8 +35,16 @@ static void series_draw(const Page *page, const Axes *axes, const PlotPanel *pan
     canvas_clip(page->canvas, &axes->box);
     for (int32_t k = 0; k < panel->series_count; ++k) bars_draw(page, axes, &panel->series[k]);
     canvas_clip(page->canvas, NULL);
-    for (int32_t k = 0; k < panel->series_count; ++k)
-        marks_draw(page, axes, &panel->series[k], share);
+    for (int32_t k = 0; k < panel->series_count; ++k) {
+        // A mark on the frame is drawn whole, one beyond it not at all.
+        const PlotSeries *series = &panel->series[k];
+        for (int32_t i = 0; i < series->count; ++i) {
+            Point at = axes_place(axes, series->x[i], series->y[i]);
+            bool inside = at.x >= axes->box.left - 1 && at.x <= axes->box.right + 1 &&
+                          at.y >= axes->box.top - 1 && at.y <= axes->box.bottom + 1;
+            if (inside) mark_draw(page, series, at, share);
+        }
+    }
 }
 
 bool panel_draw(const Page *page, const PanelDef *def, const Axes *axes, Error *err)

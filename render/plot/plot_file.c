@@ -216,15 +216,6 @@ static bool read_scales(const PlotReader *reader, Plot *plot)
            read_axis(reader, YAML_ROOT, "contours", "label unit ", &plot->contours);
 }
 
-// A file is named as seen from the plot's folder.
-static void read_word(const PlotReader *reader, YamlNode item, char word[PLOT_WORD_SIZE])
-{
-    const char *text = yaml_text(reader->file, item), *slash = strrchr(reader->path, '/');
-    bool beside = strcmp(yaml_key(reader->file, item), "compare") == 0 && text[0] != '/' && slash;
-    snprintf(word, PLOT_WORD_SIZE, "%.*s%s", beside ? (int)(slash - reader->path) + 1 : 0,
-             reader->path, text);
-}
-
 // The names of columns are asked of the plot as a whole: panels share its axes.
 static bool read_columns(const PlotReader *reader, Plot *plot)
 {
@@ -247,7 +238,14 @@ static bool read_page(const PlotReader *reader, Plot *plot)
     YAML_EACH (item, reader->file, map) {
         Error why = {0};
         char *word = plot->words[plot->word_count++];
-        read_word(reader, item, word);
+
+        // A file is named as seen from the plot's folder.
+        const char *text = yaml_text(reader->file, item), *slash = strrchr(reader->path, '/');
+        bool beside = strcmp(yaml_key(reader->file, item), "compare") == 0 && text[0] != '/' &&
+                      slash;
+        snprintf(word, PLOT_WORD_SIZE, "%.*s%s", beside ? (int)(slash - reader->path) + 1 : 0,
+                 reader->path, text);
+
         if (picture_option_set(&plot->style, yaml_key(reader->file, item), word, &why)) continue;
         yaml_error(reader->file, item, reader->err, "page: %s", why.message);
         return false;
@@ -276,18 +274,6 @@ static bool read_plot(const PlotReader *reader, Plot *plot)
     return read_panel(reader, YAML_ROOT, &plot->main) &&
            (panels == YAML_NO_NODE || read_panels(reader, panels, plot)) &&
            read_columns(reader, plot) && (inset == YAML_NO_NODE || read_inset(reader, inset, plot));
-}
-
-// Units have the prefix that suits the ends, which are known now.
-static bool read_units(const PlotReader *reader, Plot *plot)
-{
-    YamlNode inset = plot_child(reader, YAML_ROOT, "inset");
-    return read_unit(reader, YAML_ROOT, "x", &plot->main.x) &&
-           read_unit(reader, YAML_ROOT, "y", &plot->main.y) &&
-           read_unit(reader, YAML_ROOT, "color", &plot->color) &&
-           read_unit(reader, YAML_ROOT, "contours", &plot->contours) &&
-           (inset == YAML_NO_NODE || (read_unit(reader, inset, "x", &plot->inset.x) &&
-                                      read_unit(reader, inset, "y", &plot->inset.y)));
 }
 
 // Ranks, numbers of pads: all that stands along an axis are whole numbers.
@@ -322,7 +308,15 @@ bool plot_file_read(const char *path, Plot *plot, Error *err)
     TRY(plot_fit_axes(plot, err));
     plot->main.x.whole = is_counted(plot, true);
     plot->main.y.whole = is_counted(plot, false);
-    TRY(read_units(&reader, plot));
+
+    // Units have the prefix that suits the ends, which are known now.
+    YamlNode inset = plot_child(&reader, YAML_ROOT, "inset");
+    TRY(read_unit(&reader, YAML_ROOT, "x", &plot->main.x) &&
+        read_unit(&reader, YAML_ROOT, "y", &plot->main.y) &&
+        read_unit(&reader, YAML_ROOT, "color", &plot->color) &&
+        read_unit(&reader, YAML_ROOT, "contours", &plot->contours) &&
+        (inset == YAML_NO_NODE || (read_unit(&reader, inset, "x", &plot->inset.x) &&
+                                   read_unit(&reader, inset, "y", &plot->inset.y))));
 cleanup:
     yaml_destroy(reader.file);
     return error_is_clean(err);

@@ -67,21 +67,6 @@ static void middle_of(const double a[2], const double b[2], double middle[2])
     for (int32_t d = 0; d < 2; ++d) middle[d] = (a[d] + b[d]) / 2;
 }
 
-// Patch of corner k of a triangle; in a T6, of the node on side k.
-static void triangle_patch(const Face *face, int32_t k, double at[PATCH_CORNERS][2])
-{
-    static const double centre[2] = {1.0 / 3, 1.0 / 3};
-    const double *here = shape_node(face->kind, k), *next = shape_node(face->kind, (k + 1) % 3);
-    const double *last = shape_node(face->kind, (k + 2) % 3);
-    memcpy(at[0], here, sizeof at[0]);
-    middle_of(here, next, at[1]);
-    memcpy(at[2], centre, sizeof centre);
-    if (face->kind == ELEMENT_T6)   // the mid-side's: from corner over itself to corner
-        memcpy(at[2], next, sizeof at[2]), memcpy(at[3], centre, sizeof centre);
-    else
-        middle_of(last, here, at[3]);
-}
-
 // Half way to the nodes beside it, or to the end of the face.
 static void square_patch(const Face *face, int32_t a, double at[PATCH_CORNERS][2])
 {
@@ -105,9 +90,20 @@ static void add_patches(const Face *face, ContactPlane *plane)
         ContactPatch *patch = &plane->patches[plane->patch_count];
         patch->node = face->point[face->kind == ELEMENT_T6 ? 3 + k : k];
         if (patch->node >= plane->nodes) continue;
-        if (triangle)
-            triangle_patch(face, k, at);
-        else
+        if (triangle) {
+            // Patch of corner k of a triangle; in a T6, of the node on side k.
+            static const double centre[2] = {1.0 / 3, 1.0 / 3};
+            const double *here = shape_node(face->kind, k),
+                         *next = shape_node(face->kind, (k + 1) % 3);
+            const double *last = shape_node(face->kind, (k + 2) % 3);
+            memcpy(at[0], here, sizeof at[0]);
+            middle_of(here, next, at[1]);
+            memcpy(at[2], centre, sizeof centre);
+            if (face->kind == ELEMENT_T6)   // the mid-side's: from corner over itself to corner
+                memcpy(at[2], next, sizeof at[2]), memcpy(at[3], centre, sizeof centre);
+            else
+                middle_of(last, here, at[3]);
+        } else
             square_patch(face, k, at);
         for (int32_t c = 0; c < PATCH_CORNERS; ++c) place_at(face, at[c], patch->corner[c]);
         ++plane->patch_count;
@@ -134,30 +130,6 @@ static void add_sides(const Face *face, KnownSide *sides, int32_t *count)
         memcpy(side->side.point[2], face->place[next], sizeof side->side.point[2]);
         middle_of(face->place[k], face->place[next], side->side.point[1]);
         if (between) memcpy(side->side.point[1], face->place[corners + k], 2 * sizeof(double));
-    }
-}
-
-// Sides of one face alone.
-static void keep_outline(KnownSide *sides, int32_t count, ContactPlane *plane)
-{
-    qsort(sides, (size_t)count, sizeof *sides, order_int32_pairs);
-    for (int32_t k = 0; k < count; ++k) {
-        bool before = k > 0 && order_int32_pairs(&sides[k - 1], &sides[k]) == 0;
-        bool after = k + 1 < count && order_int32_pairs(&sides[k], &sides[k + 1]) == 0;
-        if (!before && !after) plane->sides[plane->side_count++] = sides[k].side;
-    }
-}
-
-static void find_extent(ContactPlane *plane)
-{
-    for (int32_t d = 0; d < 2; ++d) {
-        plane->low[d] = INFINITY;
-        plane->high[d] = -INFINITY;
-        for (int32_t k = 0; k < plane->patch_count; ++k)
-            for (int32_t c = 0; c < PATCH_CORNERS; ++c) {
-                plane->low[d] = fmin(plane->low[d], plane->patches[k].corner[c][d]);
-                plane->high[d] = fmax(plane->high[d], plane->patches[k].corner[c][d]);
-            }
     }
 }
 
@@ -217,8 +189,24 @@ bool contact_plane_read(ArrayFile *file, int32_t nodes, ContactPlane *plane, Err
         add_patches(&face, plane);
         add_sides(&face, sides, &count);
     }
-    keep_outline(sides, count, plane);
-    find_extent(plane);
+
+    // Sides of one face alone.
+    qsort(sides, (size_t)count, sizeof *sides, order_int32_pairs);
+    for (int32_t k = 0; k < count; ++k) {
+        bool before = k > 0 && order_int32_pairs(&sides[k - 1], &sides[k]) == 0;
+        bool after = k + 1 < count && order_int32_pairs(&sides[k], &sides[k + 1]) == 0;
+        if (!before && !after) plane->sides[plane->side_count++] = sides[k].side;
+    }
+
+    for (int32_t d = 0; d < 2; ++d) {
+        plane->low[d] = INFINITY;
+        plane->high[d] = -INFINITY;
+        for (int32_t k = 0; k < plane->patch_count; ++k)
+            for (int32_t c = 0; c < PATCH_CORNERS; ++c) {
+                plane->low[d] = fmin(plane->low[d], plane->patches[k].corner[c][d]);
+                plane->high[d] = fmax(plane->high[d], plane->patches[k].corner[c][d]);
+            }
+    }
 cleanup:
     memory_free_all(sides, faces.corner, faces.point);
     if (!error_is_clean(err)) contact_plane_destroy(plane);

@@ -153,13 +153,6 @@ static void take_values(const ResultView *view, ResultSeries series, int32_t com
                                            : vector_value(series, values + components * k);
 }
 
-static void take_line(const ResultView *view, double *values, int64_t rows)
-{
-    for (int64_t row = 0; row < rows; ++row)
-        for (int32_t k = 0; k < view->nodes; ++k)
-            values[row * view->nodes + k] = values[row * view->all_nodes + view->line[k]];
-}
-
 // One value a row and contact node; `rows` shrinks likewise.
 static bool nodes_series_read(ResultView *view, ResultSeries series, double **values, Error *err)
 {
@@ -183,7 +176,11 @@ bool result_view_read(ResultView *view, ResultSeries series, bool whole, double 
     if (series == SERIES_STATE && view->states == 0)
         return REFUSE(err, "the friction of this result remembers nothing: there is no state");
     TRY(nodes_series_read(view, series, values, err));
-    if (view->line && !whole) take_line(view, *values, view->rows);
+    if (view->line && !whole) {
+        for (int64_t row = 0; row < view->rows; ++row)
+            for (int32_t k = 0; k < view->nodes; ++k)
+                (*values)[row * view->nodes + k] = (*values)[row * view->all_nodes + view->line[k]];
+    }
     TRY(range_check(view, err));
 cleanup:
     if (!error_is_clean(err)) {
@@ -213,18 +210,6 @@ static bool line_read(ResultView *view, Error *err)
 cleanup:
     memory_free(of_line);
     return error_is_clean(err);
-}
-
-// Positions and pads of the contact nodes.
-static bool nodes_read(ResultView *view, Error *err)
-{
-    int32_t pads = 0;
-    if (!result_file_read_nodes(view->file, NODES_X, &view->x, &view->nodes, err)) return false;
-    if (!result_file_read_nodes(view->file, NODES_PAD, &view->pad, &pads, err)) return false;
-    if (view->nodes < 1 || pads != view->nodes)
-        return FAULT(err, ERROR_FILE, "%d contact nodes with %d pad numbers", view->nodes, pads);
-    view->all_nodes = view->nodes;
-    return !result_file_has_nodes(view->file, NODES_LINE) || line_read(view, err);
 }
 
 // A text of several lines; "" where the history has none: no error.
@@ -322,7 +307,16 @@ bool result_view_open(const char *folder, ResultView *view, Error *err)
     TRY(scalar_read(view, SERIES_ROD, &view->U, err));
     TRY(scalar_read(view, SERIES_MU, &view->mu, err));
     TRY(range_check(view, err));
-    TRY(nodes_read(view, err));
+
+    // Positions and pads of the contact nodes.
+    int32_t pads = 0;
+    TRY(result_file_read_nodes(view->file, NODES_X, &view->x, &view->nodes, err));
+    TRY(result_file_read_nodes(view->file, NODES_PAD, &view->pad, &pads, err));
+    if (view->nodes < 1 || pads != view->nodes)
+        FAIL(err, ERROR_FILE, "%d contact nodes with %d pad numbers", view->nodes, pads);
+    view->all_nodes = view->nodes;
+    TRY(!result_file_has_nodes(view->file, NODES_LINE) || line_read(view, err));
+
     TRY(lines_read(view, "title", &view->title, err));
     TRY(lines_read(view, "pads", &view->pad_names, err));
     TRY(lines_read(view, "warnings", &view->warnings, err));

@@ -91,17 +91,6 @@ static void columns_gather(const SpaceTime *data, const PixelGrid *grid, float *
     }
 }
 
-// Before the first step of the history there is nothing; in a long step there is its end.
-static void columns_hold(const SpaceTime *data, const PixelGrid *grid, const int64_t *next,
-                         float *by_column)
-{
-    int64_t first = 0;
-    while (first < data->rows && !isfinite(data->U[first])) ++first;
-    for (int32_t column = 0; column < grid->columns; ++column)
-        if (next[column] > first && next[column] < data->rows)
-            step_add(data, next[column], column, by_column);
-}
-
 // Slip of node i when the rod was at U, from row *at on, which is led along.
 static double slip_at(const SpaceTime *data, int32_t i, double U, int64_t *at)
 {
@@ -155,34 +144,6 @@ static NodeRange nodes_of_row(const SpaceTime *data, const PixelGrid *grid, int3
     return range;
 }
 
-// Rows that show the same nodes are one; ranges: [rows] of which `bands` are filled.
-static void rows_join(const SpaceTime *data, PixelGrid *grid, NodeRange *ranges)
-{
-    grid->bands = 0;
-    for (int32_t row = 0; row < grid->rows; ++row) {
-        NodeRange range = nodes_of_row(data, grid, row);
-        const NodeRange *before = grid->bands > 0 ? &ranges[grid->bands - 1] : NULL;
-        if (!before || range.first != before->first || range.last != before->last)
-            ranges[grid->bands++] = range;
-        grid->band[row] = grid->bands - 1;
-    }
-}
-
-// Several nodes in a band: the largest of them; none: NaN.
-static void bands_fill(const SpaceTime *data, PixelGrid *grid, const NodeRange *ranges,
-                       const float *by_column)
-{
-    for (int32_t column = 0; column < grid->columns; ++column) {
-        const float *value = by_column + (int64_t)column * data->nodes;
-        for (int32_t band = 0; band < grid->bands; ++band) {
-            float most = NAN;
-            for (int32_t i = ranges[band].first; i <= ranges[band].last; ++i)
-                most = larger(most, value[i]);
-            grid->values[(int64_t)band * grid->columns + column] = data->sign < 0 ? -most : most;
-        }
-    }
-}
-
 // grid->values and band are made here; pixel_grid_destroy.
 bool space_time_to_pixels(const SpaceTime *data, PixelGrid *grid, Error *err)
 {
@@ -193,15 +154,41 @@ bool space_time_to_pixels(const SpaceTime *data, PixelGrid *grid, Error *err)
     TRY(ranges = NEW_ARRAY(NodeRange, grid->rows, err));
     TRY(next = NEW_ARRAY(int64_t, grid->columns, err));
     TRY(grid->band = NEW_ARRAY(int32_t, grid->rows, err));
-    rows_join(data, grid, ranges);
+
+    // Rows that show the same nodes are one; ranges: [rows] of which `bands` are filled.
+    grid->bands = 0;
+    for (int32_t row = 0; row < grid->rows; ++row) {
+        NodeRange range = nodes_of_row(data, grid, row);
+        const NodeRange *before = grid->bands > 0 ? &ranges[grid->bands - 1] : NULL;
+        if (!before || range.first != before->first || range.last != before->last)
+            ranges[grid->bands++] = range;
+        grid->band[row] = grid->bands - 1;
+    }
+
     TRY(grid->values = NEW_ARRAY(float, (int64_t)grid->bands * grid->columns, err));
     if (data->slip) {
         columns_mean(data, grid, by_column);
     } else {
         columns_gather(data, grid, by_column, next);
-        columns_hold(data, grid, next, by_column);
+
+        // Before the first step of the history there is nothing; in a long step there is its end.
+        int64_t first = 0;
+        while (first < data->rows && !isfinite(data->U[first])) ++first;
+        for (int32_t column = 0; column < grid->columns; ++column)
+            if (next[column] > first && next[column] < data->rows)
+                step_add(data, next[column], column, by_column);
     }
-    bands_fill(data, grid, ranges, by_column);
+
+    // Several nodes in a band: the largest of them; none: NaN.
+    for (int32_t column = 0; column < grid->columns; ++column) {
+        const float *value = by_column + (int64_t)column * data->nodes;
+        for (int32_t band = 0; band < grid->bands; ++band) {
+            float most = NAN;
+            for (int32_t i = ranges[band].first; i <= ranges[band].last; ++i)
+                most = larger(most, value[i]);
+            grid->values[(int64_t)band * grid->columns + column] = data->sign < 0 ? -most : most;
+        }
+    }
 cleanup:
     memory_free_all(by_column, ranges, next);
     return error_is_clean(err);

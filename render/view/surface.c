@@ -112,18 +112,6 @@ static bool add_side(const Block *block, const FaceSide *side, const SpaceCut *c
     return true;
 }
 
-// Sides of the boundary, those of one face side by side: [*count].
-static bool list_sides(const FieldFrame *frame, const OuterFace *faces, int32_t face_count,
-                       FaceSide **sides, int32_t *count, Error *err)
-{
-    *count = 0;
-    if (!(*sides = NEW_ARRAY(FaceSide, (int64_t)FACE_CORNERS_MAX * face_count, err))) return false;
-    for (int32_t f = 0; f < face_count; ++f)
-        *count += add_face_sides(frame, &faces[f], *sides + *count);
-    qsort(*sides, (size_t)*count, sizeof **sides, order_int32_pairs);
-    return true;
-}
-
 // An outline where two faces meet at an angle, or where there is one only; edges: all of them, too.
 static bool add_lines(const Block *block, const FaceSide *sides, int32_t count, const SpaceCut *cut,
                       Surface *surface, Error *err)
@@ -151,7 +139,14 @@ bool surface_build(const Block *block, const SpaceCut *cut, bool edges, Surface 
     ElementList elements = elements_of(&block->frame);
     TRY(outer_faces(&elements, &faces, &count, err));
     for (int32_t f = 0; f < count; ++f) TRY(add_face(block, &faces[f], cut, surface, err));
-    TRY(list_sides(&block->frame, faces, count, &sides, &side_count, err));
+
+    // Sides of the boundary, those of one face side by side.
+    side_count = 0;
+    TRY((sides = NEW_ARRAY(FaceSide, (int64_t)FACE_CORNERS_MAX * count, err)));
+    for (int32_t f = 0; f < count; ++f)
+        side_count += add_face_sides(&block->frame, &faces[f], sides + side_count);
+    qsort(sides, (size_t)side_count, sizeof *sides, order_int32_pairs);
+
     TRY(add_lines(block, sides, side_count, cut, surface, err));
     for (int32_t k = 0; k < cut->count; ++k) TRY(surface_add_section(block, cut, k, surface, err));
 cleanup:

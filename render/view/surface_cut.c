@@ -98,14 +98,6 @@ static int32_t clip(const SpaceCut *cut, int32_t k, double sign, SurfacePoint *p
     return found;
 }
 
-// Clips the points to the part that all planes but `own` take away.
-static int32_t clip_to_taken(const SpaceCut *cut, int32_t own, SurfacePoint *points, int32_t count)
-{
-    for (int32_t j = 0; j < cut->count && count > 1; ++j)
-        if (j != own) count = clip(cut, j, 1, points, count);
-    return count;
-}
-
 static bool add_polygon(const SurfacePoint *points, int32_t count, Surface *surface, Error *err)
 {
     for (int32_t k = 1; k + 1 < count; ++k) {
@@ -216,20 +208,12 @@ static bool add_slice(const SurfacePoint *corner[4], const SpaceCut *cut, int32_
             const SurfacePoint triangle[3] = {points[0], points[i], points[i + 1]};
             if (!add_cut_line(triangle, cut, j, k, surface, err)) return false;
         }
-    count = clip_to_taken(cut, k, points, count);
-    return add_polygon(points, count, surface, err);
-}
 
-// Six tetrahedra around one diagonal of a small cube.
-static bool add_cell(const SurfacePoint *cell[8], const SpaceCut *cut, int32_t k, Surface *surface,
-                     Error *err)
-{
-    static const uint8_t ring[TETRAHEDRA + 1] = {1, 3, 2, 6, 4, 5, 1};   // corners as bits x, y, z
-    for (int32_t t = 0; t < TETRAHEDRA; ++t) {
-        const SurfacePoint *corner[4] = {cell[0], cell[ring[t]], cell[ring[t + 1]], cell[7]};
-        if (!add_slice(corner, cut, k, surface, err)) return false;
-    }
-    return true;
+    // Clips the points to the part that all planes but `own` take away.
+    for (int32_t j = 0; j < cut->count && count > 1; ++j)
+        if (j != k) count = clip(cut, j, 1, points, count);
+
+    return add_polygon(points, count, surface, err);
 }
 
 static bool add_element(const Block *block, int32_t e, const SpaceCut *cut, int32_t k,
@@ -253,7 +237,14 @@ static bool add_element(const Block *block, int32_t e, const SpaceCut *cut, int3
         const SurfacePoint *cell[8];
         for (int32_t b = 0; b < 8; ++b)
             cell[b] = &lattice[i + (b & 1)][j + (b >> 1 & 1)][l + (b >> 2)];
-        if (!add_cell(cell, cut, k, surface, err)) return false;
+
+        // Six tetrahedra around one diagonal of a small cube.
+        static const uint8_t ring[TETRAHEDRA + 1] = {1, 3, 2, 6,
+                                                     4, 5, 1};   // corners as bits x, y, z
+        for (int32_t t = 0; t < TETRAHEDRA; ++t) {
+            const SurfacePoint *corner[4] = {cell[0], cell[ring[t]], cell[ring[t + 1]], cell[7]};
+            if (!add_slice(corner, cut, k, surface, err)) return false;
+        }
     }
     return true;
 }

@@ -164,21 +164,6 @@ static void write_list(const Drops *drops, DropKind kind, const char *key, JsonW
     json_end(json);
 }
 
-// Drops that do not repeat scatter: their branches are the numbers of pads that slid.
-static void write_drops(const Answers *answers, const Drops *drops, JsonWriter *json)
-{
-    json_begin_object(json, "drops");
-    json_numbers_of(json, {"least_drop", LEAST_DROP}, {"period", answers->regime.period},
-                    {"counted", answers->regime.count});
-    json_boolean(json, "enough", answers->enough);
-    json_numbers_of(json, {"mean", answers->mu_drops.value},
-                    {"mean_error", answers->mu_drops.error});
-    write_branches(drops, DROP_LOAD, answers->first,
-                   answers->regime.period > 0 ? drops->tolerance : (double)INFINITY, json);
-    write_list(drops, DROP_LOAD, "list", json);
-    json_end(json);
-}
-
 void error_parts_write(const ErrorParts *parts, JsonWriter *json)
 {
     json_numbers_of(json, {"mesh", parts->mesh}, {"branches", parts->branches},
@@ -213,7 +198,19 @@ void answers_write_json(const Answers *answers, const Drops *drops, double lengt
     first_loading_write_json(&answers->first_loading, &answers->later_cycles, drops->events, length,
                              json);
     answers_write_peaks(answers, drops, length, json);
-    write_drops(answers, drops, json);
+
+    // Drops that do not repeat scatter: their branches are the numbers of pads that slid.
+    json_begin_object(json, "drops");
+    json_numbers_of(json, {"least_drop", LEAST_DROP}, {"period", answers->regime.period},
+                    {"counted", answers->regime.count});
+    json_boolean(json, "enough", answers->enough);
+    json_numbers_of(json, {"mean", answers->mu_drops.value},
+                    {"mean_error", answers->mu_drops.error});
+    write_branches(drops, DROP_LOAD, answers->first,
+                   answers->regime.period > 0 ? drops->tolerance : (double)INFINITY, json);
+    write_list(drops, DROP_LOAD, "list", json);
+    json_end(json);
+
     json_begin_object(json, "run_in");
     json_boolean(json, "over", answers->regime.run_in == RUN_IN_OVER);
     json_text(json, "state", run_in_name(answers->regime.run_in));

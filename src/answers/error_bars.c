@@ -22,8 +22,8 @@ static const double CONFIRM = 4;   // likewise, of all levels, where pads may sl
 static const double ONE_MESH = 0.5;   // of mu, over nodes: nine of ten meshes are off by less
 static const double ONE_MESH_IN_SPACE = 0.9;   // likewise, over nodes along the contact
 static const double END_WAITS = 3;   // mu may rise so many times as much before they let go
-// Of what mu rose by since the last precursor. The block slides at one of the loads at which the
-// contact lets go in part, and another mesh has other precursors: nine of ten differ by less.
+// Part of the rise of mu since the last precursor. The block slides at one of the loads at which
+// the contact lets go in part, and another mesh has other precursors: nine of ten differ by less.
 static const double ONE_PRECURSOR = 0.3;
 static const double STEPS = 0.002;   // of mu: what tolerances of steps and reduction leave
 
@@ -323,8 +323,8 @@ double levels_known_to(const Levels *levels, AnswerKind kind)
     return isnan(answer->bar) ? hypot(usual * answer->value, others) : answer->bar;
 }
 
-// What a first loading is known to on one mesh, or several without a bar: what they are known to as
-// of any answer, and what other precursors change.
+// Error of a first loading on one mesh, or several without a bar: that of any answer, and what
+// other precursors change.
 static double first_known_to(const FirstLoading *first, double known_to)
 {
     return hypot(known_to, ONE_PRECURSOR * first->since_precursor);

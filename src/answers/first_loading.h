@@ -17,7 +17,7 @@ typedef struct FirstLoading {
     Estimate mu;   // the largest mu before it did; one value, whose error only several runs tell
     ErrorParts parts;   // of this error
     double known_to;   // as Answers has it of mu_M, and what one precursor more or less changes
-    // What mu rose by up to its largest since the last precursor before that began; 0: none was.
+    // Rise of mu up to its largest since the last precursor before that began; 0: none was.
     double since_precursor;
     double U;   // where mu was so large, length
     int32_t precursors;   // bounded rapid events before it; so far, where it has not slid

@@ -93,25 +93,6 @@ static void write_estimate(JsonWriter *json, const char *name, const char *error
     json_number(json, error, value.error);
 }
 
-static void write_step(JsonWriter *json, const ProgramReading *reading)
-{
-    json_numbers_of(json, {"t", reading->t}, {"U", reading->U},
-                    {"velocity_before", reading->velocity_before}, {"velocity", reading->velocity});
-    write_estimate(json, "mu_before", "mu_before_error", reading->before);
-    write_estimate(json, "direct", "direct_error", reading->peak);
-    write_estimate(json, "direct_per_ln", "direct_per_ln_error", direct_of(reading));
-    write_estimate(json, "mu_after", "mu_after_error", reading->after);
-    write_estimate(json, "change_per_ln", "change_per_ln_error", change_of(reading));
-    write_estimate(json, "slip_distance", "slip_distance_error", reading->distance);
-}
-
-static void write_hold(JsonWriter *json, const ProgramReading *reading)
-{
-    json_numbers_of(json, {"t", reading->t}, {"U", reading->U}, {"duration", reading->duration});
-    write_estimate(json, "mu_before", "mu_before_error", reading->before);
-    write_estimate(json, "healing", "healing_error", reading->peak);
-}
-
 void program_results_json(const ProgramReadings *readings, JsonWriter *json)
 {
     static const char *const lists[] = {[READING_STEP] = "steps", [READING_HOLD] = "holds"};
@@ -122,10 +103,22 @@ void program_results_json(const ProgramReadings *readings, JsonWriter *json)
         for (int32_t k = 0; program_readings_at(readings, k, &reading); k++) {
             if (reading.kind != kind) continue;
             json_begin_object(json, NULL);
+            json_numbers_of(json, {"t", reading.t}, {"U", reading.U});
             if (kind == READING_STEP)
-                write_step(json, &reading);
+                json_numbers_of(json, {"velocity_before", reading.velocity_before},
+                                {"velocity", reading.velocity});
             else
-                write_hold(json, &reading);
+                json_number(json, "duration", reading.duration);
+            write_estimate(json, "mu_before", "mu_before_error", reading.before);
+            if (kind == READING_STEP) {
+                write_estimate(json, "direct", "direct_error", reading.peak);
+                write_estimate(json, "direct_per_ln", "direct_per_ln_error", direct_of(&reading));
+                write_estimate(json, "mu_after", "mu_after_error", reading.after);
+                write_estimate(json, "change_per_ln", "change_per_ln_error", change_of(&reading));
+                write_estimate(json, "slip_distance", "slip_distance_error", reading.distance);
+            } else {
+                write_estimate(json, "healing", "healing_error", reading.peak);
+            }
             json_text(json, "why_not", why_not(&reading));
             json_end(json);
         }

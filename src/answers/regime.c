@@ -47,15 +47,6 @@ static bool lags(const Drops *drops, const SeriesItem *items, int32_t count, boo
     return false;
 }
 
-// Load drops over which the trend falls to 1/e of itself, as it did over these; infinite: it does
-// not.
-static double fading_drops(const SeriesItem *items, int32_t count, int32_t round)
-{
-    int32_t third = count / 3 / round * round;
-    double fades = third > 0 ? series_fading(items + count - 3 * third, third) : (double)NAN;
-    return fades > 0 && fades < 1 ? third / -log(fades) : INFINITY;
-}
-
 // How many load drops more until what lies ahead is less than the tolerance, or until mu can rise
 // no more.
 static double drops_left(const Drops *drops, double mu, double fading, const Regime *regime)
@@ -81,8 +72,13 @@ static void note_trend(const Drops *drops, const SeriesItem *last, int32_t count
     if (!series_trend_stands_out(&trend)) return;
     regime->drift = trend.slope / last->value;
     regime->ahead = fabs(regime->drift) * DROPS_ENOUGH * round;
-    regime->drops_left =
-        drops_left(drops, last->value, fading_drops(last + 1 - count, count, round), regime);
+
+    // Load drops over which the trend falls to 1/e of itself, as it did over these; infinite: it
+    // does not.
+    int32_t third = count / 3 / round * round;
+    double fades = third > 0 ? series_fading(last + 1 - 3 * third, third) : (double)NAN;
+    double fading = fades > 0 && fades < 1 ? third / -log(fades) : INFINITY;
+    regime->drops_left = drops_left(drops, last->value, fading, regime);
 }
 
 // Over all load drops since every node has slipped, `count` of them, also those that agree with the

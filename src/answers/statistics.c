@@ -30,33 +30,6 @@ static const double CORRELATION_MAX = 0.95;
 
 // --- repetition ---------------------------------------------------------------------------------
 
-typedef struct Agreement {
-    double tolerance;
-    int32_t parts;   // of a state
-} Agreement;
-
-// The parts of a load may change by twice the tolerance in sum: a change leaves one part and
-// appears in another.
-static bool agree(const SeriesItem *item, const SeriesItem *later, const Agreement *asked)
-{
-    double allowed = asked->tolerance * fabs(later->value), moved = 0;
-    if (item->kind != later->kind || fabs(item->value - later->value) > allowed) return false;
-    for (int32_t j = 0; j < asked->parts; j++) moved += fabs(item->state[j] - later->state[j]);
-    return moved <= 2 * allowed;
-}
-
-// The last items that agree with the last one at their place in a round; at least `period`.
-static int32_t count_agreeing(const SeriesItem *items, int32_t count, int32_t period,
-                              const Agreement *asked)
-{
-    int32_t last = count - 1, agreeing = period;
-    for (int32_t k = last - period; k >= 1; k--) {
-        if (!agree(&items[k], &items[last - (last - k) % period], asked)) break;
-        agreeing++;
-    }
-    return agreeing;
-}
-
 static double distance(const SeriesItem *a, const SeriesItem *b, int32_t parts)
 {
     double moved = fabs(a->value - b->value);
@@ -64,26 +37,32 @@ static double distance(const SeriesItem *a, const SeriesItem *b, int32_t parts)
     return moved;
 }
 
-// A round in which all items are alike within the tolerance repeats by chance: what comes back at
-// its place must be nearer than neighbours are.
-static bool stands_out(const SeriesItem *items, int32_t count, int32_t period, int32_t parts)
-{
-    double back = 0, next = 0;
-    if (period == 1 || parts == 0) return true;
-    for (int32_t k = count - period - 1; k < count; k++) {
-        back += distance(&items[k], &items[k - period], parts);
-        next += distance(&items[k], &items[k - 1], parts);
-    }
-    return NEARER * back <= next;
-}
-
 SeriesRegime series_regime(const SeriesItem *items, int32_t count, double tolerance, int32_t parts)
 {
-    const Agreement asked = {tolerance, parts};
+    int32_t last = count - 1;
     for (int32_t period = 1; period <= SERIES_PERIOD_LIMIT; period++) {
-        int32_t agreeing = count_agreeing(items, count, period, &asked);
-        if (agreeing > ROUNDS * period && REPEATING_PART * agreeing >= count &&
-            stands_out(items, count, period, parts))
+        // The last items that agree with the last one at their place in a round; at least `period`.
+        // The parts of a load may change by twice the tolerance in sum: a change leaves one part
+        // and appears in another.
+        int32_t agreeing = period;
+        for (int32_t k = last - period; k >= 1; k--) {
+            const SeriesItem *item = &items[k], *later = &items[last - (last - k) % period];
+            double allowed = tolerance * fabs(later->value), moved = 0;
+            for (int32_t j = 0; j < parts; j++) moved += fabs(item->state[j] - later->state[j]);
+            if (item->kind != later->kind || fabs(item->value - later->value) > allowed) break;
+            if (!(moved <= 2 * allowed)) break;
+            agreeing++;
+        }
+        if (agreeing <= ROUNDS * period || REPEATING_PART * agreeing < count) continue;
+
+        // A round in which all items are alike within the tolerance repeats by chance: what comes
+        // back at its place must be nearer than neighbours are.
+        double back = 0, next = 0;
+        for (int32_t k = last - period; k < count && period > 1 && parts > 0; k++) {
+            back += distance(&items[k], &items[k - period], parts);
+            next += distance(&items[k], &items[k - 1], parts);
+        }
+        if (NEARER * back <= next)
             return (SeriesRegime){.period = period, .count = agreeing - agreeing % period};
     }
     int32_t start = count / START_PART;
@@ -130,31 +109,26 @@ static Estimate block_mean(const Sample *sample, int32_t blocks, int32_t length)
     return (Estimate){mean, blocks > 1 ? sqrt(square / (blocks - 1) / blocks) : (double)NAN};
 }
 
-// How far each of `rounds` means goes along with the one before, at least 0: the correlation of
-// neighbours, with what few of them leave it too small by.
-static double correlation(const Sample *sample, int32_t rounds, int32_t length, double mean)
-{
-    double before = 0, square = 0, product = 0;
-    for (int32_t b = 0; b < rounds; b++) {
-        Sample until = *sample;
-        until.count -= (rounds - 1 - b) * length;
-        double off = block_mean(&until, 1, length).value - mean;
-        square += off * off;
-        product += off * before;
-        before = off;
-    }
-    if (rounds < CORRELATED || square == 0) return 0;
-    double found = (rounds * product / square + 1) / (rounds - 3);
-    return fmin(fmax(found, 0), CORRELATION_MAX);
-}
-
 // A round tells its scatter at each of its places: so many degrees of freedom.
 static Estimate mean_of(const Sample *sample, int32_t round)
 {
     int32_t rounds = sample->count / round, blocks = (int32_t)sqrt(rounds);
     Estimate mean = block_mean(sample, rounds, round);
     if (rounds < 2) return mean;
-    double along = correlation(sample, rounds, round, mean.value);
+
+    // How far each mean of a round goes along with the one before, at least 0: the correlation of
+    // neighbours, with what few of them leave it too small by.
+    double before = 0, square = 0, product = 0, along = 0;
+    for (int32_t b = 0; b < rounds; b++) {
+        Sample until = *sample;
+        until.count -= (rounds - 1 - b) * round;
+        double off = block_mean(&until, 1, round).value - mean.value;
+        square += off * off;
+        product += off * before;
+        before = off;
+    }
+    if (rounds >= CORRELATED && square != 0)
+        along = fmin(fmax((rounds * product / square + 1) / (rounds - 3), 0), CORRELATION_MAX);
     mean.error *= sqrt((1 + along) / (1 - along)) * student(sample->count - round) / 2;
     if (blocks > 1)
         mean.error = fmax(mean.error, block_mean(sample, blocks, rounds / blocks * round).error);

@@ -36,7 +36,7 @@ bool system_object_path(const void *address, char *path, size_t size);
 
 // --- limits --------------------------------------------------------------------------------------
 
-// What getrlimit takes, an enumeration in glibc.
+// Argument of getrlimit, an enumeration in glibc.
 #ifdef __GLIBC__
 typedef __rlimit_resource_t SystemLimit;
 #else

@@ -337,20 +337,6 @@ static int is_picture(const struct dirent *entry)
     return dot && strcmp(dot, ".png") == 0;
 }
 
-// Lists the folder, not what was asked for: a picture that could not be drawn is not named.
-static void print_pictures(const char *folder)
-{
-    char figures[AMONTONS_PATH_SIZE + 16];
-    struct dirent **entries = NULL;
-    snprintf(figures, sizeof figures, "%s/figures", folder);
-    int count = scandir(figures, &entries, is_picture, alphasort);
-    for (int i = 0; i < count; i++) {
-        say("  figures/%s\n", entries[i]->d_name);
-        free(entries[i]);
-    }
-    if (count >= 0) free(entries);
-}
-
 // A line for a file that is there.
 static void print_file(const char *folder, const char *name, const char *sentence)
 {
@@ -372,7 +358,19 @@ void closing_print(const char *title, const RunSummary *summary)
     print_file(summary->folder, "run.json", "scene, answers, errors and timing in numbers");
     print_file(summary->folder, "history.h5", "time series, and the interface at every step");
     if (summary->field_files > 0) print_file(summary->folder, "fields.pvd", fields);
-    if (summary->figures > 0) print_pictures(summary->folder);
+
+    if (summary->figures > 0) {
+        // Lists the folder, not what was asked for: a picture that could not be drawn is not named.
+        char figures[AMONTONS_PATH_SIZE + 16];
+        struct dirent **entries = NULL;
+        snprintf(figures, sizeof figures, "%s/figures", summary->folder);
+        int count = scandir(figures, &entries, is_picture, alphasort);
+        for (int i = 0; i < count; i++) {
+            say("  figures/%s\n", entries[i]->d_name);
+            free(entries[i]);
+        }
+        if (count >= 0) free(entries);
+    }
 }
 
 // Phases as amontons.h has them; some are parts of others, so that their shares do not add up to

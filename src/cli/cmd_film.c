@@ -35,18 +35,6 @@ static int read_size(const char *word, FilmRequest *film)
     return 0;
 }
 
-// results/fig1/ becomes fig1.mp4.
-static void name_film(const char *result, char *name, size_t size)
-{
-    size_t length = strlen(result);
-    while (length > 1 && result[length - 1] == '/') --length;
-    size_t first = length;
-    while (first > 0 && result[first - 1] != '/') --first;
-    bool named = strspn(result + first, "./") < length - first;
-    snprintf(name, size, "%.*s.mp4", named ? (int)(length - first) : 4,
-             named ? result + first : "film");
-}
-
 static void show_frame(int32_t frame, int32_t frames, void *context)
 {
     progress_part(context, (double)frame / frames, "of the film");
@@ -120,7 +108,16 @@ int command_film(const Command *command, int argc, char **argv)
     if (status == 0) status = read_size(size, &film);
     if (status == 0) status = option_may_write(film.path, film.overwrite);
     if (status != 0) return status;
-    name_film(result, name, sizeof name);
+
+    // results/fig1/ becomes fig1.mp4.
+    size_t length = strlen(result);
+    while (length > 1 && result[length - 1] == '/') --length;
+    size_t first = length;
+    while (first > 0 && result[first - 1] != '/') --first;
+    bool named = strspn(result + first, "./") < length - first;
+    snprintf(name, sizeof name, "%.*s.mp4", named ? (int)(length - first) : 4,
+             named ? result + first : "film");
+
     if (!film.path) film.path = name;
     return make_film(result, &film, quiet);
 }

@@ -15,18 +15,6 @@ typedef struct Model1dWords {
     bool theory_only;
 } Model1dWords;
 
-static int read_words(const Command *command, int argc, char **argv, Model1dWords *words)
-{
-    const Option own[] = {
-        {"theory", 0, NULL, "Formulas only, no simulation", .flag = &words->theory_only},
-        {"alpha", 0, "NUMBER",
-         "The part of H over which the shear stress varies (default: the paper's 0.2)",
-         .word = &words->alpha},
-        {"points", 0, "N", "Nodes of the simulated line (default: 81)", .word = &words->points},
-        {0}};
-    return scene_words_read(command, own, argc, argv, &words->common);
-}
-
 // The values of --alpha and --points as `options`. The exit status.
 static int check_words(const Model1dWords *words, Model1dOptions *options)
 {
@@ -100,16 +88,6 @@ static void print_steps(const Model1dSummary *summary)
         (long long)summary->rejected);
 }
 
-static void print_answers(const Model1dSummary *summary)
-{
-    print_theory(summary);
-    if (summary->simulated) print_steps(summary);
-    say("  %-22s %.1f s\n", "time taken", summary->seconds);
-    if (*summary->folder)
-        say("Results in %s: model1d.json, model1d.h5%s\n", summary->folder,
-            summary->simulated ? " and the steps in history.h5" : "");
-}
-
 // The table is printed while it is made, answers when all is known.
 int command_model1d(const Command *command, int argc, char **argv)
 {
@@ -118,7 +96,14 @@ int command_model1d(const Command *command, int argc, char **argv)
     Model1dSummary summary;
     Error err = {0};
     Scene *scene = NULL;
-    int status = read_words(command, argc, argv, &words);
+    const Option own[] = {
+        {"theory", 0, NULL, "Formulas only, no simulation", .flag = &words.theory_only},
+        {"alpha", 0, "NUMBER",
+         "The part of H over which the shear stress varies (default: the paper's 0.2)",
+         .word = &words.alpha},
+        {"points", 0, "N", "Nodes of the simulated line (default: 81)", .word = &words.points},
+        {0}};
+    int status = scene_words_read(command, own, argc, argv, &words.common);
     if (status == 0) status = check_words(&words, &options);
     if (status == 0) status = scene_words_open(&words.common, &scene);
     if (status != 0) return status;
@@ -135,8 +120,14 @@ int command_model1d(const Command *command, int argc, char **argv)
     progress_end(&table.progress);
     if (!done)
         status = report_error(&err);
-    else if (!quiet)
-        print_answers(&summary);
+    else if (!quiet) {
+        print_theory(&summary);
+        if (summary.simulated) print_steps(&summary);
+        say("  %-22s %.1f s\n", "time taken", summary.seconds);
+        if (*summary.folder)
+            say("Results in %s: model1d.json, model1d.h5%s\n", summary.folder,
+                summary.simulated ? " and the steps in history.h5" : "");
+    }
     amontons_scene_destroy(scene);
     return status;
 }

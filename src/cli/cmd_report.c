@@ -7,18 +7,6 @@
 #include <stdio.h>
 #include <string.h>
 
-// A path with slashes behind it; at most one argument's length.
-static void default_file(const OptionWords *results, char *file, size_t size)
-{
-    const char *folder = results->list[0];
-    size_t length = strlen(folder);
-    while (length > 1 && folder[length - 1] == '/') length--;
-    if (results->count > 1)
-        snprintf(file, size, "comparison.html");
-    else
-        snprintf(file, size, "%.*s/report.html", (int)length, folder);
-}
-
 int command_report(const Command *command, int argc, char **argv)
 {
     const char *first = NULL, *file = NULL, *cycle = NULL;
@@ -41,7 +29,18 @@ int command_report(const Command *command, int argc, char **argv)
     if (status != 0) return status;
     if (file && !*file) return report_misuse("-o: the file has no name");
     if ((status = option_may_write(file, overwrite)) != 0) return status;
-    if (!file) default_file(&results, path, sizeof path);
+
+    if (!file) {
+        // A path with slashes behind it; at most one argument's length.
+        const char *folder = results.list[0];
+        size_t length = strlen(folder);
+        while (length > 1 && folder[length - 1] == '/') length--;
+        if (results.count > 1)
+            snprintf(path, sizeof path, "comparison.html");
+        else
+            snprintf(path, sizeof path, "%.*s/report.html", (int)length, folder);
+    }
+
     if (!file) file = path;
     if (!amontons_report(results.list, results.count, file, cycle, overwrite, &err))
         return report_error(&err);

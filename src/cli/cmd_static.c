@@ -12,14 +12,6 @@ typedef struct Units {
     const char *force, *energy, *moment, *length;
 } Units;
 
-static void print_rod(const StaticSummary *summary, const Units *unit)
-{
-    say("  rod            %.6g%s on %d nodes", summary->rod_force, unit->force, summary->rod_nodes);
-    if (!isnan(summary->rod_height))   // it pushes
-        say(", resultant at z = %.6g%s", summary->rod_height, unit->length);
-    say("\n");
-}
-
 // Sums, and last the balances by which to judge them.
 static void print_summary(const Scene *scene, const StaticSummary *summary)
 {
@@ -35,7 +27,13 @@ static void print_summary(const Scene *scene, const StaticSummary *summary)
     say("  on the block   F_z %.6g%s, F_x %.6g%s from the floor, moment of the pressure %.6g%s\n",
         summary->normal_force, unit.force, summary->shear_force, unit.force,
         summary->pressure_moment, unit.moment);
-    if (summary->rod_nodes > 0) print_rod(summary, &unit);
+    if (summary->rod_nodes > 0) {
+        say("  rod            %.6g%s on %d nodes", summary->rod_force, unit.force,
+            summary->rod_nodes);
+        if (!isnan(summary->rod_height))   // it pushes
+            say(", resultant at z = %.6g%s", summary->rod_height, unit.length);
+        say("\n");
+    }
     if (summary->normal_force > 0)
         say("  load ratio     F_T/F_N %.6g, F_T that of the %s\n",
             tangential / summary->normal_force,

@@ -100,22 +100,6 @@ static void draw_line(const char *line)
     tell_over(line, terminal_width() - 1);
 }
 
-// "mesh 2, run 1, 12 %  U 0.00123  3 events  mu_M so far 0.329  0:12 left": a
-// run behind an error bar ends once its answer is known, sooner than the way that it may go.
-static void format_member(const StepView *view, char *line, size_t size)
-{
-    char so_far[40] = "", left[40] = "", time[32];
-    bool slid = !isnan(view->mu_M);
-    double mu = slid ? view->mu_M : view->mu_hold;
-    if (!isnan(mu))
-        snprintf(so_far, sizeof so_far, "  %s so far %.3f", slid ? "mu_M" : "mu_hold", mu);
-    progress_format_left(view->seconds_left, time, sizeof time);
-    if (!isnan(view->seconds_left)) snprintf(left, sizeof left, "  %s left", time);
-    snprintf(line, size, "mesh %d, run %d, %.0f %%  U %.4g  %d event%s%s%s", view->mesh, view->run,
-             100 * view->fraction, view->U, view->events, view->events == 1 ? "" : "s", so_far,
-             left);
-}
-
 // On a terminal in place of the line before, in a log every now and then.
 static void show_member(Progress *progress, const StepView *view, const struct timespec *now)
 {
@@ -125,25 +109,25 @@ static void show_member(Progress *progress, const StepView *view, const struct t
     bool first = progress->drawn.tv_sec == 0;
     progress->drawn = *now;
     if (first && !bar) return;   // short runs say nothing but what each mesh came to
-    format_member(view, line, sizeof line);
+
+    // "mesh 2, run 1, 12 %  U 0.00123  3 events  mu_M so far 0.329  0:12 left": a
+    // run behind an error bar ends once its answer is known, sooner than the way that it may go.
+    char so_far[40] = "", left[40] = "", time[32];
+    bool slid = !isnan(view->mu_M);
+    double mu = slid ? view->mu_M : view->mu_hold;
+    if (!isnan(mu))
+        snprintf(so_far, sizeof so_far, "  %s so far %.3f", slid ? "mu_M" : "mu_hold", mu);
+    progress_format_left(view->seconds_left, time, sizeof time);
+    if (!isnan(view->seconds_left)) snprintf(left, sizeof left, "  %s left", time);
+    snprintf(line, sizeof line, "mesh %d, run %d, %.0f %%  U %.4g  %d event%s%s%s", view->mesh,
+             view->run, 100 * view->fraction, view->U, view->events, view->events == 1 ? "" : "s",
+             so_far, left);
+
     if (bar)
         draw_line(line);
     else
         tell("%s\n", line);
     progress->bar_stands = bar;
-}
-
-// "U 0.00123/0.006  mu 0.2034  dt 0.012  3 events  0:12 left", the last where it is known.
-static void format_state(const Progress *progress, const StepView *view, double elapsed, char *text,
-                         size_t size)
-{
-    char left[40] = "", time[32], end[32] = "";
-    double seconds = seconds_left(progress, view->fraction, elapsed);
-    progress_format_left(seconds, time, sizeof time);
-    if (!isnan(seconds)) snprintf(left, sizeof left, "  %s left", time);
-    if (view->fraction > 0) snprintf(end, sizeof end, "/%.4g", view->U / view->fraction);
-    snprintf(text, size, "U %.4g%s  mu %.4f  dt %.2g  %d event%s%s", view->U, end, view->mu,
-             view->step_size, view->events, view->events == 1 ? "" : "s", left);
 }
 
 //     [######............]  33 %  U 0.00198/0.006  mu 0.2034  dt 0.012  3 events  0:12 left
@@ -236,7 +220,16 @@ void progress_step(const StepView *view, void *context)
     double elapsed = begin_clock(progress, &now);
     follow_pace(progress, view, elapsed);
     if (!is_due(progress, view->fraction, &now)) return;
-    format_state(progress, view, elapsed, state, sizeof state);
+
+    // "U 0.00123/0.006  mu 0.2034  dt 0.012  3 events  0:12 left", the last where it is known.
+    char left[40] = "", time[32], end[32] = "";
+    double seconds = seconds_left(progress, view->fraction, elapsed);
+    progress_format_left(seconds, time, sizeof time);
+    if (!isnan(seconds)) snprintf(left, sizeof left, "  %s left", time);
+    if (view->fraction > 0) snprintf(end, sizeof end, "/%.4g", view->U / view->fraction);
+    snprintf(state, sizeof state, "U %.4g%s  mu %.4f  dt %.2g  %d event%s%s", view->U, end,
+             view->mu, view->step_size, view->events, view->events == 1 ? "" : "s", left);
+
     show(progress, view->fraction, state, &now);
 }
 

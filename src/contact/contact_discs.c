@@ -57,15 +57,6 @@ typedef struct Settling {
 
 // --- statuses and rows --------------------------------------------------------------------------
 
-// rho of tangents and normal of node i.
-static void node_scales(const ContactProblem *problem, int32_t i, double *tangent, double *normal)
-{
-    int64_t count = problem->interface->count, t = interface_tangent(problem->interface, i);
-    const double *entry = problem->matrix->schur + t * (count + 1);
-    *tangent = 0.5 * (entry[0] + entry[count + 1]);
-    *normal = entry[2 * (count + 1)];
-}
-
 // Status and row of node i. false: its status stays.
 static bool judge_node(const Settling *settling, int32_t i)
 {
@@ -76,13 +67,21 @@ static bool judge_node(const Settling *settling, int32_t i)
     DiscRow *row = &settling->discs->row[i];
     int32_t t = interface_tangent(interface, i), n = interface_normal(interface, i);
     uint8_t was = at->status[i];
-    double rho, rho_n, slack = settling->tolerance * settling->scales.force;
-    node_scales(problem, i, &rho, &rho_n);
+    double slack = settling->tolerance * settling->scales.force;
+
+    // rho of the tangents and of the normal, from the node's own entries of S.
+    int64_t next = interface->count + 1;   // from an entry of the diagonal to the next
+    const double *entry = problem->matrix->schur + t * next;
+    double rho = 0.5 * (entry[0] + entry[next]), rho_n = entry[2 * next];
+
+    // Open, where nothing presses.
     double pressing = at->reaction[n] - rho_n * (at->velocity[n] - problem->bound[n]);
     if (pressing <= (was == CONTACT_OPEN ? slack : -slack)) {
         at->status[i] = CONTACT_OPEN;
         return was != CONTACT_OPEN;
     }
+
+    // Sticks, where z lies in the disc.
     double speed = slip_size(interface, i, at->velocity);
     double mu = friction_coefficient(node, speed), limit = mu * fmax(pressing, 0);
     double z[] = {at->reaction[t] - rho * at->velocity[t],
@@ -93,6 +92,8 @@ static bool judge_node(const Settling *settling, int32_t i)
         at->status[i] = CONTACT_STICK;
         return was != CONTACT_STICK;
     }
+
+    // Slips along d.
     *row = (DiscRow){.d = {-z[0] / size, -z[1] / size},
                      .mu = mu,
                      .theta = limit > 0 ? limit / (limit + rho * speed) : 0,
@@ -206,35 +207,35 @@ static bool factor_double(const Settling *settling)
     return dense_lu(newton->factors.lu, (int32_t)size, newton->factors.pivots);
 }
 
-// LU in single precision, of the derivative over the largest entry of S.
-static bool factor_single(const Settling *settling)
-{
-    DiscFactors *factors = &settling->discs->factors;
-    const ContactNewton *newton = settling->newton;
-    int64_t size = newton->equations.free_count;
-    double scale = 1 / settling->problem->matrix->diagonal;
-    float *out = factors->lu;
-    for (int32_t b = 0; b < size; b++, out += size) {
-        derivative_column(newton, settling->discs->row, b, factors->column);
-        for (int32_t a = 0; a < size; a++) out[a] = (float)(scale * factors->column[a]);
-    }
-    bool regular = dense_lu_single(factors->lu, (int32_t)size, factors->pivots);
-    factors->rows = regular ? (int32_t)size : 0;
-    return regular;
-}
-
-// Factors of the derivative at the rows as they are, which are kept. false: it is singular.
+// Factors of the derivative at the rows as they are, which are kept: in single precision of the
+// derivative over the largest entry of S, or in double. false: it is singular.
 static bool factor(Settling *settling)
 {
     ContactNewton *newton = settling->newton;
-    ContactFactors *factors = &newton->factors;
+    DiscFactors *single = &settling->discs->factors;
+    int32_t size = newton->equations.free_count;
+    bool regular;
     newton->factorisations++;
-    bool regular = settling->in_double ? factor_double(settling) : factor_single(settling);
-    contact_copy_statuses(&newton->equations, factors->status);
+    if (settling->in_double) {
+        regular = factor_double(settling);
+        newton->factors.rows = regular ? size : 0;
+        single->rows = 0;
+    } else {
+        double scale = 1 / settling->problem->matrix->diagonal;
+        float *out = single->lu;
+        for (int32_t b = 0; b < size; b++, out += size) {
+            derivative_column(newton, settling->discs->row, b, single->column);
+            for (int32_t a = 0; a < size; a++) out[a] = (float)(scale * single->column[a]);
+        }
+        regular = dense_lu_single(single->lu, size, single->pivots);
+        newton->factors.rows = 0;
+        single->rows = regular ? size : 0;
+    }
+
+    // Statuses and rows that the factors are of.
+    contact_copy_statuses(&newton->equations, newton->factors.status);
     memcpy(settling->discs->kept, settling->discs->row,
            (size_t)settling->problem->interface->contact_count * sizeof(DiscRow));
-    factors->rows = regular && settling->in_double ? newton->equations.free_count : 0;
-    if (settling->in_double) settling->discs->factors.rows = 0;
     settling->problem->matrix->factored = regular ? newton->factorisations : 0;
     newton->factors_gain = true;
     return regular;
@@ -276,19 +277,6 @@ static void find_step(const Settling *settling)
     for (int32_t a = 0; a < factors->rows; a++) newton->step[a] *= scale;
 }
 
-// Half of what is left of the last step is taken back.
-static void halve_step(Settling *settling)
-{
-    ContactNewton *newton = settling->newton;
-    double *taken = settling->discs->taken;
-    for (int32_t a = 0; a < newton->equations.free_count; a++) {
-        taken[a] *= 0.5;
-        newton->step[a] = -taken[a];
-    }
-    memset(newton->pull, 0, (size_t)settling->problem->interface->count * sizeof(double));
-    contact_newton_take(newton);
-}
-
 // The residual after a step, at rows made anew, over the scale of force; at open nodes, too.
 static double residual_now(Settling *settling)
 {
@@ -304,6 +292,8 @@ static double residual_now(Settling *settling)
 static bool settle(Settling *settling)
 {
     ContactNewton *newton = settling->newton;
+    double *taken = settling->discs->taken;
+    size_t unknowns = (size_t)settling->problem->interface->count;
     for (int32_t k = 0; k < STEPS; k++) {
         if (!newton->listed && !contact_newton_close(newton)) return false;
 
@@ -314,8 +304,7 @@ static bool settle(Settling *settling)
         if (!isfinite(find_residual(settling, newton->reused))) return false;
         find_step(settling);
         contact_newton_creep(newton);
-        memcpy(settling->discs->taken, newton->step,
-               (size_t)newton->equations.free_count * sizeof(double));
+        memcpy(taken, newton->step, (size_t)newton->equations.free_count * sizeof(double));
         contact_newton_take(newton);
         settling->discs->iterations++;
 
@@ -328,7 +317,14 @@ static bool settle(Settling *settling)
             settling->residual = changed ? INFINITY : residual_now(settling);
             if (changed || newton->reused || settling->residual <= before || halved == HALVINGS)
                 break;
-            halve_step(settling);
+
+            // Half of what is left of the last step is taken back.
+            for (int32_t a = 0; a < newton->equations.free_count; a++) {
+                taken[a] *= 0.5;
+                newton->step[a] = -taken[a];
+            }
+            memset(newton->pull, 0, unknowns * sizeof(double));
+            contact_newton_take(newton);
         }
         if (changed) {
             contact_newton_settle(newton);
@@ -350,19 +346,6 @@ static bool settle(Settling *settling)
 
 // --- one solve ----------------------------------------------------------------------------------
 
-// Rows at what was handed in, which may be of another g; statuses stay. Where nothing says which
-// way a node slips, it rests.
-static void start_rows(Settling *settling)
-{
-    const Interface *interface = settling->problem->interface;
-    ContactSolution *at = settling->at;
-    for (int32_t i = 0; i < interface->contact_count; i++) {
-        if (!status_slips(at->status[i])) continue;
-        judge_node(settling, i);
-        if (!status_slips(at->status[i])) at->status[i] = CONTACT_STICK;
-    }
-}
-
 // An open node has no force, not even by rounding.
 static void release_open(const Settling *settling)
 {
@@ -377,20 +360,10 @@ static void release_open(const Settling *settling)
         if (!at->rod_touches[j]) at->reaction[interface_rod(interface, j)] = 0;
 }
 
-// Which way nodes slip along the drive.
-static void clean_solution(const Settling *settling)
-{
-    const Interface *interface = settling->problem->interface;
-    ContactSolution *at = settling->at;
-    for (int32_t i = 0; i < interface->contact_count; i++)
-        if (status_slips(at->status[i]))
-            at->status[i] = status_of_slip(at->velocity[interface_tangent(interface, i)]);
-    release_open(settling);
-}
-
 bool contact_discs_solve(ContactDiscs *discs, double tolerance, const ContactProblem *problem,
                          ContactSolution *solution)
 {
+    const Interface *interface = problem->interface;
     Settling settling = {.discs = discs,
                          .newton = discs->newton,
                          .problem = problem,
@@ -398,7 +371,16 @@ bool contact_discs_solve(ContactDiscs *discs, double tolerance, const ContactPro
                          .scales = contact_scales(problem, solution->reaction),
                          .tolerance = tolerance,
                          .residual = INFINITY};
-    start_rows(&settling);
+
+    // Rows at what was handed in, which may be of another g; statuses stay. Where nothing says
+    // which way a node slips, it rests.
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        if (!status_slips(solution->status[i])) continue;
+        judge_node(&settling, i);
+        if (!status_slips(solution->status[i])) solution->status[i] = CONTACT_STICK;
+    }
+
+    // Newton's steps; where these do not settle, sweeps and steps in turn.
     contact_newton_begin(discs->newton, problem, solution, 1e-3 * tolerance);
     bool solved = settle(&settling);
     discs->swept += !solved;
@@ -412,8 +394,15 @@ bool contact_discs_solve(ContactDiscs *discs, double tolerance, const ContactPro
         contact_newton_settle(discs->newton);
         solved = settle(&settling);
     }
-    if (solved) clean_solution(&settling);
-    return solved;
+    if (!solved) return false;
+
+    // Which way nodes slip along the drive.
+    for (int32_t i = 0; i < interface->contact_count; i++)
+        if (status_slips(solution->status[i]))
+            solution->status[i] =
+                status_of_slip(solution->velocity[interface_tangent(interface, i)]);
+    release_open(&settling);
+    return true;
 }
 
 // At a solution e.r_t = 0, and the across row does not turn either: rows are its derivative with

@@ -123,15 +123,6 @@ void contact_combine(const ContactEquations *equations, const double *x, double 
         out[a] = x[equations->free[a]] + equations->row[a].mu * x[equations->row[a].normal];
 }
 
-static double diagonal_of(const ContactEquations *equations, int32_t a)
-{
-    ContactRow row = equations->row[a];
-    int32_t i = contact_slipping_node(equations, equations->free[a]);
-    double slope = 0;
-    if (i >= 0) friction_of(equations, i, &slope);
-    return slope * equations->at->reaction[row.normal] + row.stiffness;
-}
-
 void contact_jacobian(const ContactEquations *equations, const double *matrix, int32_t stride,
                       double *jacobian)
 {
@@ -144,7 +135,12 @@ void contact_jacobian(const ContactEquations *equations, const double *matrix, i
         for (int32_t b = 0; b < free_count; b++)
             out[(int64_t)b * stride] = own[equations->free[b]] +
                                        row.mu * normal[equations->free[b]];
-        out[(int64_t)a * stride] += diagonal_of(equations, a);
+
+        // mu'(|v_t|) r_n of a slipping tangent, the spring of a soft rod node.
+        int32_t i = contact_slipping_node(equations, equations->free[a]);
+        double slope = 0;
+        if (i >= 0) friction_of(equations, i, &slope);
+        out[(int64_t)a * stride] += slope * equations->at->reaction[row.normal] + row.stiffness;
     }
 }
 

@@ -4,36 +4,17 @@
 #include "base/memory.h"
 #include "fem/mesh_faces.h"
 
-static void count_faces(const MeshContact *contact, ContactFaces *faces)
+bool contact_faces_build(const Mesh *mesh, const MeshContact *contact, ContactFaces *faces,
+                         Error *err)
 {
+    int32_t *known = NULL, row = 0;   // [nodes of the mesh] 1 + the point of a node, 0: none yet
+    *faces = (ContactFaces){0};
+    if (mesh->dim < 3) return true;
     for (int32_t pad = 0; pad < contact->pad_count; pad++) {
         const MeshBoundary *boundary = &contact->pads[pad];
         faces->count += boundary->face_count;
         if (boundary->nodes_per_face > faces->width) faces->width = boundary->nodes_per_face;
     }
-}
-
-// A corner without weight gets the next number behind the contact nodes. known: [nodes of the mesh]
-// 1 + the point of a node, 0: none yet.
-static int32_t point_of(const Mesh *mesh, const MeshContact *contact, int32_t node, int32_t *known,
-                        ContactFaces *faces)
-{
-    if (known[node] == 0) {
-        double *corner = faces->corner + 2 * (int64_t)faces->corner_count;
-        corner[0] = mesh_place(mesh, node)[0];
-        corner[1] = mesh_place(mesh, node)[1];
-        known[node] = 1 + contact->node_count + faces->corner_count++;
-    }
-    return known[node] - 1;
-}
-
-bool contact_faces_build(const Mesh *mesh, const MeshContact *contact, ContactFaces *faces,
-                         Error *err)
-{
-    int32_t *known = NULL, row = 0;
-    *faces = (ContactFaces){0};
-    if (mesh->dim < 3) return true;
-    count_faces(contact, faces);
     TRY(known = NEW_ARRAY(int32_t, mesh->node_count, err));
     TRY(faces->point = NEW_ARRAY(int32_t, (int64_t)faces->count * faces->width, err));
     TRY(faces->corner = NEW_ARRAY(double, 2 * (int64_t)faces->count * FACE_CORNERS_MAX, err));
@@ -42,10 +23,17 @@ bool contact_faces_build(const Mesh *mesh, const MeshContact *contact, ContactFa
         for (int32_t f = 0; f < contact->pads[pad].face_count; f++, row++) {
             FaceNodes nodes = mesh_boundary_face(&contact->pads[pad], f);
             int32_t *point = faces->point + (int64_t)row * faces->width;
-            for (int32_t a = 0; a < faces->width; a++)
-                point[a] = a < element_node_count(nodes.kind)
-                               ? point_of(mesh, contact, nodes.node[a], known, faces)
-                               : -1;
+            for (int32_t a = 0; a < faces->width; a++) {
+                int32_t node = a < element_node_count(nodes.kind) ? nodes.node[a] : -1;
+                // A corner without weight gets the next number behind the contact nodes.
+                if (node >= 0 && known[node] == 0) {
+                    double *corner = faces->corner + 2 * (int64_t)faces->corner_count;
+                    corner[0] = mesh_place(mesh, node)[0];
+                    corner[1] = mesh_place(mesh, node)[1];
+                    known[node] = 1 + contact->node_count + faces->corner_count++;
+                }
+                point[a] = node >= 0 ? known[node] - 1 : -1;
+            }
         }
 cleanup:
     memory_free(known);

@@ -49,24 +49,8 @@ static void renew_copy(ContactMatrix *matrix)
     memset(matrix->out, 0, count);
 }
 
-// A pivot is what is left of S's own entry when the others of O are held: 0, up to rounding, of a
-// body that nothing holds, far more than half of the digits of one that a step's mass holds. false:
-// it is less, and the copy is of no more use.
-static bool pivot_holds(const ContactMatrix *matrix, int32_t k, double pivot)
-{
-    int64_t entry = (int64_t)k * (matrix->count + 1);
-    return matrix->out[k] ? pivot < 0 : pivot > sqrt(DBL_EPSILON) * matrix->schur[entry];
-}
-
-static void note_sweep(ContactMatrix *matrix, int32_t k, bool first)
-{
-    matrix->out[k] = !matrix->out[k];
-    matrix->order[matrix->swept++] = first ? ~k : k;
-    matrix->sweeps++;
-}
-
 // Distinct unknowns. Their columns, `now`, follow each sweep; what each takes from the rest, was
-// was'/pivot, is taken for all at once.
+// was'/pivot, is taken for all at once. false: the copy is of no more use.
 static bool sweep_unknowns(ContactMatrix *matrix, const int32_t *list, int32_t length)
 {
     int64_t n = matrix->count;
@@ -77,7 +61,13 @@ static bool sweep_unknowns(ContactMatrix *matrix, const int32_t *list, int32_t l
         int32_t k = list[t];
         double *own = now + t * n, *column = was + t * n, pivot = own[k];
         double sign = matrix->out[k] ? -1 : 1;
-        if (!pivot_holds(matrix, k, pivot)) return false;
+
+        // A pivot is what is left of S's own entry when the others of O are held: 0, up to
+        // rounding, of a body that nothing holds, far more than half of the digits of one that a
+        // step's mass holds.
+        double least = sqrt(DBL_EPSILON) * matrix->schur[k * (n + 1)];
+        if (!(matrix->out[k] ? pivot < 0 : pivot > least)) return false;
+
         memcpy(column, own, (size_t)n * sizeof(double));
         for (int64_t i = 0; i < n; i++) over[i * length + t] = column[i] / pivot;
         for (int32_t s = 0; s < length; s++) {
@@ -87,7 +77,9 @@ static bool sweep_unknowns(ContactMatrix *matrix, const int32_t *list, int32_t l
         }
         for (int64_t i = 0; i < n; i++) own[i] = sign * column[i] / pivot;
         own[k] = -1 / pivot;
-        note_sweep(matrix, k, t == 0);
+        matrix->out[k] = !matrix->out[k];
+        matrix->order[matrix->swept++] = t == 0 ? ~k : k;
+        matrix->sweeps++;
     }
     if (length == PAIR)
         dense_subtract_pair(matrix->closed, matrix->count, was, over);
@@ -119,20 +111,6 @@ const double *contact_matrix_close(ContactMatrix *matrix, const uint8_t *status,
     return holds ? matrix->closed : NULL;
 }
 
-// The same sweeps of the same S in the same order: the copy to the last bit, in far less room.
-static void repeat_sweeps(ContactMatrix *matrix, int32_t swept, Archive *archive)
-{
-    renew_copy(matrix);
-    while (matrix->swept < swept && !archive->failed) {
-        int32_t list[TOGETHER], length = 0, k = matrix->swept;
-        do {
-            int32_t unknown = matrix->order[k++];
-            list[length++] = unknown < 0 ? ~unknown : unknown;
-        } while (k < swept && matrix->order[k] >= 0 && length < TOGETHER);
-        if (!sweep_unknowns(matrix, list, length)) archive->failed = true;
-    }
-}
-
 void contact_matrix_archive(ContactMatrix *matrix, int64_t last, Archive *archive)
 {
     int32_t swept = matrix->swept;
@@ -145,6 +123,15 @@ void contact_matrix_archive(ContactMatrix *matrix, int64_t last, Archive *archiv
     if (!archive_reads(archive)) return;
     matrix->factored = factored;
     matrix->swept = -1;
-    if (swept >= 0) repeat_sweeps(matrix, swept, archive);
+    // The same sweeps of the same S in the same order: the copy to the last bit, in far less room.
+    if (swept >= 0) renew_copy(matrix);
+    while (matrix->swept < swept && !archive->failed) {
+        int32_t list[TOGETHER], length = 0, k = matrix->swept;
+        do {
+            int32_t unknown = matrix->order[k++];
+            list[length++] = unknown < 0 ? ~unknown : unknown;
+        } while (k < swept && matrix->order[k] >= 0 && length < TOGETHER);
+        if (!sweep_unknowns(matrix, list, length)) archive->failed = true;
+    }
     matrix->sweeps = sweeps;
 }

@@ -44,51 +44,43 @@ static double slip_at(const NodeAlone *node, double x, double v[2], double *pres
     return l * speed - friction_coefficient(node->friction, speed) * *pressing;
 }
 
-static void find_slip(const NodeAlone *node, double v[2], double *pressing)
+// Status of a node whose neighbours stay as they are, and its velocity v.
+static uint8_t solve_alone(NodeAlone *node, double v[3])
 {
+    // Open, if v_n is above the bound where nothing touches: S v = b.
+    const double(*s)[3] = node->s, *b = node->b;
+    double cross[3] = {s[1][1] * s[2][2] - s[1][2] * s[1][2], s[0][2] * s[1][2] - s[0][1] * s[2][2],
+                       s[0][1] * s[1][2] - s[0][2] * s[1][1]};
+    double whole = s[0][0] * cross[0] + s[0][1] * cross[1] + s[0][2] * cross[2];
+    double second = s[0][0] * s[2][2] - s[0][2] * s[0][2];
+    double third = s[0][0] * s[1][1] - s[0][1] * s[0][1];
+    double mixed = s[0][1] * s[0][2] - s[0][0] * s[1][2];
+    v[0] = (cross[0] * b[0] + cross[1] * b[1] + cross[2] * b[2]) / whole;
+    v[1] = (cross[1] * b[0] + second * b[1] + mixed * b[2]) / whole;
+    v[2] = (cross[2] * b[0] + mixed * b[1] + third * b[2]) / whole;
+    if (v[2] >= node->bound) return CONTACT_OPEN;
+
+    // Pressed: it sticks, if friction at rest holds it.
+    v[0] = v[1] = 0;
+    v[2] = node->bound;
+    for (int32_t c = 0; c < 2; c++) node->q[c] = b[c] - s[c][2] * node->bound;
+    node->r_0 = s[2][2] * node->bound - b[2];
+    node->soft = third / (s[0][0] + s[1][1]);
+    double limit = friction_coefficient(node->friction, 0) * fmax(node->r_0, 0), pressing;
+    if (hypot(node->q[0], node->q[1]) <= limit) return CONTACT_STICK;
+
+    // Slips: the first part of the range of l with a root, then halvings of it.
     double low = 0, high = 1;
     for (int32_t k = 1; k <= PARTS; k++) {
         high = (double)k / PARTS;
-        if (slip_at(node, high, v, pressing) <= 0) break;
+        if (slip_at(node, high, v, &pressing) <= 0) break;
         low = high;
     }
     for (int32_t k = 0; k < HALVINGS; k++) {
         double middle = 0.5 * (low + high);
-        *(slip_at(node, middle, v, pressing) > 0 ? &low : &high) = middle;
+        *(slip_at(node, middle, v, &pressing) > 0 ? &low : &high) = middle;
     }
-    slip_at(node, high, v, pressing);
-}
-
-// v where nothing touches: S v = b.
-static bool leaves(const NodeAlone *node, double v[3])
-{
-    const double(*s)[3] = node->s;
-    double cross[3] = {s[1][1] * s[2][2] - s[1][2] * s[1][2], s[0][2] * s[1][2] - s[0][1] * s[2][2],
-                       s[0][1] * s[1][2] - s[0][2] * s[1][1]};
-    double determinant = s[0][0] * cross[0] + s[0][1] * cross[1] + s[0][2] * cross[2];
-    double second = s[0][0] * s[2][2] - s[0][2] * s[0][2];
-    double third = s[0][0] * s[1][1] - s[0][1] * s[0][1];
-    double mixed = s[0][1] * s[0][2] - s[0][0] * s[1][2];
-    const double *b = node->b;
-    v[0] = (cross[0] * b[0] + cross[1] * b[1] + cross[2] * b[2]) / determinant;
-    v[1] = (cross[1] * b[0] + second * b[1] + mixed * b[2]) / determinant;
-    v[2] = (cross[2] * b[0] + mixed * b[1] + third * b[2]) / determinant;
-    return v[2] >= node->bound;
-}
-
-static uint8_t solve_alone(NodeAlone *node, double v[3])
-{
-    if (leaves(node, v)) return CONTACT_OPEN;
-    v[0] = v[1] = 0;
-    v[2] = node->bound;
-    for (int32_t c = 0; c < 2; c++) node->q[c] = node->b[c] - node->s[c][2] * node->bound;
-    node->r_0 = node->s[2][2] * node->bound - node->b[2];
-    double trace = node->s[0][0] + node->s[1][1];
-    double determinant = node->s[0][0] * node->s[1][1] - node->s[0][1] * node->s[0][1];
-    node->soft = determinant / trace;
-    double limit = friction_coefficient(node->friction, 0) * fmax(node->r_0, 0), pressing;
-    if (hypot(node->q[0], node->q[1]) <= limit) return CONTACT_STICK;
-    find_slip(node, v, &pressing);
+    slip_at(node, high, v, &pressing);
     return status_of_slip(v[0]);
 }
 

@@ -26,43 +26,6 @@ static double least_weight(const Mesh *mesh, const double *weight)
     return ROUNDING * largest;
 }
 
-static bool is_flat(const Mesh *mesh, const MeshContact *contact)
-{
-    bool flat = true;
-    for (int32_t i = 0; i < contact->node_count; i++)
-        flat = flat && mesh_gap(mesh, contact->nodes[i]) == 0;
-    return flat;
-}
-
-// Nodes without weight leave the list.
-static void drop_weightless(const Mesh *mesh, const double *weight, MeshContact *contact)
-{
-    double least = least_weight(mesh, weight);
-    int32_t kept = 0;
-    for (int32_t i = 0; i < contact->node_count; i++) {
-        if (weight[contact->nodes[i]] < least) continue;
-        contact->nodes[kept] = contact->nodes[i];
-        contact->pad_of[kept++] = contact->pad_of[i];
-    }
-    contact->node_count = kept;
-}
-
-// y of the node nearest to the middle, of several as near the first.
-static double line_place(const Interface *interface, double rounding)
-{
-    double low = INFINITY, high = -INFINITY, place = INFINITY;
-    for (int32_t i = 0; i < interface->contact_count; i++) {
-        low = fmin(low, interface->y[i]);
-        high = fmax(high, interface->y[i]);
-    }
-    double middle = 0.5 * (low + high);
-    for (int32_t i = 0; i < interface->contact_count; i++) {
-        double nearer = fabs(place - middle) - fabs(interface->y[i] - middle);
-        if (nearer > rounding) place = interface->y[i];
-    }
-    return place;
-}
-
 // On a grid the row of nodes nearest to the middle; elsewhere those of a strip around it, as wide
 // as a mean cell is long.
 bool interface_find_line(Interface *interface, Error *err)
@@ -73,7 +36,20 @@ bool interface_find_line(Interface *interface, Error *err)
     if (!interface->line) return false;
     for (int32_t i = 0; i < interface->contact_count; i++) area += interface->weight[i];
     double cell = sqrt(area / interface->contact_count), rounding = LINE_ROUNDING * cell;
-    double place = line_place(interface, rounding);
+
+    // y of the node nearest to the middle, of several as near the first.
+    double low = INFINITY, high = -INFINITY, place = INFINITY;
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        low = fmin(low, interface->y[i]);
+        high = fmax(high, interface->y[i]);
+    }
+    double middle = 0.5 * (low + high);
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        double nearer = fabs(place - middle) - fabs(interface->y[i] - middle);
+        if (nearer > rounding) place = interface->y[i];
+    }
+
+    // Along x, of nodes side by side that which is nearer to it.
     interface->line_count = 0;
     for (int32_t i = 0; i < interface->contact_count; i++) {
         int32_t *last = interface->line + interface->line_count - 1;
@@ -100,8 +76,16 @@ static bool build_contact(const Mesh *mesh, const InterfaceDef *def, Interface *
     TRY(mesh_contact(mesh, def->contact_names, def->contact_name_count, &contact, err));
     for (int32_t c = 0; c < contact.pad_count; c++)
         boundary_add_weights(mesh, &contact.pads[c], true, weight);
-    drop_weightless(mesh, weight, &contact);
-    int32_t count = contact.node_count;
+
+    // Nodes without weight leave the list.
+    double least = least_weight(mesh, weight);
+    int32_t count = 0;
+    for (int32_t i = 0; i < contact.node_count; i++) {
+        if (weight[contact.nodes[i]] < least) continue;
+        contact.nodes[count] = contact.nodes[i];
+        contact.pad_of[count++] = contact.pad_of[i];
+    }
+    contact.node_count = count;
     interface->contact_count = count;
     interface->pad_count = contact.pad_count;
     interface->node = NEW_ARRAY(int32_t, count, err);
@@ -113,8 +97,10 @@ static bool build_contact(const Mesh *mesh, const InterfaceDef *def, Interface *
     if (!error_is_clean(err)) goto cleanup;
     for (int32_t c = 0; c < contact.pad_count; c++)
         snprintf(interface->pad_name[c], GROUP_NAME_SIZE, "%s", contact.pads[c].name);
+    bool flat = true;
     for (int32_t i = 0; i < count; i++) {
         int32_t node = contact.nodes[i];
+        flat = flat && mesh_gap(mesh, node) == 0;
         interface->node[i] = node;
         interface->x[i] = mesh_place(mesh, node)[0];
         if (interface->y) interface->y[i] = mesh_place(mesh, node)[1];
@@ -123,21 +109,12 @@ static bool build_contact(const Mesh *mesh, const InterfaceDef *def, Interface *
     }
     TRY(interface_find_line(interface, err));
     TRY(contact_faces_build(mesh, &contact, &interface->faces, err));
-    if (!is_flat(mesh, &contact) && (interface->gap = NEW_ARRAY(double, count, err)))
+    if (!flat && (interface->gap = NEW_ARRAY(double, count, err)))
         for (int32_t i = 0; i < count; i++) interface->gap[i] = mesh_gap(mesh, interface->node[i]);
 cleanup:
     memory_free(weight);
     mesh_contact_destroy(&contact);
     return error_is_clean(err);
-}
-
-// Looks through all: done once for each node of the rod's face, when the mesh is read.
-static bool is_contact_node(const Interface *interface, int32_t node)
-{
-    for (int32_t i = 0; i < interface->contact_count; i++) {
-        if (interface->node[i] == node) return true;
-    }
-    return false;
 }
 
 // The face that the rod touches, by ascending z of its nodes. Each stands for a stretch that
@@ -150,26 +127,6 @@ typedef struct Face {
     double *area;   // [nodes of the mesh] integral of the shape function; owned
     double rounding;   // of a place, length
 } Face;
-
-static void face_destroy(Face *face)
-{
-    memory_free_all(face->node, face->area);
-    for (int k = 0; k < 2; k++) {
-        memory_free_all(face->from[k], face->to[k]);
-    }
-}
-
-// Insertion sort: a face of n nodes costs n^2/4 moves at the worst, nothing beside meshing.
-static void sort_face(const Mesh *mesh, const MeshBoundary *boundary, Face *face)
-{
-    for (int32_t k = 0; k < boundary->node_count; k++) {
-        double z = mesh_height(mesh, boundary->nodes[k]);
-        int32_t j = k;
-        for (; j > 0 && mesh_height(mesh, face->node[j - 1]) > z; j--)
-            face->node[j] = face->node[j - 1];
-        face->node[j] = boundary->nodes[k];
-    }
-}
 
 // Widens the stretch of each node along an axis by those beside it on its faces. place: [nodes of
 // the mesh] in the face's list.
@@ -209,7 +166,15 @@ static bool face_build(const Mesh *mesh, const MeshBoundary *boundary, Face *fac
         face->to[k] = NEW_ARRAY(double, face->count, err);
     }
     if (!error_is_clean(err)) goto cleanup;
-    sort_face(mesh, boundary, face);
+
+    // Insertion sort: a face of n nodes costs n^2/4 moves at the worst, nothing beside meshing.
+    for (int32_t k = 0; k < boundary->node_count; k++) {
+        double z = mesh_height(mesh, boundary->nodes[k]);
+        int32_t j = k;
+        for (; j > 0 && mesh_height(mesh, face->node[j - 1]) > z; j--)
+            face->node[j] = face->node[j - 1];
+        face->node[j] = boundary->nodes[k];
+    }
     for (int32_t k = 0; k < face->count; k++) place[face->node[k]] = k;
     for (int32_t axis = 1; axis < mesh->dim; axis++)
         find_stretches(mesh, boundary, axis, place, face);
@@ -224,24 +189,6 @@ typedef struct Strip {
     double low[2], high[2];   // length
     bool in_part;
 } Strip;
-
-// All of the face along y, unless the scene says how much of it.
-static Strip strip_of(const Mesh *mesh, const InterfaceDef *def, const Face *face)
-{
-    Strip strip = {.low = {def->rod_height - 0.5 * def->rod_width, -INFINITY},
-                   .high = {def->rod_height + 0.5 * def->rod_width, INFINITY},
-                   .in_part = def->rod_in_part};
-    if (def->rod_whole) strip.low[0] = -INFINITY, strip.high[0] = INFINITY;
-    if (!(def->rod_breadth > 0) || mesh->dim < 3) return strip;
-    double least = INFINITY, most = -INFINITY;
-    for (int32_t k = 0; k < face->count; k++) {
-        least = fmin(least, mesh_place(mesh, face->node[k])[1]);
-        most = fmax(most, mesh_place(mesh, face->node[k])[1]);
-    }
-    strip.low[1] = 0.5 * (least + most - def->rod_breadth);
-    strip.high[1] = 0.5 * (least + most + def->rod_breadth);
-    return strip;
-}
 
 // How much of the stretch of node k along one of the axes lies in the strip, 0 to 1. Without
 // in_part a node is in or out: 1 or 0.
@@ -258,43 +205,6 @@ static double strip_share(const Mesh *mesh, const Strip *strip, const Face *face
     return covered >= to - from - rounding ? 1 : covered / (to - from);
 }
 
-// Extent of node k along the end that it is at, the upper and lower ones unless it is at none.
-static double end_length(const Face *face, int32_t k, bool at_side)
-{
-    double height = face->to[0][k] - face->from[0][k];
-    return at_side ? height : face->area[face->node[k]] / height;
-}
-
-static bool make_rod(const Mesh *mesh, int32_t room, Interface *interface, Error *err)
-{
-    interface->rod_node = NEW_ARRAY(int32_t, room, err);
-    interface->rod_z = NEW_ARRAY(double, room, err);
-    interface->rod_share = NEW_ARRAY(double, room, err);
-    if (mesh->dim > 2) {
-        interface->rod_y = NEW_ARRAY(double, room, err);
-        interface->rod_length = NEW_ARRAY(double, room, err);
-    }
-    return error_is_clean(err);
-}
-
-// Appends node k of the face, if the strip has some of it. *nearest: of those that may be led, the
-// height next to the strip's.
-static void add_rod_node(const Mesh *mesh, const InterfaceDef *def, const Face *face, int32_t k,
-                         Interface *interface)
-{
-    Strip strip = strip_of(mesh, def, face);
-    double up = strip_share(mesh, &strip, face, k, 0);
-    double across = mesh->dim > 2 ? strip_share(mesh, &strip, face, k, 1) : 1;
-    if (up * across == 0) return;
-    int32_t j = interface->rod_count++;
-    interface->rod_node[j] = face->node[k];
-    interface->rod_z[j] = mesh_height(mesh, face->node[k]);
-    interface->rod_share[j] = up * across;
-    if (mesh->dim == 2) return;
-    interface->rod_y[j] = mesh_place(mesh, face->node[k])[1];
-    interface->rod_length[j] = end_length(face, k, up == 1 && across < 1);
-}
-
 // Those of the face's nodes that lie in the strip. A node of the contact is left out, as the plane
 // holds it.
 static bool build_rod(const Mesh *mesh, const InterfaceDef *def, Interface *interface, Error *err)
@@ -303,17 +213,58 @@ static bool build_rod(const Mesh *mesh, const InterfaceDef *def, Interface *inte
     MeshBoundary boundary;
     Face face = {0};
     TRY(mesh_boundary(mesh, def->rod_name, &boundary, err));
-    TRY(make_rod(mesh, boundary.node_count, interface, err));
+    interface->rod_node = NEW_ARRAY(int32_t, boundary.node_count, err);
+    interface->rod_z = NEW_ARRAY(double, boundary.node_count, err);
+    interface->rod_share = NEW_ARRAY(double, boundary.node_count, err);
+    if (mesh->dim > 2) {
+        interface->rod_y = NEW_ARRAY(double, boundary.node_count, err);
+        interface->rod_length = NEW_ARRAY(double, boundary.node_count, err);
+    }
+    if (!error_is_clean(err)) goto cleanup;
     TRY(face_build(mesh, &boundary, &face, err));
-    double least = least_weight(mesh, face.area), nearest = INFINITY;
     interface->rod_face[0] = mesh_height(mesh, face.node[0]);
     interface->rod_face[1] = mesh_height(mesh, face.node[face.count - 1]);
-    for (int32_t k = 0; k < face.count; k++) {
-        double z = mesh_height(mesh, face.node[k]);
-        if (is_contact_node(interface, face.node[k]) || face.area[face.node[k]] < least) continue;
-        if (fabs(z - def->rod_height) < fabs(nearest - def->rod_height)) nearest = z;
-        add_rod_node(mesh, def, &face, k, interface);
+
+    // The strip: all of the face along y, unless the scene says how much of it.
+    Strip strip = {.low = {def->rod_height - 0.5 * def->rod_width, -INFINITY},
+                   .high = {def->rod_height + 0.5 * def->rod_width, INFINITY},
+                   .in_part = def->rod_in_part};
+    if (def->rod_whole) strip.low[0] = -INFINITY, strip.high[0] = INFINITY;
+    if (def->rod_breadth > 0 && mesh->dim > 2) {
+        double low = INFINITY, high = -INFINITY;
+        for (int32_t k = 0; k < face.count; k++) {
+            low = fmin(low, mesh_place(mesh, face.node[k])[1]);
+            high = fmax(high, mesh_place(mesh, face.node[k])[1]);
+        }
+        strip.low[1] = 0.5 * (low + high - def->rod_breadth);
+        strip.high[1] = 0.5 * (low + high + def->rod_breadth);
     }
+
+    // Its nodes by ascending z. nearest: of those that may be led, the height next to the strip's.
+    double least = least_weight(mesh, face.area), nearest = INFINITY;
+    for (int32_t k = 0; k < face.count; k++) {
+        int32_t node = face.node[k];
+        double z = mesh_height(mesh, node);
+        bool in_contact = false;
+        for (int32_t i = 0; i < interface->contact_count; i++)
+            in_contact = in_contact || interface->node[i] == node;
+        if (in_contact || face.area[node] < least) continue;
+        if (fabs(z - def->rod_height) < fabs(nearest - def->rod_height)) nearest = z;
+        double up = strip_share(mesh, &strip, &face, k, 0);
+        double across = mesh->dim > 2 ? strip_share(mesh, &strip, &face, k, 1) : 1;
+        if (up * across == 0) continue;
+        int32_t j = interface->rod_count++;
+        interface->rod_node[j] = node;
+        interface->rod_z[j] = z;
+        interface->rod_share[j] = up * across;
+        if (mesh->dim == 2) continue;
+        // Extent along the end that it is at, the upper and lower ones unless it is at none.
+        double height = face.to[0][k] - face.from[0][k];
+        bool at_side = up == 1 && across < 1;
+        interface->rod_y[j] = mesh_place(mesh, node)[1];
+        interface->rod_length[j] = at_side ? height : face.area[node] / height;
+    }
+
     if (interface->rod_count == 0 && isinf(nearest))
         FAIL(err, ERROR_INPUT,
              "%s: the rod has nothing to push: all nodes of group \"%s\" are nodes of the contact "
@@ -327,7 +278,8 @@ static bool build_rod(const Mesh *mesh, const InterfaceDef *def, Interface *inte
              mesh->path, def->rod_name, def->rod_height - 0.5 * def->rod_width,
              def->rod_height + 0.5 * def->rod_width, nearest);
 cleanup:
-    face_destroy(&face);
+    memory_free_all(face.node, face.area);
+    memory_free_all(face.from[0], face.to[0], face.from[1], face.to[1]);
     return error_is_clean(err);
 }
 

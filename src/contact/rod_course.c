@@ -68,49 +68,29 @@ double rod_course_way(const RodCourse *course, double time)
            way_in(course, &stretch, time - from - over->at[k]);
 }
 
-// The least t in a stretch at which `way` is covered; INFINITY: it is not.
-static double arrival_in(const RodCourse *course, const Stretch *stretch, double way)
-{
-    double v = stretch->velocity, slope = stretch->slope, found = INFINITY;
-    if (way <= 0) return 0;
-    if (slope == 0) {
-        found = v > 0 ? way / v : INFINITY;
-    } else if (course->by_way) {
-        found = log1p(slope * way / v) / slope;
-    } else {
-        double square = v * v + 2 * slope * way;
-        if (square < 0) return INFINITY;
-        // The first root (-v +- sqrt)/slope that is not negative, without cancellation.
-        double sum = v + sqrt(square);
-        found = sum > 0 ? 2 * way / sum : INFINITY;
-    }
-    return found <= stretch->duration * (1 + 1e-12) ? found : INFINITY;
-}
-
-// In the first round, `way` still to go from its beginning; INFINITY: not within it.
+// When the first round has covered `way` from its beginning; INFINITY: it does not.
 static double arrival_in_round(const RodCourse *course, double way)
 {
     for (int32_t k = 0; k < course->schedule.count; k++) {
         if (course->schedule.repeats && k + 1 == course->schedule.count) break;
         Stretch stretch = stretch_of(course, k);
-        double t = arrival_in(course, &stretch, way - course->way[k]);
-        if (isfinite(t)) return course->schedule.at[k] + t;
+        double v = stretch.velocity, slope = stretch.slope, left = way - course->way[k], t;
+        // The least t in the stretch at which what is left is covered.
+        if (left <= 0) {
+            t = 0;
+        } else if (slope == 0) {
+            t = v > 0 ? left / v : INFINITY;
+        } else if (course->by_way) {
+            t = log1p(slope * left / v) / slope;
+        } else {
+            // The first root (-v +- sqrt)/slope that is not negative, without cancellation.
+            double square = v * v + 2 * slope * left, sum = square < 0 ? -1 : v + sqrt(square);
+            t = sum > 0 ? 2 * left / sum : INFINITY;
+        }
+        bool within = left <= 0 || t <= stretch.duration * (1 + 1e-12);
+        if (within && isfinite(t)) return course->schedule.at[k] + t;
     }
     return INFINITY;
-}
-
-// U is largest within a round at a point or where the velocity goes through 0.
-static double farthest_in_round(const RodCourse *course)
-{
-    double farthest = 0;
-    for (int32_t k = 0; k + 1 < course->schedule.count; k++) {
-        Stretch stretch = stretch_of(course, k);
-        double turn = stretch.slope < 0 ? -stretch.velocity / stretch.slope : -1;
-        farthest = fmax(farthest, course->way[k + 1]);
-        if (!course->by_way && turn > 0 && turn < stretch.duration)
-            farthest = fmax(farthest, course->way[k] + way_in(course, &stretch, turn));
-    }
-    return farthest;
 }
 
 double rod_course_arrival(const RodCourse *course, double way)
@@ -119,6 +99,16 @@ double rod_course_arrival(const RodCourse *course, double way)
     if (over->count == 0) return course->velocity > 0 ? way / course->velocity : INFINITY;
     double first = arrival_in_round(course, way), each = course->way[over->count - 1];
     if (isfinite(first) || !over->repeats || !(each > 0)) return first;
-    double rounds = ceil((way - farthest_in_round(course)) / each * (1 - 1e-12));
+
+    // U is largest within a round at a point or where the velocity goes through 0.
+    double farthest = 0;
+    for (int32_t k = 0; k + 1 < over->count; k++) {
+        Stretch stretch = stretch_of(course, k);
+        double turn = stretch.slope < 0 ? -stretch.velocity / stretch.slope : -1;
+        farthest = fmax(farthest, course->way[k + 1]);
+        if (!course->by_way && turn > 0 && turn < stretch.duration)
+            farthest = fmax(farthest, course->way[k] + way_in(course, &stretch, turn));
+    }
+    double rounds = ceil((way - farthest) / each * (1 - 1e-12));
     return rounds * over->at[over->count - 1] + arrival_in_round(course, way - rounds * each);
 }

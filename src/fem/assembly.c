@@ -213,21 +213,18 @@ void bulk_hold(int32_t dof, Bulk *bulk)
     bulk->held[dof] = 1;
 }
 
-// int N_a ds on a straight edge: halves, or Simpson's 1/6, 1/6, 4/6 (end, end, middle).
-static void share_edge(double length, int32_t nodes, double weight[3])
-{
-    weight[0] = weight[1] = nodes == 2 ? length / 2 : length / 6;
-    weight[2] = length * 4 / 6;
-}
-
 // share += int N_a dA of a face, or of its shadow on the floor, [its nodes].
 static void share_face(const Mesh *mesh, FaceNodes face, bool shadow, double share[FACE_NODES_MAX])
 {
     const int32_t *nodes = face.node;
     if (mesh->dim == 2) {
         double along = fabs(mesh_place(mesh, nodes[1])[0] - mesh_place(mesh, nodes[0])[0]);
-        share_edge(shadow ? along : mesh_distance(mesh, nodes[0], nodes[1]),
-                   element_node_count(face.kind), share);
+
+        // int N_a ds on a straight edge: halves, or Simpson's 1/6, 1/6, 4/6 (end, end, middle).
+        double length = shadow ? along : mesh_distance(mesh, nodes[0], nodes[1]);
+        share[0] = share[1] = element_node_count(face.kind) == 2 ? length / 2 : length / 6;
+        share[2] = length * 4 / 6;
+
         return;
     }
     MeshPlace position[FACE_NODES_MAX], normal;
@@ -244,21 +241,6 @@ static void share_face(const Mesh *mesh, FaceNodes face, bool shadow, double sha
     }
 }
 
-// int N_a dA of a T6's corners is 0 where it is flat and of either sign, as small as the square of
-// its bend, where it is curved: half of each goes to the mid-sides beside it, so that corners of a
-// curved contact touch nothing, either.
-static void share_of_mid_sides(double share[FACE_NODES_MAX])
-{
-    static const double ROUNDING = 1e-12;   // over that of a mid-side
-    for (int32_t a = 0; a < 3; a++) {
-        double half = 0.5 * share[a];
-        if (fabs(half) < ROUNDING * share[3 + a]) continue;
-        share[3 + a] += half;
-        share[3 + (a + 2) % 3] += half;
-        share[a] = 0;
-    }
-}
-
 // w_i = int N_i dA, at its mesh nodes: what turns a nodal reaction into a stress.
 void boundary_add_weights(const Mesh *mesh, const MeshBoundary *boundary, bool shadow,
                           double *weight)
@@ -267,7 +249,21 @@ void boundary_add_weights(const Mesh *mesh, const MeshBoundary *boundary, bool s
         FaceNodes face = mesh_boundary_face(boundary, k);
         double share[FACE_NODES_MAX] = {0};
         share_face(mesh, face, shadow, share);
-        if (mesh->dim > 2 && face.kind == ELEMENT_T6) share_of_mid_sides(share);
+
+        if (mesh->dim > 2 && face.kind == ELEMENT_T6) {
+            // int N_a dA of a T6's corners is 0 where it is flat and of either sign, as small as
+            // the square of its bend, where it is curved: half of each goes to the mid-sides beside
+            // it, so that corners of a curved contact touch nothing, either.
+            static const double ROUNDING = 1e-12;   // over that of a mid-side
+            for (int32_t a = 0; a < 3; a++) {
+                double half = 0.5 * share[a];
+                if (fabs(half) < ROUNDING * share[3 + a]) continue;
+                share[3 + a] += half;
+                share[3 + (a + 2) % 3] += half;
+                share[a] = 0;
+            }
+        }
+
         for (int32_t a = 0; a < element_node_count(face.kind); a++)
             weight[face.node[a]] += share[a];
     }

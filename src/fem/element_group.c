@@ -199,20 +199,6 @@ static void add_member(int32_t dim, const ElementMatrices *member, const int32_t
     out->area += member->area;
 }
 
-// k of the header.
-static void add_areal(const Material *material, int32_t dim, ElementMatrices *out)
-{
-    double elastic = moduli_bulk(material_elastic(material), dim);
-    double viscous = moduli_bulk(material_viscous(material), dim);
-    for (int32_t i = 0; i < out->dof_count; i++) {
-        for (int32_t j = 0; j < out->dof_count; j++) {
-            double square = out->areal[i] * out->areal[j] / out->area;
-            out->stiffness[i][j] += elastic * square;
-            out->damping[i][j] += viscous * square;
-        }
-    }
-}
-
 void element_group_matrices(const Mesh *mesh, const Material *materials, const ElementGroup *group,
                             ElementMatrices *out)
 {
@@ -236,7 +222,17 @@ void element_group_matrices(const Mesh *mesh, const Material *materials, const E
             place[a] = place_of(&known, mesh->element_nodes[first + a]);
         add_member(mesh->dim, &member, place, out);
     }
-    add_areal(material, mesh->dim, out);
+
+    // k of the header.
+    double elastic = moduli_bulk(material_elastic(material), mesh->dim);
+    double viscous = moduli_bulk(material_viscous(material), mesh->dim);
+    for (int32_t i = 0; i < out->dof_count; i++) {
+        for (int32_t j = 0; j < out->dof_count; j++) {
+            double square = out->areal[i] * out->areal[j] / out->area;
+            out->stiffness[i][j] += elastic * square;
+            out->damping[i][j] += viscous * square;
+        }
+    }
 }
 
 void element_group_areal(const Mesh *mesh, const ElementGroup *group, double *g)

@@ -72,11 +72,6 @@ typedef struct Mortar {
     int32_t entry_count, entry_room;
 } Mortar;
 
-static void mortar_destroy(Mortar *mortar)
-{
-    memory_free_all(mortar->floor, mortar->total, mortar->pairs, mortar->entries);
-}
-
 void floor_destroy(Floor *floor)
 {
     memory_free_all(floor->start, floor->node, floor->share);
@@ -213,17 +208,6 @@ static void set_points(const Shadow *corner, int32_t count, int32_t dim, PiecePo
     }
 }
 
-// The corners of a T6 have no weight: half of what they have goes to each mid-side beside them, as
-// for the weights of the contact (fem/assembly).
-static void share_corners(double share[FACE_NODES_MAX])
-{
-    for (int32_t a = 0; a < 3; a++) {
-        share[3 + a] += 0.5 * share[a];
-        share[3 + (a + 2) % 3] += 0.5 * share[a];
-        share[a] = 0;
-    }
-}
-
 static int32_t first_floor_face(const Mortar *mortar, double low)
 {
     int32_t from = 0, to = mortar->floor_count;
@@ -235,19 +219,6 @@ static int32_t first_floor_face(const Mortar *mortar, double low)
             to = middle;
     }
     return from;
-}
-
-static bool refuse_cover(const Mesh *mesh, const char *pad, FaceNodes face, double cover,
-                         const char *floor, Error *err)
-{
-    char at[PLACE_TEXT_SIZE];
-    return REFUSE(
-        err,
-        "%s: contact group '%s' near %s lies over group '%s' of the base with %.3g of "
-        "its %s: the floor must reach over all of the contact, once (draw the base longer, "
-        "and name its upper side alone)",
-        mesh->path, pad, mesh_place_text(mesh, face.node[0], at), floor, cover,
-        mesh->dim == 2 ? "length" : "area");
 }
 
 // Adds the rows of one face of the contact.
@@ -287,12 +258,30 @@ static bool add_face(Mortar *mortar, const char *pad, FaceNodes face, const char
     }
     int32_t corners = corners_of(&own, dim, corner);
     double size = size_of(corner, corners, dim);
-    if (!(fabs(covered - size) <= COVER_ROUNDING * size))
-        return refuse_cover(mortar->mesh, pad, face, covered / size, floor, err);
+    if (!(fabs(covered - size) <= COVER_ROUNDING * size)) {
+        char at[PLACE_TEXT_SIZE];
+        return REFUSE(
+            err,
+            "%s: contact group '%s' near %s lies over group '%s' of the base with %.3g of "
+            "its %s: the floor must reach over all of the contact, once (draw the base longer, "
+            "and name its upper side alone)",
+            mortar->mesh->path, pad, mesh_place_text(mortar->mesh, face.node[0], at), floor,
+            covered / size, mortar->mesh->dim == 2 ? "length" : "area");
+    }
     if (!dense_cholesky(mass, nodes) || !dense_invert_factored(mass, nodes))
         return FAULT(err, ERROR_COMPUTE, "%s: a face of contact group '%s' has no area",
                      mortar->mesh->path, pad);
-    if (dim == 2 && face.kind == ELEMENT_T6) share_corners(share);
+
+    if (dim == 2 && face.kind == ELEMENT_T6) {
+        // The corners of a T6 have no weight: half of what they have goes to each mid-side beside
+        // them, as for the weights of the contact (fem/assembly).
+        for (int32_t a = 0; a < 3; a++) {
+            share[3 + a] += 0.5 * share[a];
+            share[3 + (a + 2) % 3] += 0.5 * share[a];
+            share[a] = 0;
+        }
+    }
+
     for (int32_t a = 0; a < nodes; a++) {
         mortar->total[face.node[a]] += share[a];
         for (int32_t p = 0; share[a] != 0 && p < mortar->pair_count; p++) {
@@ -420,7 +409,7 @@ bool floor_find(const char (*names)[GROUP_NAME_SIZE], int32_t name_count, const 
     TRY(fill_rows(&mortar, &mesh->floor, err));
     TRY(check_gaps(mesh, &contact, err));
 cleanup:
-    mortar_destroy(&mortar);
+    memory_free_all(mortar.floor, mortar.total, mortar.pairs, mortar.entries);
     mesh_contact_destroy(&contact);
     return error_is_clean(err);
 }

@@ -92,39 +92,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// A quadrilateral with two corners in one node has a Jacobian of zero there.
-static bool check_repeats(const Mesh *mesh, Error *err)
-{
-    for (int32_t e = 0; e < mesh->element_count; e++)
-        for (int32_t a = mesh->first_node[e]; a < mesh->first_node[e + 1]; a++)
-            for (int32_t b = mesh->first_node[e]; b < a; b++)
-                if (mesh->element_nodes[a] == mesh->element_nodes[b])
-                    return REFUSE(err, "%s: element %lld (%s) has node %lld twice", mesh->path,
-                                  (long long)mesh->element_number[e], ELEMENTS[mesh->kind[e]].name,
-                                  (long long)mesh->node_number[mesh->element_nodes[a]]);
-    return true;
-}
-
-// Positions of the nodes of element e, and their mean; returns the longest distance from node 0 to
-// the power of the dimension, the scale of its Jacobian.
-static double gather(const Mesh *mesh, int32_t e, MeshPlace *position, MeshPlace centre)
-{
-    int32_t count = mesh->first_node[e + 1] - mesh->first_node[e];
-    double scale = 0;
-    mesh_places(mesh, mesh->element_nodes + mesh->first_node[e], count, position);
-    memset(centre, 0, sizeof(MeshPlace));
-    for (int32_t a = 0; a < count; a++) {
-        double square = 0;
-        for (int32_t d = 0; d < mesh->dim; d++) {
-            double way = position[a][d] - position[0][d];
-            centre[d] += position[a][d] / count;
-            square += way * way;
-        }
-        scale = fmax(scale, square);
-    }
-    return pow(scale, mesh->dim / 2.0);
-}
-
 // Shape functions at the nodes and quadrature points of each kind, where Jacobians are looked at.
 typedef struct ProbePoints {
     int32_t count[ELEMENT_KIND_COUNT];
@@ -164,8 +131,21 @@ static void determinant_range(const Mesh *mesh, const ProbePoints *probes, int32
                               double range[2], MeshPlace centre)
 {
     MeshPlace position[ELEMENT_NODES_MAX];
-    double scale = gather(mesh, e, position, centre);
+    int32_t count = mesh->first_node[e + 1] - mesh->first_node[e];
     ElementKind kind = mesh->kind[e];
+    double scale = 0;   // of its Jacobian: the longest distance from node 0 to the power of dim
+    mesh_places(mesh, mesh->element_nodes + mesh->first_node[e], count, position);
+    memset(centre, 0, sizeof(MeshPlace));
+    for (int32_t a = 0; a < count; a++) {
+        double square = 0;
+        for (int32_t d = 0; d < mesh->dim; d++) {
+            double way = position[a][d] - position[0][d];
+            centre[d] += position[a][d] / count;
+            square += way * way;
+        }
+        scale = fmax(scale, square);
+    }
+    scale = pow(scale, mesh->dim / 2.0);
     range[0] = INFINITY, range[1] = -INFINITY;
     for (int32_t q = 0; q < probes->count[kind]; q++) {
         double determinant =
@@ -185,14 +165,6 @@ static int32_t exchanged_node(ElementKind kind, int32_t a)
         if (other[0] == at[1] && other[1] == at[0] && other[2] == at[2]) return b;
     }
     return a;
-}
-
-// Exchanges nodes so that the element runs the other way round, from the same first corner.
-static void reverse_element(ElementKind kind, int32_t *nodes)
-{
-    int32_t old[ELEMENT_NODES_MAX], count = element_node_count(kind);
-    memcpy(old, nodes, (size_t)count * sizeof *nodes);
-    for (int32_t a = 0; a < count; a++) nodes[a] = old[exchanged_node(kind, a)];
 }
 
 // The name of a region that element e is in, NULL: none.
@@ -238,21 +210,19 @@ static bool orient_elements(Mesh *mesh, Error *err)
         double range[2];
         MeshPlace centre;
         determinant_range(mesh, probes, e, range, centre);
-        if (range[1] < -AREA_TOLERANCE)
-            reverse_element(mesh->kind[e], mesh->element_nodes + mesh->first_node[e]);
-        else if (!(range[0] > AREA_TOLERANCE))
+        if (range[1] < -AREA_TOLERANCE) {
+            // Exchanges nodes so that the element runs the other way round, from the same first
+            // corner.
+            int32_t *nodes = mesh->element_nodes + mesh->first_node[e];
+            int32_t old[ELEMENT_NODES_MAX], count = element_node_count(mesh->kind[e]);
+            memcpy(old, nodes, (size_t)count * sizeof *nodes);
+            for (int32_t a = 0; a < count; a++) nodes[a] = old[exchanged_node(mesh->kind[e], a)];
+        } else if (!(range[0] > AREA_TOLERANCE))
             TRY(refuse_element(mesh, e, range, centre, err));
     }
 cleanup:
     memory_free(probes);
     return error_is_clean(err);
-}
-
-static FaceNodes group_face(const Mesh *mesh, const MeshGroup *group, int32_t k)
-{
-    MeshBoundary boundary = {
-        .dim = mesh->dim, .nodes_per_face = group->nodes_per_face, .face_nodes = group->face_nodes};
-    return mesh_boundary_face(&boundary, k);
 }
 
 // Every face of a named boundary must be a face of an element, with the same mid-side nodes, and be
@@ -267,7 +237,10 @@ static bool check_boundaries(const Mesh *mesh, const MeshFaces *table, Error *er
     for (int32_t g = 0; g < mesh->group_count; g++) {
         const MeshGroup *group = &mesh->groups[g];
         for (int32_t k = 0; k < group->face_count; k++) {
-            FaceNodes face = group_face(mesh, group, k);
+            MeshBoundary boundary = {.dim = mesh->dim,
+                                     .nodes_per_face = group->nodes_per_face,
+                                     .face_nodes = group->face_nodes};
+            FaceNodes face = mesh_boundary_face(&boundary, k);
             const int32_t *nodes = face.node;
             const MeshFace *known = mesh_faces_find(table, face);
             if (!known || !mesh_face_is(known, face))
@@ -325,7 +298,16 @@ bool mesh_build_parts(MeshFile *file, const char *path, const char *floor, Mesh 
     take_over(file, path, mesh);
     mesh_find_extent(mesh);
     TRY(check_nodes(mesh, err));
-    TRY(check_repeats(mesh, err));
+
+    // A quadrilateral with two corners in one node has a Jacobian of zero there.
+    for (int32_t e = 0; e < mesh->element_count; e++)
+        for (int32_t a = mesh->first_node[e]; a < mesh->first_node[e + 1]; a++)
+            for (int32_t b = mesh->first_node[e]; b < a; b++)
+                if (mesh->element_nodes[a] == mesh->element_nodes[b])
+                    FAIL(err, ERROR_INPUT, "%s: element %lld (%s) has node %lld twice", mesh->path,
+                         (long long)mesh->element_number[e], ELEMENTS[mesh->kind[e]].name,
+                         (long long)mesh->node_number[mesh->element_nodes[a]]);
+
     TRY(orient_elements(mesh, err));
     TRY(mesh_faces_build(mesh, &faces, err));
     TRY(check_boundaries(mesh, &faces, err));

@@ -35,15 +35,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-static void name_piece(const MeshBoundary *whole, int32_t count, int32_t p,
-                       char name[GROUP_NAME_SIZE])
-{
-    if (count == 1)
-        snprintf(name, GROUP_NAME_SIZE, "%s", whole->name);
-    else
-        snprintf(name, GROUP_NAME_SIZE, "%.51s/%d", whole->name, p + 1);
-}
-
 bool mesh_pieces_find(const Mesh *mesh, const MeshBoundary *whole, MeshPieces *pieces, Error *err)
 {
     int32_t *number = NULL, width = whole->nodes_per_face;
@@ -62,7 +53,10 @@ bool mesh_pieces_find(const Mesh *mesh, const MeshBoundary *whole, MeshPieces *p
                                 .nodes_per_face = width,
                                 .face_nodes = faces,
                                 .nodes = nodes};
-        name_piece(whole, pieces->count, p, pieces->name[p]);
+        if (pieces->count == 1)
+            snprintf(pieces->name[p], GROUP_NAME_SIZE, "%s", whole->name);
+        else
+            snprintf(pieces->name[p], GROUP_NAME_SIZE, "%.51s/%d", whole->name, p + 1);
         for (int32_t k = 0; k < whole->node_count; k++)
             if (number[whole->nodes[k]] == p) nodes[piece->node_count++] = whole->nodes[k];
         for (int32_t f = 0; f < whole->face_count; f++) {

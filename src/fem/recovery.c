@@ -13,23 +13,8 @@
 
 #include <math.h>
 
-// The point of a node in a material, a new one where there is none yet; next: [points] the
+// The point of a node in a material; at most one for each node of each element. next: [points] the
 // following point of a node, -1: none.
-static int32_t find_point(NodalStress *stress, int32_t node, int32_t own, int32_t *next,
-                          int32_t nodes)
-{
-    int32_t point = node, *region = stress->region;
-    while (region[point] != own && next[point] >= 0) point = next[point];
-    if (region[point] == own) return point;
-    int32_t made = stress->point_count++;
-    stress->extra_node[made - nodes] = node;
-    region[made] = own;
-    next[made] = -1;
-    next[point] = made;
-    return made;
-}
-
-// At most one point for each node of each element.
 static bool split_nodes(const Mesh *mesh, NodalStress *stress, Error *err)
 {
     int32_t nodes = mesh->node_count, places = mesh->first_node[mesh->element_count];
@@ -48,9 +33,19 @@ static bool split_nodes(const Mesh *mesh, NodalStress *stress, Error *err)
             if (own < *lowest) *lowest = own;
         }
     for (int32_t e = 0; e < mesh->element_count; e++)
-        for (int32_t a = mesh->first_node[e]; a < mesh->first_node[e + 1]; a++)
-            stress->points[a] =
-                find_point(stress, mesh->element_nodes[a], mesh_region(mesh, e), next, nodes);
+        for (int32_t a = mesh->first_node[e]; a < mesh->first_node[e + 1]; a++) {
+            int32_t point = mesh->element_nodes[a], own = mesh_region(mesh, e);
+            while (region[point] != own && next[point] >= 0) point = next[point];
+            if (region[point] != own) {   // a new one
+                int32_t made = stress->point_count++;
+                stress->extra_node[made - nodes] = mesh->element_nodes[a];
+                region[made] = own;
+                next[made] = -1;
+                next[point] = made;
+                point = made;
+            }
+            stress->points[a] = point;
+        }
 cleanup:
     memory_free(next);
     return error_is_clean(err);
@@ -72,26 +67,6 @@ static int32_t place_in_row(NodalStress *stress, int32_t point, int32_t node)
     return k;
 }
 
-// To the row of `point`: `share` of what the mean areal strain of element e's group is above that
-// of its own slopes `b` there.
-static void add_areal(const Mesh *mesh, int32_t e, int32_t point, double share,
-                      const double b[STRAINS_MAX][ELEMENT_DOFS_MAX], NodalStress *stress)
-{
-    const int32_t *element = mesh->element_nodes + mesh->first_node[e];
-    double mean[ELEMENT_DOFS_MAX];
-    ElementGroup group;
-    element_group_of(mesh, e, &group);
-    element_group_areal(mesh, &group, mean);
-    for (int32_t a = 0; a < group.node_count; a++)
-        for (int32_t d = 0; d < mesh->dim; d++)
-            stress->areal[place_in_row(stress, point, group.node[a])][d] +=
-                share * mean[node_dof(mesh->dim, a, d)];
-    for (int32_t a = 0; a < mesh->first_node[e + 1] - mesh->first_node[e]; a++)
-        for (int32_t d = 0; d < mesh->dim; d++)
-            stress->areal[place_in_row(stress, point, element[a])][d] -=
-                share * b[d][node_dof(mesh->dim, a, d)];
-}
-
 // To the row of the point at element `e`'s node `at`: `share` of the slopes d/dx, d/dz of its shape
 // functions there. What other elements said of a node is added to.
 static void add_to_row(const Mesh *mesh, int32_t e, int32_t at, double share, NodalStress *stress)
@@ -109,15 +84,22 @@ static void add_to_row(const Mesh *mesh, int32_t e, int32_t at, double share, No
         for (int32_t d = 0; d < mesh->dim; d++)
             stress->slope[k][d] += share * b[d][node_dof(mesh->dim, a, d)];
     }
-    if (mesh->mean_next && mesh->mean_next[e] >= 0) add_areal(mesh, e, point, share, b, stress);
-}
 
-// How many nodes element e brings to a row: its own, or those of its group.
-static int32_t nodes_with(const Mesh *mesh, int32_t e)
-{
-    ElementGroup group;
-    element_group_of(mesh, e, &group);
-    return group.node_count;
+    if (mesh->mean_next && mesh->mean_next[e] >= 0) {
+        // And of what the mean areal strain of the element's group is above that of its own slopes.
+        double mean[ELEMENT_DOFS_MAX];
+        ElementGroup group;
+        element_group_of(mesh, e, &group);
+        element_group_areal(mesh, &group, mean);
+        for (int32_t a = 0; a < group.node_count; a++)
+            for (int32_t d = 0; d < mesh->dim; d++)
+                stress->areal[place_in_row(stress, point, group.node[a])][d] +=
+                    share * mean[node_dof(mesh->dim, a, d)];
+        for (int32_t a = 0; a < nodes; a++)
+            for (int32_t d = 0; d < mesh->dim; d++)
+                stress->areal[place_in_row(stress, point, element[a])][d] -=
+                    share * b[d][node_dof(mesh->dim, a, d)];
+    }
 }
 
 // A row has room for all nodes of its point's elements.
@@ -131,7 +113,11 @@ static bool prepare_rows(const Mesh *mesh, NodalStress *stress, Error *err)
     if (!error_is_clean(err)) goto cleanup;
     for (int32_t e = 0; e < mesh->element_count; e++)
         for (int32_t a = mesh->first_node[e]; a < mesh->first_node[e + 1]; a++) {
-            stress->row[point[a]] += nodes_with(mesh, e);
+            // How many nodes element e brings to a row: its own, or those of its group.
+            ElementGroup group;
+            element_group_of(mesh, e, &group);
+            stress->row[point[a]] += group.node_count;
+
             shares[point[a]]++;
         }
     for (int32_t k = 0; k < points; k++) {

@@ -75,16 +75,6 @@ static int32_t plane_branches(const Material *material, int32_t dim, PlaneBranch
     return material->branch_count;
 }
 
-// The number of the time in the spectrum, a new one where it is not there; -1: no room.
-static int32_t take_time(double time, Spectrum *spectrum)
-{
-    int32_t k = 0;
-    while (k < spectrum->count && spectrum->time[k] != time) k++;
-    if (k == SPECTRUM_TIMES_MAX) return -1;
-    if (k == spectrum->count) spectrum->time[spectrum->count++] = time;
-    return k;
-}
-
 // One shape where the bulk modulus of each branch is the same part of its shear modulus, else one
 // for shear and one for a strain of all axes alike; in the place of the latter K, where it is of
 // this material alone: K v is known in every stage.
@@ -114,8 +104,11 @@ static bool take_material(const Material *material, int32_t region, int32_t dim,
     spectrum->matrix_count += by_whole ? 1 : shapes;
     for (int32_t k = 0; k < count; k++) {
         if (!(branch[k].shear + branch[k].bulk > NOTHING * (shear + bulk))) continue;
-        int32_t time = take_time(branch[k].time, spectrum);
-        if (time < 0) return false;
+        // The number of the time in the spectrum, a new one where it is not there.
+        int32_t time = 0;
+        while (time < spectrum->count && spectrum->time[time] != branch[k].time) time++;
+        if (time == SPECTRUM_TIMES_MAX) return false;
+        if (time == spectrum->count) spectrum->time[spectrum->count++] = branch[k].time;
         double as_whole = by_whole ? branch[k].bulk / moduli_bulk(elastic, dim) : 0;
         if (shear > 0)
             spectrum->share[time][first] += branch[k].shear - as_whole * moduli_shear(elastic);
@@ -139,14 +132,6 @@ bool spectrum_find(const Materials *materials, int32_t dim, Spectrum *spectrum, 
     return true;
 }
 
-static void drop_branches(double fastest, Material *material)
-{
-    int32_t kept = 0;
-    for (int32_t k = 0; k < material->branch_count; k++)
-        if (material->branch[k].time > fastest) material->branch[kept++] = material->branch[k];
-    material->branch_count = kept;
-}
-
 bool spectrum_fold(double fastest, Materials *materials, Spectrum *spectrum)
 {
     int32_t kept = 0, count = spectrum->count;
@@ -165,8 +150,13 @@ bool spectrum_fold(double fastest, Materials *materials, Spectrum *spectrum)
     spectrum->count = kept;
     if (kept == 0) spectrum->shape_count = spectrum->matrix_count = 0;
     for (int32_t k = kept; k < count; k++) memset(spectrum->share[k], 0, sizeof *spectrum->share);
-    for (int32_t k = 0; kept < count && k < materials->count; k++)
-        drop_branches(fastest, &materials->list[k]);
+    for (int32_t k = 0; kept < count && k < materials->count; k++) {
+        Material *material = &materials->list[k];
+        int32_t slow = 0;
+        for (int32_t b = 0; b < material->branch_count; b++)
+            if (material->branch[b].time > fastest) material->branch[slow++] = material->branch[b];
+        material->branch_count = slow;
+    }
     return kept < count;
 }
 

@@ -72,18 +72,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// A force to measure by where no load presses: the loads' size, or the impact's, the stress
-// rho c_L v over the floor.
-static double free_scale(const Model *model, double load)
-{
-    const Material *material = &model->materials.mean;
-    double impedance = material->density * material_speeds(material).longitudinal;
-    double floor = model->length * model->breadth;
-    double impact = impedance * fabs(model->scene->start.velocity_z) * floor;
-    if (impact > 0) return impact;
-    return load < 0 ? -load : material->young * floor;
-}
-
 // The pressure, else the largest traction. Never 0: a scene without loads is measured by 1.
 double load_reference(const Model *model)
 {
@@ -95,37 +83,6 @@ double load_reference(const Model *model)
         largest = fmax(largest, fmax(fabs(traction[0]), fabs(traction[model->mesh.dim - 1])));
     }
     return largest > 0 ? largest : 1;
-}
-
-// Whether a support is on the block; a group that is not there is told later.
-static bool supports_block(const Model *model)
-{
-    MeshBoundary boundary;
-    Error ignored = {0};
-    for (int32_t k = 0; k < model->scene->load.support_count; k++)
-        if (!mesh_boundary(&model->mesh, model->scene->load.supports[k].group, &boundary, &ignored))
-            return true;
-        else
-            for (int32_t i = 0; i < boundary.node_count; i++)
-                if (!mesh_in_base(&model->mesh, boundary.nodes[i])) return true;
-    return false;
-}
-
-// A block that is held needs no load, and a block that flies towards the plane has its momentum.
-static bool set_load(Model *model, Error *err)
-{
-    const Scene *scene = model->scene;
-    double load = model->unit_load.resultant * load_reference(model);
-    model->block_is_held = supports_block(model);
-    bool held = model->block_is_held || scene->start.velocity_z < 0;
-    if (!(load > 0) && held) load = free_scale(model, load);
-    if (!(load > 0))
-        return REFUSE(
-            err,
-            "%s: the loads do not press the block onto the plane (their resultant along -z is %g)",
-            scene->path, load);
-    model->scales.load = load;
-    return true;
 }
 
 // Pressure and tractions onto the bulk's load, first per unit of load_reference(): so what the
@@ -159,7 +116,34 @@ static bool add_loads(Model *model, Error *err)
     model->unit_load.size = dense_max_abs(bulk->load, bulk->dof_count);
     model->unit_load.resultant = unit;
     for (int32_t dof = 0; dof < bulk->dof_count; dof++) bulk->load[dof] *= reference;
-    return set_load(model, err);
+
+    // A block that is held needs no load, and a block that flies towards the plane has its
+    // momentum. Whether a support is on the block; a group that is not there is told later.
+    for (int32_t k = 0; k < scene->load.support_count && !model->block_is_held; k++) {
+        Error ignored = {0};
+        bool there =
+            mesh_boundary(&model->mesh, scene->load.supports[k].group, &boundary, &ignored);
+        model->block_is_held = !there;
+        for (int32_t i = 0; there && i < boundary.node_count; i++)
+            if (!mesh_in_base(&model->mesh, boundary.nodes[i])) model->block_is_held = true;
+    }
+    double load = unit * reference;
+    if (!(load > 0) && (model->block_is_held || scene->start.velocity_z < 0)) {
+        // A force to measure by where no load presses: the impact's, the stress rho c_L v over the
+        // floor, or the loads' size.
+        const Material *material = &model->materials.mean;
+        double impedance = material->density * material_speeds(material).longitudinal;
+        double floor = model->length * model->breadth;
+        double impact = impedance * fabs(scene->start.velocity_z) * floor;
+        load = impact > 0 ? impact : load < 0 ? -load : material->young * floor;
+    }
+    if (!(load > 0))
+        return REFUSE(
+            err,
+            "%s: the loads do not press the block onto the plane (their resultant along -z is %g)",
+            scene->path, load);
+    model->scales.load = load;
+    return true;
 }
 
 bool model_lay_bulk(Model *model, Error *err)

@@ -19,40 +19,6 @@ typedef struct Part {
     double y[2];   // likewise; not used in the plane
 } Part;
 
-// The part that node i stands for, behind that of the node before it: as long as its weight, so
-// that parts tile each stretch of the contact and sums of w_i f_i are integrals. Within an edge
-// they meet where weights do: half way between its nodes, or, of order 2 with Simpson's weights, at
-// 1/6 and 5/6 of it. So each holds its node, and is centred at it unless cells differ or end there.
-// The first node of a stretch, which may belong to several pads, begins its part itself: the part
-// before then ended at its own node.
-static Part next_part(const Interface *interface, int32_t i, Part before)
-{
-    double from = before.to, rounding = 1e-6 * interface->weight[i];
-    if (i == 0 || before.to - interface->x[i - 1] < rounding) from = interface->x[i];
-    return (Part){from, from + interface->weight[i], {0}};
-}
-
-// In space a square around the node, as large as its weight, as far as it lies within `all`, the
-// box around the contact.
-static Part square_part(const Interface *interface, int32_t i, Part all)
-{
-    double half = 0.5 * sqrt(interface->weight[i]), x = interface->x[i], y = interface->y[i];
-    return (Part){fmax(x - half, all.from),
-                  fmin(x + half, all.to),
-                  {fmax(y - half, all.y[0]), fmin(y + half, all.y[1])}};
-}
-
-static Part box_of(const Interface *interface)
-{
-    int32_t last = interface->contact_count - 1;
-    Part all = {interface->x[0], interface->x[last], {INFINITY, -INFINITY}};
-    for (int32_t i = 0; interface->y && i <= last; i++) {
-        all.y[0] = fmin(all.y[0], interface->y[i]);
-        all.y[1] = fmax(all.y[1], interface->y[i]);
-    }
-    return all;
-}
-
 // The mean over a part: by the factor of the node's place alone a jump would lie up to half a cell
 // off, and mu of all meshes that share this would agree on what it makes of it. Not weighted by
 // shape functions, as those of order 2 are negative in places. text: a formula of x, in space also
@@ -105,13 +71,6 @@ static bool check_groups(const Model *model, Error *err)
     return true;
 }
 
-// The items say the same law.
-static bool is_same_law(const SceneContactLaw *a, const SceneContactLaw *b)
-{
-    return a->kind == b->kind && a->mu_static == b->mu_static && a->mu_kinetic == b->mu_kinetic &&
-           a->critical_velocity == b->critical_velocity && strcmp(a->formula, b->formula) == 0;
-}
-
 // Makes the laws: the scene's, and behind it that of item k at law_of[k]. Nodes of one law point to
 // one entry, so that both sides of a contact can be compared (stepping/half_step).
 static bool make_laws(Model *model, int32_t law_of[SCENE_CONTACT_LAWS_MAX], Error *err)
@@ -129,8 +88,14 @@ static bool make_laws(Model *model, int32_t law_of[SCENE_CONTACT_LAWS_MAX], Erro
     for (int32_t k = 0; k < items->count; k++) {
         const SceneContactLaw *item = &items->item[k];
         law_of[k] = scene_has_contact_law(item) ? count : 0;
-        for (int32_t j = 0; j < k && law_of[k] > 0; j++)
-            if (law_of[j] > 0 && is_same_law(&items->item[j], item)) law_of[k] = law_of[j];
+        for (int32_t j = 0; j < k && law_of[k] > 0; j++) {
+            const SceneContactLaw *other = &items->item[j];
+            bool same = other->kind == item->kind && other->mu_static == item->mu_static &&
+                        other->mu_kinetic == item->mu_kinetic &&
+                        other->critical_velocity == item->critical_velocity &&
+                        strcmp(other->formula, item->formula) == 0;
+            if (law_of[j] > 0 && same) law_of[k] = law_of[j];
+        }
         if (law_of[k] < count) continue;
         made = scene_contact_law(scene, item, model->pressure, &model->laws[count], err);
         if (!scene_blame(scene, "friction.contacts", made, err)) return false;
@@ -145,17 +110,41 @@ bool model_lay_laws(Model *model, Error *err)
     const Interface *interface = &model->interface;
     int32_t count = interface->contact_count, law_of[SCENE_CONTACT_LAWS_MAX];
     bool plane = !interface->y;
-    Part part = {0}, all = box_of(interface);
+    Part part = {0};
     bool alike = scene->contact_laws.count == 0 && !*scene->own_friction.along;
     if (alike && !scene->friction.remembers) return true;
     if (!scene_blame(scene, "friction.contacts", check_groups(model, err), err)) return false;
     if (!make_laws(model, law_of, err)) return false;
     model->friction_nodes = NEW_ARRAY(FrictionNode, count, err);
     if (!model->friction_nodes) return false;
+
+    // The box around the contact, in space.
+    Part all = {interface->x[0], interface->x[count - 1], {INFINITY, -INFINITY}};
+    for (int32_t i = 0; !plane && i < count; i++) {
+        all.y[0] = fmin(all.y[0], interface->y[i]);
+        all.y[1] = fmax(all.y[1], interface->y[i]);
+    }
     for (int32_t i = 0; i < count; i++) {
         int32_t k = item_of(model, i);
-        double factor = 1;
-        part = plane ? next_part(interface, i, part) : square_part(interface, i, all);
+        double factor = 1, x = interface->x[i], weight = interface->weight[i];
+        if (plane) {
+            // The part that node i stands for, behind that of the node before it: as long as its
+            // weight, so that parts tile each stretch of the contact and sums of w_i f_i are
+            // integrals. Within an edge they meet where weights do: half way between its nodes, or,
+            // of order 2 with Simpson's weights, at 1/6 and 5/6 of it. So each holds its node, and
+            // is centred at it unless cells differ or end there. The first node of a stretch, which
+            // may belong to several pads, begins its part itself: the part before then ended at its
+            // own node.
+            bool begins = i == 0 || part.to - interface->x[i - 1] < 1e-6 * weight;
+            double from = begins ? x : part.to;
+            part = (Part){from, from + weight, {0}};
+        } else {
+            // A square around the node, as large as its weight, as far as it lies within the box.
+            double half = 0.5 * sqrt(weight), y = interface->y[i];
+            part = (Part){fmax(x - half, all.from),
+                          fmin(x + half, all.to),
+                          {fmax(y - half, all.y[0]), fmin(y + half, all.y[1])}};
+        }
         bool done = take_mean(part, plane, scene->own_friction.along, &factor, err);
         if (!scene_blame(scene, "friction.along", done, err)) return false;
         done = k < 0 || take_mean(part, plane, scene->contact_laws.item[k].along, &factor, err);

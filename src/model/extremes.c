@@ -17,9 +17,10 @@ static void compare(Extreme *extreme, const char *key, const char *what, double 
     if (quotient > extreme->quotient) *extreme = (Extreme){key, what, quotient};
 }
 
-static Extreme find_largest(const Model *model)
+bool model_blame_extremes(Model *model, Error *err)
 {
-    Extreme found = {"reduction.use", "", USUAL};
+    // The largest quotient of numbers of the scene, by its key.
+    Extreme largest = {"reduction.use", "", USUAL};
     const Materials *materials = &model->materials;
     bool regions = model->scene->materials.count > 0;
     double softest = INFINITY, stiffest = 0;
@@ -27,26 +28,21 @@ static Extreme find_largest(const Model *model)
         const Material *one = &materials->list[k];
         double viscosities = one->eta1 / one->eta2;
         if (one->plane_strain)
-            compare(&found, regions ? "materials" : "material.poisson",
+            compare(&largest, regions ? "materials" : "material.poisson",
                     "stiffness of volume over that of shear in plane strain",
                     2 * (1 - one->poisson) / (1 - 2 * one->poisson));
-        compare(&found, regions ? "materials" : "material.eta2", "one viscosity over the other",
+        compare(&largest, regions ? "materials" : "material.eta2", "one viscosity over the other",
                 fmax(viscosities, 1 / viscosities));
         softest = fmin(softest, one->young);
         stiffest = fmax(stiffest, one->young);
     }
     double slender = model->height / model->length;
-    compare(&found, "materials", "Young's modulus of one region over another's",
+    compare(&largest, "materials", "Young's modulus of one region over another's",
             stiffest / softest);
     bool given = model->scene->mesh.parameter_count > 0;
-    compare(&found, given ? "mesh.set" : "mesh.file", "one side of the block over the other",
+    compare(&largest, given ? "mesh.set" : "mesh.file", "one side of the block over the other",
             fmax(slender, 1 / slender));
-    return found;
-}
 
-bool model_blame_extremes(Model *model, Error *err)
-{
-    Extreme largest = find_largest(model);
     if (err->code != ERROR_COMPUTE && err->code != ERROR_LIBRARY) return false;
     if (largest.quotient > USUAL)
         snprintf(model->not_reduced, NOT_REDUCED_SIZE,

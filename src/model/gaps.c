@@ -68,15 +68,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// The middle is that of the block, which begins at x = 0 or anywhere.
-static void add_parabola(const Model *model, double radius, Interface *interface)
-{
-    for (int32_t i = 0; i < interface->contact_count; i++) {
-        double x = interface->x[i] - model->middle;
-        interface->gap[i] += x * x / (2 * radius);
-    }
-}
-
 bool model_lay_gaps(Model *model, Error *err)
 {
     const Scene *scene = model->scene;
@@ -86,7 +77,15 @@ bool model_lay_gaps(Model *model, Error *err)
     if (!(radius > 0) && !*scene->contact.gap && !profile) return true;
     if (!interface->gap && !(interface->gap = NEW_ARRAY(double, interface->contact_count, err)))
         return false;
-    if (radius > 0) add_parabola(model, radius, interface);
+
+    if (radius > 0) {
+        // The middle is that of the block, which begins at x = 0 or anywhere.
+        for (int32_t i = 0; i < interface->contact_count; i++) {
+            double x = interface->x[i] - model->middle;
+            interface->gap[i] += x * x / (2 * radius);
+        }
+    }
+
     if (*scene->contact.gap &&
         !scene_blame(scene, "contact.gap", add_formula(scene->contact.gap, interface, err), err))
         return false;

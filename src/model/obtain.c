@@ -36,19 +36,6 @@ static bool wants_modes(const Scene *scene)
     return scene->output.fields || scene->output.whole || scene->output.probes.count > 0;
 }
 
-// A reduced bulk follows what the interface does: not a load put on at once, nor a velocity that
-// supports stop.
-static bool starts_at_interface(const Scene *scene)
-{
-    if (scene->start.state == START_UNDEFORMED) return false;
-    for (int32_t k = 0; k < scene->load.support_count; k++) {
-        const SceneSupport *support = &scene->load.supports[k];
-        if (support->x && scene->start.velocity_x != 0) return false;
-        if (support->z && scene->start.velocity_z != 0) return false;
-    }
-    return true;
-}
-
 // E, eta, rho L^2 (in space times L) and the size of the load: what the reduced matrices are
 // normalised with.
 static BulkScales bulk_scales(const Model *model, double load)
@@ -66,19 +53,6 @@ static double reduction_tolerance(const Scene *scene)
 {
     return scene->reduction.tolerance > 0 ? scene->reduction.tolerance
                                           : REDUCTION_TOLERANCES[scene->time.accuracy];
-}
-
-// Steps on the reduced bulk that is there. Matrices are kept normalised; the scales of this scene
-// (E, eta, rho L^2, load) are set here and multiply whatever is asked of them.
-static bool adopt_basis(Model *model, Error *err)
-{
-    double load = model->unit_load.size * load_reference(model);
-    model->reduced.scales = bulk_scales(model, load);
-    double deep = model->reduced.scales.stiffness / model->materials.mean.young;
-    model->reduced.spectrum = spectrum_scaled(&model->bulk.spectrum, deep, 1);
-    return bulk_operator_reduce(&model->reduced, model->length,
-                                model->reduced.area * model->reduced.scales.mass, &model->system,
-                                err);
 }
 
 // The basis called `name`, from the cache, where it is there and of this block.
@@ -130,44 +104,30 @@ cleanup:
     return error_is_clean(err);
 }
 
-// The greatest x of a rod node, from the trailing end over the block's length; 0 without a rod.
-static double rod_reach(const Model *model)
+// Whether the bulk is to be reduced. That takes implicit steps, viscosity in every region (else the
+// basis would have to answer for a block that nothing holds together, as it does for all that is
+// between elastic and viscous), and states that the interface made: not a load put on at once, nor
+// a velocity that supports stop.
+static bool ask_reducible(const Scene *scene, bool *reducible, Error *err)
 {
-    const Interface *interface = &model->interface;
-    const Mesh *mesh = &model->mesh;
-    double reach = 0;
-    for (int32_t j = 0; j < interface->rod_count; j++)
-        reach = fmax(reach, mesh_place(mesh, interface->rod_node[j])[0] - mesh->x_min);
-    return reach / model->length;
-}
-
-// In every region: else the basis would have to answer for a block that nothing holds together, as
-// it does for all that is between elastic and viscous.
-static bool is_viscous(const Scene *scene)
-{
-    bool viscous = scene->material.eta1 > 0;
+    bool viscous = scene->material.eta1 > 0, by_interface = scene->start.state != START_UNDEFORMED;
     for (int32_t i = 0; i < scene->materials.count; i++)
         viscous = viscous &&
                   scene_material_number(scene, &scene->materials.region[i], MATERIAL_ETA1) > 0;
-    return viscous;
-}
-
-// Why the scene's bulk cannot be reduced: that takes implicit steps, viscosity, and states that the
-// interface made. NULL: it can be.
-static const char *find_obstacle(const Scene *scene)
-{
-    if (scene->time.scheme == SCHEME_EXPLICIT) return "explicit steps are those of the mesh";
-    if (!is_viscous(scene)) return "a block without viscosity cannot be reduced";
-    if (scene_has_program(&scene->load.program)) return "a load that changes needs the mesh";
-    if (!starts_at_interface(scene))
-        return "a start that the interface does not make needs the mesh";
-    return NULL;
-}
-
-// *reducible: the bulk is to be reduced.
-static bool ask_reducible(const Scene *scene, bool *reducible, Error *err)
-{
-    const char *obstacle = find_obstacle(scene);
+    for (int32_t k = 0; k < scene->load.support_count; k++) {
+        const SceneSupport *support = &scene->load.supports[k];
+        if (support->x && scene->start.velocity_x != 0) by_interface = false;
+        if (support->z && scene->start.velocity_z != 0) by_interface = false;
+    }
+    const char *obstacle = NULL;
+    if (scene->time.scheme == SCHEME_EXPLICIT)
+        obstacle = "explicit steps are those of the mesh";
+    else if (!viscous)
+        obstacle = "a block without viscosity cannot be reduced";
+    else if (scene_has_program(&scene->load.program))
+        obstacle = "a load that changes needs the mesh";
+    else if (!by_interface)
+        obstacle = "a start that the interface does not make needs the mesh";
     *reducible = !obstacle && scene->reduction.use != REDUCE_NEVER;
     if (!obstacle || scene->reduction.use != REDUCE_ALWAYS) return true;
     error_set(err, ERROR_INPUT, __FILE__, __LINE__, "`always`, but %s: auto or never", obstacle);
@@ -178,7 +138,12 @@ static bool ask_reducible(const Scene *scene, bool *reducible, Error *err)
 static bool check_rod(const Model *model, Error *err)
 {
     const Scene *scene = model->scene;
-    if (scene->rod.kind == ROD_PUSH && rod_reach(model) > 0.5)
+    const Interface *interface = &model->interface;
+    double reach = 0;   // the greatest x of a rod node, from the trailing end
+    for (int32_t j = 0; j < interface->rod_count; j++)
+        reach =
+            fmax(reach, mesh_place(&model->mesh, interface->rod_node[j])[0] - model->mesh.x_min);
+    if (scene->rod.kind == ROD_PUSH && reach / model->length > 0.5)
         return REFUSE(err,
                       "%s: rod.kind: push, but group `%s` is on the leading half of the block, "
                       "which a rod that moves along +x cannot push; let it pull there (rod.kind: "
@@ -210,19 +175,6 @@ static bool check_memory(Model *model, int32_t parts, Error *err)
     return true;
 }
 
-// Names the basis in the cache by a hash of all that it depends on; empty for none.
-static void name_basis(const Model *model, const ReductionBlock *block, char name[HASH_TEXT_SIZE])
-{
-    const Scene *scene = model->scene;
-    const Interface *interface = &model->interface;
-    Hash hash = computation_hash_bits();
-    name[0] = 0;
-    if (!scene->reduction.cache) return;
-    hash_number(&hash, reduction_tolerance(scene));
-    reduction_block_hash(block, &model->mesh, interface->dofs, interface->count, &hash);
-    hash_write(&hash, name);
-}
-
 // Fills the block that would be reduced, with its matrices where the cache does not have its basis.
 static bool make_block(Model *model, ReductionBlock *block, char name[HASH_TEXT_SIZE],
                        int32_t *parts, Error *err)
@@ -231,7 +183,15 @@ static bool make_block(Model *model, ReductionBlock *block, char name[HASH_TEXT_
     const Interface *interface = &model->interface;
     if (!reduction_block_create(&model->mesh, &model->bulk, &model->materials, load, block, err))
         return false;
-    name_basis(model, block, name);
+
+    // Its name in the cache is a hash of all that the basis depends on; empty for none.
+    Hash hash = computation_hash_bits();
+    name[0] = 0;
+    if (model->scene->reduction.cache) {
+        hash_number(&hash, reduction_tolerance(model->scene));
+        reduction_block_hash(block, &model->mesh, interface->dofs, interface->count, &hash);
+        hash_write(&hash, name);
+    }
     if (!load_basis(model, block, name, err)) return false;
     *parts = model->reduced.part_count;   // where it is from the cache
     return model->from_cache || (reduction_block_assemble(&model->mesh, block, err) &&
@@ -280,24 +240,6 @@ static bool assemble_nodes(Model *model, Error *err)
     return bulk_assemble(&apart, model->materials.list, nodes, err);
 }
 
-// Sets the scales that velocities and times are measured with.
-static void set_scales(Model *model)
-{
-    const Scene *scene = model->scene;
-    const Material *material = &model->materials.mean;
-    double length = model->length;
-    model->scales.length = length;
-    model->scales.trailing = model->middle - 0.5 * length;
-    model->scales.time = length / material_speeds(material).longitudinal +
-                         materials_viscous_time(&model->materials);
-    model->scales.slip_velocity = scene->rod.velocity > 0 ? scene->rod.velocity
-                                                          : model_law(model)->critical_velocity;
-    // Nothing gives a velocity: that with which the load would deform the block in that time.
-    if (!(model->scales.slip_velocity > 0))
-        model->scales.slip_velocity = model->scales.load / model->breadth / material->young /
-                                      model->scales.time;
-}
-
 bool model_forecast(const Scene *scene, Model *model, Error *err)
 {
     char name[HASH_TEXT_SIZE];
@@ -319,9 +261,17 @@ bool model_obtain(const Scene *scene, const StageNotice *notice, Model *model, E
     if (notice && !model->from_cache) TRY(notice->tell(notice->self, "reducing", err));
     if (model->is_reduced && !model->from_cache) TRY(build_basis(model, &block, name, notice, err));
     if (!model->is_reduced) reduction_block_destroy(&block);
-    if (model->is_reduced)
-        TRY(adopt_basis(model, err));
-    else
+    if (model->is_reduced) {
+        // Steps on the reduced bulk that is there. Matrices are kept normalised; the scales of this
+        // scene (E, eta, rho L^2, load) are set here and multiply whatever is asked of them.
+        double load = model->unit_load.size * load_reference(model);
+        model->reduced.scales = bulk_scales(model, load);
+        double deep = model->reduced.scales.stiffness / model->materials.mean.young;
+        model->reduced.spectrum = spectrum_scaled(&model->bulk.spectrum, deep, 1);
+        TRY(bulk_operator_reduce(&model->reduced, model->length,
+                                 model->reduced.area * model->reduced.scales.mass, &model->system,
+                                 err));
+    } else
         TRY(bulk_assemble(&model->mesh, model->materials.list, &model->bulk, err) &&
             bulk_operator_create(&model->bulk, model->mesh.position, interface->dofs,
                                  interface->count, &model->system, err));
@@ -329,7 +279,20 @@ bool model_obtain(const Scene *scene, const StageNotice *notice, Model *model, E
     TRY(assemble_nodes(model, err));
     TRY(model_lay_laws(model, err));
     TRY(model_lay_gaps(model, err));
-    set_scales(model);
+
+    // Sets the scales that velocities and times are measured with.
+    const Material *material = &model->materials.mean;
+    double length = model->length;
+    model->scales.length = length;
+    model->scales.trailing = model->middle - 0.5 * length;
+    model->scales.time = length / material_speeds(material).longitudinal +
+                         materials_viscous_time(&model->materials);
+    model->scales.slip_velocity = scene->rod.velocity > 0 ? scene->rod.velocity
+                                                          : model_law(model)->critical_velocity;
+    // Nothing gives a velocity: that with which the load would deform the block in that time.
+    if (!(model->scales.slip_velocity > 0))
+        model->scales.slip_velocity = model->scales.load / model->breadth / material->young /
+                                      model->scales.time;
 cleanup:
     reduction_block_destroy(&block);
     model->seconds_reduce = clock_seconds() - started - model->seconds_mesh;

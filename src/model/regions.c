@@ -65,9 +65,14 @@ cleanup:
     return error_is_clean(err);
 }
 
-// A mean over one TET4 is what it has already, and a mean over several was not found.
-static bool check_locking(const Model *model, const uint8_t *is_mean, Error *err)
+bool model_mark_regions(Model *model, Error *err)
 {
+    uint8_t is_mean[MATERIALS_MAX];
+    if (model->scene->materials.count > 0 && !mark_materials(model, err)) return false;
+    for (int32_t k = 0; k < model->materials.count; k++)
+        is_mean[k] = material_resists_area(&model->materials.list[k]);
+
+    // A mean over one TET4 is what it has already, and a mean over several was not found.
     const Mesh *mesh = &model->mesh;
     for (int32_t e = 0; e < mesh->element_count; e++)
         if (mesh->kind[e] == ELEMENT_TET4 && is_mean[mesh_region(mesh, e)])
@@ -75,16 +80,7 @@ static bool check_locking(const Model *model, const uint8_t *is_mean, Error *err
                           "%s: TET4 lock in a material whose volume resists so much more than its "
                           "shape; take hexahedra, wedges or order 2",
                           mesh->path);
-    return true;
-}
-
-bool model_mark_regions(Model *model, Error *err)
-{
-    uint8_t is_mean[MATERIALS_MAX];
-    if (model->scene->materials.count > 0 && !mark_materials(model, err)) return false;
-    for (int32_t k = 0; k < model->materials.count; k++)
-        is_mean[k] = material_resists_area(&model->materials.list[k]);
-    return check_locking(model, is_mean, err) && element_groups_find(is_mean, &model->mesh, err);
+    return element_groups_find(is_mean, &model->mesh, err);
 }
 
 // A branch is a viscosity where rate * time stays below this: its modulus is off by this part then.

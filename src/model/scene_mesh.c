@@ -9,19 +9,6 @@
 // Bytes that a node takes at least, with one factorised matrix; a run needs several times as much.
 static const double NODE_BYTES = 4e3;
 
-// Said before the memory is full: then the system would end this or another program.
-static bool check_memory(const Scene *scene, int32_t node_count, Error *err)
-{
-    double have = memory_there();
-    if (node_count * NODE_BYTES > have)
-        return REFUSE(
-            err,
-            "%s: %d nodes are too many for this computer: to factorise one matrix takes %.1f GB, "
-            "and there are %.1f; coarser cells, or cells graded towards the contact, are needed",
-            scene->mesh.file, node_count, node_count * NODE_BYTES / 1e9, have / 1e9);
-    return true;
-}
-
 static double metres(SceneLength unit)
 {
     static const double each[] = {
@@ -32,53 +19,53 @@ static double metres(SceneLength unit)
     return each[unit];
 }
 
-// In the order in which places are made of those of the file.
-static bool place_mesh(const Scene *scene, Mesh *mesh, Error *err)
-{
-    const SceneNumbers *shift = &scene->mesh.shift;
-    const SceneNames *contact = &scene->groups.contact;
-    MeshPlace by = {0};
-    if (shift->count > 0 && shift->count != mesh->dim) {
-        error_set(err, ERROR_INPUT, __FILE__, __LINE__,
-                  "%d numbers; the mesh is in %s: it takes %s", shift->count,
-                  mesh->dim == 2 ? "the plane" : "space", mesh->dim == 2 ? "[x, z]" : "[x, y, z]");
-        return scene_blame(scene, "mesh.shift", false, err);
-    }
-    for (int32_t d = 0; d < shift->count; d++) by[d] = shift->value[d];
-    mesh_move(metres(scene->mesh.unit) * scene->mesh.scale, by, mesh);
-    if (shift->count > 0) return true;
-    return scene_blame(scene, "groups.contact",
-                       mesh_stand_on_floor(contact->name, contact->count, mesh, err), err);
-}
-
-// NULL: the name is one of the block's own boundaries, so that no part of the mesh is a base.
-static const char *floor_name(const Scene *scene)
-{
-    const char *floor = scene->groups.floor;
-    bool taken = strcmp(floor, scene->groups.top) == 0 || strcmp(floor, scene->groups.rod) == 0;
-    for (int32_t k = 0; k < scene->groups.contact.count; k++)
-        taken = taken || strcmp(floor, scene->groups.contact.name[k]) == 0;
-    return taken ? NULL : floor;
-}
-
 bool scene_mesh_read(const Scene *scene, const ChildWatch *watch, Mesh *mesh, MeshOrigin *origin,
                      Error *err)
 {
     MeshFile file = {0};
-    const SceneNames *body = &scene->groups.body;
+    const SceneNames *body = &scene->groups.body, *contact = &scene->groups.contact;
+    const SceneNumbers *shift = &scene->mesh.shift;
     const char *path = scene->mesh.file;
     *mesh = (Mesh){0};
     bool done = mesh_file_read(path, scene->mesh.parameters, scene->mesh.parameter_count,
                                scene->trusted, watch, &file, err);
     if (origin) *origin = file.origin;
-    done = done && check_memory(scene, file.node_count, err);
+
+    // Said before the memory is full: then the system would end this or another program.
+    double needed = file.node_count * NODE_BYTES, have = memory_there();
+    if (done && needed > have)
+        done = REFUSE(
+            err,
+            "%s: %d nodes are too many for this computer: to factorise one matrix takes %.1f GB, "
+            "and there are %.1f; coarser cells, or cells graded towards the contact, are needed",
+            path, file.node_count, needed / 1e9, have / 1e9);
     TRY(scene_blame(scene, "mesh.file", done, err));
     if (body->count > 0) {
         done = mesh_file_pick(path, body->name, body->count, &file, err);
         TRY(scene_blame(scene, "groups.body", done, err));
     }
-    TRY(mesh_build_on_base(&file, path, floor_name(scene), mesh, err));
-    TRY(place_mesh(scene, mesh, err));
+
+    // Where the floor has the name of one of the block's own boundaries no part is a base.
+    const char *floor = scene->groups.floor;
+    bool taken = strcmp(floor, scene->groups.top) == 0 || strcmp(floor, scene->groups.rod) == 0;
+    for (int32_t k = 0; k < contact->count; k++)
+        taken = taken || strcmp(floor, contact->name[k]) == 0;
+    TRY(mesh_build_on_base(&file, path, taken ? NULL : floor, mesh, err));
+
+    // In the order in which places are made of those of the file.
+    MeshPlace by = {0};
+    if (shift->count > 0 && shift->count != mesh->dim) {
+        error_set(err, ERROR_INPUT, __FILE__, __LINE__,
+                  "%d numbers; the mesh is in %s: it takes %s", shift->count,
+                  mesh->dim == 2 ? "the plane" : "space", mesh->dim == 2 ? "[x, z]" : "[x, y, z]");
+        TRY(scene_blame(scene, "mesh.shift", false, err));
+    }
+    for (int32_t d = 0; d < shift->count; d++) by[d] = shift->value[d];
+    mesh_move(metres(scene->mesh.unit) * scene->mesh.scale, by, mesh);
+    if (shift->count == 0) {
+        done = mesh_stand_on_floor(contact->name, contact->count, mesh, err);
+        TRY(scene_blame(scene, "groups.contact", done, err));
+    }
 cleanup:
     mesh_file_destroy(&file);
     return error_is_clean(err);

@@ -40,23 +40,6 @@ void contact_arrays_destroy(ContactArrays *arrays)
     *arrays = (ContactArrays){0};
 }
 
-static uint8_t shown_status(const FrictionNode *node, uint8_t status, double speed)
-{
-    if (!status_slips(status)) return status;
-    return friction_weakens(node, speed) ? 2 : 3;
-}
-
-// Reads component c of the slip of node i.
-static void read_slip(ContactArrays *arrays, const Observation *seen, int32_t i, int32_t c)
-{
-    int32_t t = interface_unknown(seen->interface, i, c), k = arrays->tangents * i + c;
-    double displacement = seen->state->displacement[seen->system->interface_dofs[t]];
-    if (!arrays->started) arrays->origin[k] = displacement;
-    arrays->slip_rate[k] = seen->state->slip_rate[t];
-    arrays->slip[k] = displacement - arrays->origin[k];
-    arrays->shear[k] = -seen->state->reaction[t] / seen->interface->weight[i];
-}
-
 // Refuses a negative coefficient at node i. Formulas and plug-ins are checked before the run in
 // steady slip alone, and may fall below 0 where the run leads. Friction would then drive the block.
 static bool check_coefficient(const ContactArrays *arrays, const Observation *seen, int32_t i,
@@ -99,7 +82,14 @@ bool contact_arrays_record(void *self, const Observation *seen, Error *err)
     for (int32_t i = 0; i < arrays->count; i++) {
         int32_t n = interface_normal(seen->interface, i);
         if (!check_coefficient(arrays, seen, i, err)) return false;
-        for (int32_t c = 0; c < arrays->tangents; c++) read_slip(arrays, seen, i, c);
+        for (int32_t c = 0; c < arrays->tangents; c++) {
+            int32_t t = interface_unknown(seen->interface, i, c), k = arrays->tangents * i + c;
+            double displacement = state->displacement[seen->system->interface_dofs[t]];
+            if (!arrays->started) arrays->origin[k] = displacement;
+            arrays->slip_rate[k] = state->slip_rate[t];
+            arrays->slip[k] = displacement - arrays->origin[k];
+            arrays->shear[k] = -state->reaction[t] / seen->interface->weight[i];
+        }
         for (int32_t k = 0; k < arrays->states; k++)
             arrays->state[i * arrays->states + k] = friction_shown_state(
                 friction_at(arrays->friction, i), k, state->theta[i * STATES_MAX + k]);
@@ -107,8 +97,13 @@ bool contact_arrays_record(void *self, const Observation *seen, Error *err)
         double moved = state->displacement[seen->system->interface_dofs[n]];
         arrays->gap[i] =
             state->status[i] == CONTACT_OPEN ? moved + interface_gap(seen->interface, i) : 0;
-        arrays->status[i] = shown_status(friction_at(arrays->friction, i), seen_status(seen, i),
-                                         slip_size(seen->interface, i, state->slip_rate));
+
+        // As docs/results.md has it: 2 slips where friction weakens, 3 where it does not.
+        uint8_t status = seen_status(seen, i);
+        double speed = slip_size(seen->interface, i, state->slip_rate);
+        if (status_slips(status))
+            status = friction_weakens(friction_at(arrays->friction, i), speed) ? 2 : 3;
+        arrays->status[i] = status;
     }
     for (int32_t i = 0; arrays->area && i < arrays->count; i++)
         arrays->area[i] = seen_contact_area(seen, arrays->friction, i);

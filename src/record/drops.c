@@ -61,28 +61,6 @@ void drops_destroy(Drops *drops)
 
 // --- recording ----------------------------------------------------------------------------------
 
-// `rising` joins the list, and what follows starts anew. ERROR_MEMORY leaves the list as it was.
-static bool push_drop(Drops *drops, const Interface *interface, Error *err)
-{
-    int32_t room = drops->room, size = drops_state_size(drops);
-    if (!memory_grow(&drops->series, drops->count, &room, sizeof *drops->series, err)) return false;
-    if (room > drops->room &&
-        (!memory_resize(&drops->states, (int64_t)(drops->room + 1) * size,
-                        (int64_t)(room + 1) * size, sizeof *drops->states, err) ||
-         !memory_resize(&drops->slid, (int64_t)drops->room * drops->pad_count,
-                        (int64_t)room * drops->pad_count, sizeof *drops->slid, err)))
-        return false;
-    if (!memory_grow(&drops->list, drops->count, &drops->room, sizeof *drops->list, err))
-        return false;
-    for (int32_t p = 0; p < drops->pad_count; p++)
-        drops->slid[(int64_t)drops->count * drops->pad_count + p] =
-            events_pad_slid(drops->events, interface, p);
-    drops->rising.state = drops->count;
-    drops->list[drops->count++] = drops->rising;
-    drops->rising = NOTHING_SEEN;
-    return true;
-}
-
 // In the event under way. A block that the rod pulls (mu below 0) holds nothing that could drop.
 static bool has_fallen(const Drops *drops)
 {
@@ -124,7 +102,26 @@ static bool add_drop(Drops *drops, const Observation *seen, bool bulk, Error *er
         rising->pads += events_pad_slid(drops->events, seen->interface, p);
     rising->bulk = bulk;
     rising->load = bulk || has_fallen(drops);
-    return !(rising->load || rising->pads > 0) || push_drop(drops, seen->interface, err);
+    if (!rising->load && rising->pads == 0) return true;
+
+    // It joins the list, and what follows starts anew. ERROR_MEMORY leaves the list as it was.
+    int32_t room = drops->room, size = drops_state_size(drops);
+    if (!memory_grow(&drops->series, drops->count, &room, sizeof *drops->series, err)) return false;
+    if (room > drops->room &&
+        (!memory_resize(&drops->states, (int64_t)(drops->room + 1) * size,
+                        (int64_t)(room + 1) * size, sizeof *drops->states, err) ||
+         !memory_resize(&drops->slid, (int64_t)drops->room * drops->pad_count,
+                        (int64_t)room * drops->pad_count, sizeof *drops->slid, err)))
+        return false;
+    if (!memory_grow(&drops->list, drops->count, &drops->room, sizeof *drops->list, err))
+        return false;
+    for (int32_t p = 0; p < drops->pad_count; p++)
+        drops->slid[(int64_t)drops->count * drops->pad_count + p] =
+            events_pad_slid(drops->events, seen->interface, p);
+    rising->state = drops->count;
+    drops->list[drops->count++] = *rising;
+    *rising = NOTHING_SEEN;
+    return true;
 }
 
 // While the whole block slides nothing rises: mu then says nothing of static friction.
@@ -224,16 +221,6 @@ static void drop_archive(Drop *drop, int32_t events, Archive *archive)
                        &drop->front_uncertified, &drop->front_growth);
 }
 
-// Work, states and pads that slid: room for as many as the list has.
-static bool make_room(Drops *drops, Error *err)
-{
-    memory_free_all(drops->series, drops->slid, drops->states);
-    drops->slid = NEW_ARRAY(uint8_t, (int64_t)drops->room * drops->pad_count, err);
-    drops->series = NEW_ARRAY(SeriesItem, drops->room, err);
-    drops->states = NEW_ARRAY(double, (int64_t)(drops->room + 1) * drops_state_size(drops), err);
-    return error_is_clean(err);
-}
-
 bool drops_archive(Drops *drops, Archive *archive, Error *err)
 {
     int32_t events = drops->events->count;   // which are read before
@@ -241,7 +228,17 @@ bool drops_archive(Drops *drops, Archive *archive, Error *err)
     archive_section(archive, "drops");
     if (!archive_list(archive, &list, &drops->count, &drops->room, sizeof(Drop), err)) return false;
     drops->list = list;
-    if (archive_reads(archive) && !make_room(drops, err)) return false;
+
+    if (archive_reads(archive)) {
+        // Work, states and pads that slid: room for as many as the list has.
+        memory_free_all(drops->series, drops->slid, drops->states);
+        drops->slid = NEW_ARRAY(uint8_t, (int64_t)drops->room * drops->pad_count, err);
+        drops->series = NEW_ARRAY(SeriesItem, drops->room, err);
+        drops->states =
+            NEW_ARRAY(double, (int64_t)(drops->room + 1) * drops_state_size(drops), err);
+        if (!error_is_clean(err)) return false;
+    }
+
     for (int32_t k = 0; k < drops->count; k++) {
         drop_archive(&drops->list[k], events, archive);
         drops->list[k].state = k;

@@ -24,7 +24,7 @@ static const double RATE_START = 2, RATE_STOP = 1;
 // A quarter above the most that an oscillation about V comes to without turning back.
 static const double RATE_COUNTS = 2.5;
 const double LEAST_RAPID = 0.05;
-// Of the largest slip rate of a precursor: what follows at once and stays below it rings.
+// Part of the largest slip rate of a precursor: what follows at once and stays below it rings.
 static const double AFTER_SLIP = 0.1;
 enum { FIRST_ROOM = 64 };
 
@@ -141,21 +141,6 @@ static void end_rapid(Events *events, const Interface *interface)
     events->rapid = -1;
 }
 
-// Marks who slips in this step; true: by now every node has.
-static bool mark_slipped(Events *events, const Observation *seen)
-{
-    bool all = true;
-    for (int32_t i = 0; i < seen->interface->contact_count; i++) {
-        if (seen_status(seen, i) != CONTACT_STICK && !events->slipped[i]) {
-            events->slipped[i] = 1;
-            events->list[events->rapid].slipped += seen->interface->weight[i];
-            if (isnan(events->slow_arrival[i])) events->slow_arrival[i] = INFINITY;
-        }
-        all = all && events->slipped[i];
-    }
-    return all;
-}
-
 // The x up to which pad p has slipped in the event, from its trailing end on without a gap; the
 // start of the contact where it has not.
 static double pad_reach(const Events *events, const Interface *interface, int32_t p)
@@ -176,46 +161,6 @@ static bool takes_part(const Events *events, const Interface *interface, int32_t
     for (int32_t i = 0; i < interface->contact_count; i++)
         if (interface->pad[i] == p && !isnan(events->path.arrival[i])) return true;
     return false;
-}
-
-// The farthest that a pad has slipped of those that take part.
-static double farthest_reach(const Events *events, const Interface *interface)
-{
-    double farthest = interface_line_x(interface, 0);
-    for (int32_t p = 0; p < interface->pad_count; p++)
-        if (takes_part(events, interface, p))
-            farthest = fmax(farthest, pad_reach(events, interface, p));
-    return farthest;
-}
-
-// In space: slip has been within LEAST_RAPID of a pad's length of its trailing end, on a pad that
-// takes part, at whatever y.
-static bool comes_from_end(const Events *events, const Interface *interface)
-{
-    for (int32_t p = 0; p < interface->pad_count; p++) {
-        if (!takes_part(events, interface, p)) continue;
-        PadSize size = pad_size(interface, p);
-        double end = size.x_from + LEAST_RAPID * (size.x_to - size.x_from);
-        for (int32_t i = 0; i < interface->contact_count; i++)
-            if (interface->pad[i] == p && events->slipped[i] && interface->x[i] <= end) return true;
-    }
-    return false;
-}
-
-// In the plane: part of the contact that has slipped without a gap from the trailing ends of the
-// pads that take part.
-static double part_from_ends(const Events *events, const Interface *interface)
-{
-    double from_ends = 0;
-    for (int32_t p = 0; p < interface->pad_count; p++) {
-        bool slips = takes_part(events, interface, p);
-        for (int32_t i = 0; i < interface->contact_count && slips; i++) {
-            if (interface->pad[i] != p) continue;
-            slips = events->slipped[i];
-            if (slips) from_ends += interface->weight[i];
-        }
-    }
-    return from_ends / events->size;
 }
 
 // The farthest node of a pad that slips fast.
@@ -265,51 +210,35 @@ static bool start_rapid(Events *events, const Observation *seen, Error *err)
     return true;
 }
 
-// The mean speed on the pad where the event began, from the first step in which its front is on the
-// line to the last one in which slip has grown there.
-static void follow_front(Events *events, const Observation *seen)
-{
-    Event *event = &events->list[events->rapid];
-    double reach = pad_reach(events, seen->interface, event->pad);
-    double front = fast_front(events, seen, event->pad), elapsed = seen->t - events->fast_t_start;
-    if (seen->interface->line &&
-        isnan(events->fast_front_start)) {   // it may begin beside the line
-        events->fast_front_start = front;
-        events->fast_t_start = seen->t;
-    }
-    if (front > events->fast_front_start && reach > events->fast_reach && elapsed > 0)
-        event->front_speed = (front - events->fast_front_start) / elapsed;
-    events->fast_reach = reach;
-}
-
 // Slip was rapid over LEAST_RAPID of the contact by now, and has run as far from the trailing end
 // of the block or of a pad; or a pad has slid over all its length. What rings behind a precursor,
 // about the place where that stopped, is not connected with a trailing end.
 static bool is_wide(const Events *events, const Interface *interface)
 {
-    double rapid = 0;
+    double rapid = 0, from_ends = 0;
     bool pad_slid = false;
     for (int32_t i = 0; i < interface->contact_count; i++)
         if (!isnan(events->path.arrival[i])) rapid += interface->weight[i];
     for (int32_t p = 0; interface->pad_count > 1 && p < interface->pad_count; p++)
         pad_slid = pad_slid || events_pad_slid(events, interface, p);
     if (pad_slid || rapid < LEAST_RAPID * events->size) return pad_slid;
-    return events->in_space ? comes_from_end(events, interface)
-                            : part_from_ends(events, interface) >= LEAST_RAPID;
-}
 
-// The rapid event under way began sooner behind the last precursor or sliding than that took, and
-// is so much slower: the same slip rings.
-static bool is_after_slip(const Events *events)
-{
-    const Event *event = &events->list[events->rapid];
-    for (int32_t k = events->rapid - 1; k >= 0; k--) {
-        const Event *before = &events->list[k];
-        if (before->kind != EVENT_BOUNDED && before->kind != EVENT_LEADING) continue;
-        return event->t_start - before->t_stop < before->t_stop - before->t_start &&
-               event->peak_slip_rate < AFTER_SLIP * before->peak_slip_rate;
+    for (int32_t p = 0; p < interface->pad_count; p++) {
+        if (!takes_part(events, interface, p)) continue;
+        PadSize size = pad_size(interface, p);
+        double end = size.x_from + LEAST_RAPID * (size.x_to - size.x_from);
+        bool slips = true;
+        for (int32_t i = 0; i < interface->contact_count; i++) {
+            if (interface->pad[i] != p) continue;
+            // In space: slip within LEAST_RAPID of the pad's length of its trailing end, at
+            // whatever y.
+            if (events->in_space && events->slipped[i] && interface->x[i] <= end) return true;
+            // In the plane: what has slipped without a gap from the trailing end.
+            slips = slips && events->slipped[i];
+            if (slips) from_ends += interface->weight[i];
+        }
     }
-    return false;
+    return !events->in_space && from_ends / events->size >= LEAST_RAPID;
 }
 
 static void raise_kind(Events *events, Event *event, EventKind kind)
@@ -323,18 +252,57 @@ static void raise_kind(Events *events, Event *event, EventKind kind)
 // slipped; the slow growth that came before ends with that, too.
 static void follow_rapid(Events *events, const Observation *seen)
 {
+    const Interface *interface = seen->interface;
     Event *event = &events->list[events->rapid];
-    bool all = mark_slipped(events, seen);
+
+    // Who slips in this step; `all`: by now every node has.
+    bool all = true;
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        if (seen_status(seen, i) != CONTACT_STICK && !events->slipped[i]) {
+            events->slipped[i] = 1;
+            event->slipped += interface->weight[i];
+            if (isnan(events->slow_arrival[i])) events->slow_arrival[i] = INFINITY;
+        }
+        all = all && events->slipped[i];
+    }
+
+    // The farthest that a pad has slipped of those that take part.
     front_path_follow(&events->path, seen);
-    extend_event(event, seen, farthest_reach(events, seen->interface));
-    follow_front(events, seen);
+    double farthest = interface_line_x(interface, 0);
+    for (int32_t p = 0; p < interface->pad_count; p++)
+        if (takes_part(events, interface, p))
+            farthest = fmax(farthest, pad_reach(events, interface, p));
+    extend_event(event, seen, farthest);
+
+    // The mean speed on the pad where the event began, from the first step in which its front is
+    // on the line (it may begin beside it) to the last one in which slip has grown there.
+    double reach = pad_reach(events, interface, event->pad);
+    double front = fast_front(events, seen, event->pad), elapsed = seen->t - events->fast_t_start;
+    if (interface->line && isnan(events->fast_front_start)) {
+        events->fast_front_start = front;
+        events->fast_t_start = seen->t;
+    }
+    if (front > events->fast_front_start && reach > events->fast_reach && elapsed > 0)
+        event->front_speed = (front - events->fast_front_start) / elapsed;
+    events->fast_reach = reach;
+
+    // Its kind. It rings only, if it began sooner behind the last precursor or sliding than that
+    // took, and is so much slower.
     if (event->kind == EVENT_SLIGHT && event->peak_slip_rate >= events->rate_counts &&
-        is_wide(events, seen->interface) && !is_after_slip(events))
-        raise_kind(events, event, EVENT_BOUNDED);
+        is_wide(events, interface)) {
+        int32_t k = events->rapid - 1;
+        while (k >= 0 && events->list[k].kind != EVENT_BOUNDED &&
+               events->list[k].kind != EVENT_LEADING)
+            k--;
+        const Event *before = &events->list[k >= 0 ? k : 0];
+        bool rings = k >= 0 && event->t_start - before->t_stop < before->t_stop - before->t_start &&
+                     event->peak_slip_rate < AFTER_SLIP * before->peak_slip_rate;
+        if (!rings) raise_kind(events, event, EVENT_BOUNDED);
+    }
     if (all && event->kind != EVENT_LEADING) {
         raise_kind(events, event, EVENT_LEADING);
         events->crossed = true;
-        end_slow(events, seen->interface);
+        end_slow(events, interface);
     }
 }
 
@@ -403,20 +371,6 @@ bool events_pad_slid(const Events *events, const Interface *interface, int32_t p
     return true;
 }
 
-static void event_archive(Event *event, int32_t pad_count, Archive *archive)
-{
-    int32_t kind = (int32_t)event->kind;
-    archive_index(archive, &kind, EVENT_QUASI_STATIC, EVENT_KIND_COUNT);
-    event->kind = (EventKind)kind;
-    archive_numbers_of(archive, &event->U_start, &event->U_stop, &event->t_start, &event->t_stop,
-                       &event->mu_start, &event->front_start, &event->reach, &event->slipped,
-                       &event->peak_slip_rate, &event->front_speed, &event->area_front_speed);
-    archive_flag(archive, &event->front_slips);
-    archive_index(archive, &event->pad, -1, pad_count);
-    archive_numbers_of(archive, &event->slip_length, &event->slip_cells, &event->slip_before);
-    archive_numbers(archive, event->front_times, FRONT_STATIONS);
-}
-
 bool events_archive(Events *events, const Interface *interface, Archive *archive, Error *err)
 {
     void *list = events->list;
@@ -424,8 +378,20 @@ bool events_archive(Events *events, const Interface *interface, Archive *archive
     if (!archive_list(archive, &list, &events->count, &events->room, sizeof(Event), err))
         return false;
     events->list = list;
-    for (int32_t k = 0; k < events->count; k++)
-        event_archive(&events->list[k], interface->pad_count, archive);
+    for (int32_t k = 0; k < events->count; k++) {
+        Event *event = &events->list[k];
+        int32_t kind = (int32_t)event->kind;
+        archive_index(archive, &kind, EVENT_QUASI_STATIC, EVENT_KIND_COUNT);
+        event->kind = (EventKind)kind;
+        archive_numbers_of(archive, &event->U_start, &event->U_stop, &event->t_start,
+                           &event->t_stop, &event->mu_start, &event->front_start, &event->reach,
+                           &event->slipped, &event->peak_slip_rate, &event->front_speed,
+                           &event->area_front_speed);
+        archive_flag(archive, &event->front_slips);
+        archive_index(archive, &event->pad, -1, interface->pad_count);
+        archive_numbers_of(archive, &event->slip_length, &event->slip_cells, &event->slip_before);
+        archive_numbers(archive, event->front_times, FRONT_STATIONS);
+    }
     archive_indices(archive, events->kinds, EVENT_KIND_COUNT, 0, events->count + 1);
     archive_index(archive, &events->rapid, -1, events->count);
     archive_index(archive, &events->slow, -1, events->count);

@@ -64,23 +64,6 @@ static void add_cell(FieldCells *line, const int32_t *points, const uint8_t *whi
     line->types[cell] = types[count];
 }
 
-// VTK's polygons are flat and have corners only: faces with nodes between them are cut into four.
-static void add_faces(const ContactFaces *faces, FieldCells *line)
-{
-    static const uint8_t whole[] = {0, 1, 2, 3};
-    static const uint8_t six[][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}};
-    static const uint8_t nine[][4] = {{0, 4, 8, 7}, {4, 1, 5, 8}, {8, 5, 2, 6}, {7, 8, 6, 3}};
-    for (int32_t f = 0; f < faces->count; f++) {
-        const int32_t *points = faces->point + (int64_t)f * faces->width;
-        int32_t count = contact_face_points(faces, f);
-        if (count <= 4) add_cell(line, points, whole, count);
-        for (int32_t k = 0; k < FACE_CELLS_MAX && count == 6; k++)
-            add_cell(line, points, six[k], 3);
-        for (int32_t k = 0; k < FACE_CELLS_MAX && count == 9; k++)
-            add_cell(line, points, nine[k], 4);
-    }
-}
-
 // In the plane one segment between neighbours of the same pad: gaps between pads stay gaps.
 static bool fill_line_grid(FieldFiles *files, const Interface *interface, Error *err)
 {
@@ -96,7 +79,21 @@ static bool fill_line_grid(FieldFiles *files, const Interface *interface, Error 
         line->points[3 * i] = corner ? corner[0] : interface->x[i];
         if (interface->y) line->points[3 * i + 1] = corner ? corner[1] : interface->y[i];
     }
-    if (interface->y) add_faces(faces, line);
+
+    // VTK's polygons are flat and have corners only: faces with nodes between them are cut into
+    // four.
+    static const uint8_t whole[] = {0, 1, 2, 3};
+    static const uint8_t six[][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}};
+    static const uint8_t nine[][4] = {{0, 4, 8, 7}, {4, 1, 5, 8}, {8, 5, 2, 6}, {7, 8, 6, 3}};
+    for (int32_t f = 0; f < faces->count && interface->y; f++) {
+        const int32_t *face = faces->point + (int64_t)f * faces->width;
+        int32_t corners = contact_face_points(faces, f);
+        if (corners <= 4) add_cell(line, face, whole, corners);
+        for (int32_t k = 0; k < FACE_CELLS_MAX && corners == 6; k++)
+            add_cell(line, face, six[k], 3);
+        for (int32_t k = 0; k < FACE_CELLS_MAX && corners == 9; k++)
+            add_cell(line, face, nine[k], 4);
+    }
     for (int32_t i = 1; i < count && !interface->y; i++)
         if (interface->pad[i] == interface->pad[i - 1])
             add_cell(line, (int32_t[]){i - 1, i}, (uint8_t[]){0, 1}, 2);
@@ -169,10 +166,19 @@ bool field_files_write_bulk(FieldFiles *files, const FieldState *state, const ch
     return field_file_write(path, &grid, err);
 }
 
-// Sets the value of each corner that touches nothing to the mean of the two points beside it, on
-// the last face that has it. values: [line_point_count * components], known at the contact nodes.
-static void fill_corners(const FieldFiles *files, int32_t components, double *values)
+// From columns to an array of points, vectors with three components. values: [line_point_count *
+// components].
+static FieldArray line_array(const FieldFiles *files, const char *name, const double *columns,
+                             int32_t count, double *values)
 {
+    int32_t components = count > 1 ? 3 : 1;
+    for (int64_t i = 0; i < files->contact_count; i++)
+        for (int32_t d = 0; d < components; d++)
+            values[components * i + d] = d < count ? columns[d * (int64_t)files->contact_count + i]
+                                                   : 0;
+
+    // Each corner that touches nothing has the mean of the two points beside it, on the last face
+    // that has it.
     const ContactFaces *faces = files->faces;
     for (int32_t f = 0; f < faces->count; f++) {
         const int32_t *points = faces->point + (int64_t)f * faces->width;
@@ -186,18 +192,6 @@ static void fill_corners(const FieldFiles *files, int32_t components, double *va
                     (values[components * beside + d] + values[components * before + d]) / 2;
         }
     }
-}
-
-// From columns to an array of points, vectors with three components.
-static FieldArray line_array(const FieldFiles *files, const char *name, const double *columns,
-                             int32_t count, double *values)
-{
-    int32_t components = count > 1 ? 3 : 1;
-    for (int64_t i = 0; i < files->contact_count; i++)
-        for (int32_t d = 0; d < components; d++)
-            values[components * i + d] = d < count ? columns[d * (int64_t)files->contact_count + i]
-                                                   : 0;
-    fill_corners(files, components, values);
     return (FieldArray){.name = name, .components = components, .values = values};
 }
 

@@ -33,23 +33,6 @@ static int32_t vectors_of(const Fields *fields)
     return 2 + fields->files.spectrum->shape_count;
 }
 
-// The mesh in all times that wait: its modes, tens of megabytes, come from memory once for them.
-static bool recover_waiting(Fields *fields, int32_t slot, int32_t waiting, Error *err)
-{
-    const double *unknowns[(2 + SPECTRUM_SHAPES_MAX) * FIELD_SLOTS];
-    double *whole[(2 + SPECTRUM_SHAPES_MAX) * FIELD_SLOTS];
-    int32_t each = vectors_of(fields);
-    for (int32_t k = 0; k < each * waiting; k++) {
-        const FieldTimeCopy *copy = &fields->slots[(slot + k / each) % FIELD_SLOTS];
-        unknowns[k] = copy->unknowns[k % each];
-        whole[k] = copy->whole[k % each];
-    }
-    fields->recovered = waiting;
-    if (!bulk_operator_recover(fields->system, each * waiting, unknowns, whole, err)) return false;
-    for (int32_t k = 0; k < each * waiting; k++) floor_displace(fields->files.mesh, whole[k]);
-    return true;
-}
-
 // The list is written anew whenever no other time waits: a run that is cut off leaves one that
 // opens. For a Worker.
 static bool write_time(void *self, int32_t slot, int32_t waiting, Error *err)
@@ -62,8 +45,25 @@ static bool write_time(void *self, int32_t slot, int32_t waiting, Error *err)
                         .relaxing = (const double *const *)copy->whole + 2,
                         .time = copy->time};
     double started = clock_seconds();
-    if (fields->recovered == 0) TRY(recover_waiting(fields, slot, waiting, err));
+
+    // The mesh in all times that wait: its modes, tens of megabytes, come from memory once for
+    // them.
+    if (fields->recovered == 0) {
+        const double *unknowns[(2 + SPECTRUM_SHAPES_MAX) * FIELD_SLOTS];
+        double *whole[(2 + SPECTRUM_SHAPES_MAX) * FIELD_SLOTS];
+        int32_t each = vectors_of(fields), all = each * waiting;
+        for (int32_t k = 0; k < all; k++) {
+            const FieldTimeCopy *one = &fields->slots[(slot + k / each) % FIELD_SLOTS];
+            unknowns[k] = one->unknowns[k % each];
+            whole[k] = one->whole[k % each];
+        }
+        fields->recovered = waiting;
+        TRY(bulk_operator_recover(fields->system, all, unknowns, whole, err));
+        for (int32_t k = 0; k < all; k++) floor_displace(fields->files.mesh, whole[k]);
+    }
     fields->recovered--;
+
+    // Its two files, and the list.
     int32_t number = fields->listed;
     snprintf(path, sizeof path, "%s/fields/" FIELD_BULK_NAME, fields->folder, number);
     TRY(field_files_write_bulk(&fields->files, &state, path, err));
@@ -170,42 +170,6 @@ static void copy_line(const Fields *fields, const Observation *seen, double *lin
     }
 }
 
-static void copy_branches(const Fields *fields, const State *state, FieldTimeCopy *copy)
-{
-    const Spectrum *spectrum = fields->files.spectrum;
-    int32_t dofs = state->dof_count;
-    for (int32_t j = 0; j < spectrum->shape_count; j++) {
-        double *sum = copy->unknowns[2 + j];
-        memset(sum, 0, (size_t)dofs * sizeof *sum);
-        for (int32_t k = 0; k < state->branch_count; k++)
-            for (int32_t d = 0; d < dofs; d++)
-                sum[d] += spectrum->share[k][j] * state->stretch[(int64_t)k * dofs + d];
-    }
-}
-
-static bool hand_over(Fields *fields, const Observation *seen, Error *err)
-{
-    int32_t slot;
-    int64_t dofs = seen->system->dof_count;
-    if (!worker_slot(fields->writer, &slot, err)) return false;
-    FieldTimeCopy *copy = &fields->slots[slot];
-    copy->time = seen->t;
-    memcpy(copy->unknowns[0], seen->state->displacement, (size_t)dofs * sizeof(double));
-    memcpy(copy->unknowns[1], seen->state->velocity, (size_t)dofs * sizeof(double));
-    copy_branches(fields, seen->state, copy);
-    copy_line(fields, seen, copy->line);
-    worker_submit(fields->writer);
-    return true;
-}
-
-// U has come back over the multiple of every_U at or beyond which a file was written last; not by
-// rounding, as a rod that is held on it would.
-static bool comes_back(const Fields *fields, double U)
-{
-    double reached = fields->next_U - fields->def.every_U;
-    return U < reached - 1e-6 * fields->def.every_U;
-}
-
 // A multiple of `every` was reached or passed: *next is the one beyond. 0: not by this.
 static bool passes(double every, double at, double *next)
 {
@@ -220,7 +184,11 @@ static bool passes(double every, double at, double *next)
 // rapid event begins, crosses the interface or ends.
 static bool is_due(Fields *fields, const Observation *seen)
 {
-    if (comes_back(fields, seen->U)) fields->next_U = -INFINITY;
+    // U has come back over the multiple of every_U at or beyond which a file was written last; not
+    // by rounding, as a rod that is held on it would.
+    double reached = fields->next_U - fields->def.every_U;
+    if (seen->U < reached - 1e-6 * fields->def.every_U) fields->next_U = -INFINITY;
+
     bool by_U = passes(fields->def.every_U, seen->U, &fields->next_U);
     bool by_t = passes(fields->def.every_t, seen->t, &fields->next_t);
     bool due = fields->written == 0 || fields->def.every_step || by_U || by_t;
@@ -237,11 +205,31 @@ static bool is_due(Fields *fields, const Observation *seen)
 bool fields_record(void *self, const Observation *seen, Error *err)
 {
     Fields *fields = self;
+    const State *state = seen->state;
+    size_t bytes = (size_t)state->dof_count * sizeof(double);
+    int32_t slot;
     if (!is_due(fields, seen)) return true;
     double started = clock_seconds();
     if (!start_writer(fields, seen, err)) return false;
     if (!make_room(fields, err)) return false;
-    if (!hand_over(fields, seen, err)) return false;
+    if (!worker_slot(fields->writer, &slot, err)) return false;
+
+    // A copy for the writer: displacement, velocity, and what the branches of each shape have
+    // stretched.
+    FieldTimeCopy *copy = &fields->slots[slot];
+    copy->time = seen->t;
+    memcpy(copy->unknowns[0], state->displacement, bytes);
+    memcpy(copy->unknowns[1], state->velocity, bytes);
+    const Spectrum *spectrum = fields->files.spectrum;
+    for (int32_t j = 0; j < spectrum->shape_count; j++) {
+        double *sum = copy->unknowns[2 + j];
+        memset(sum, 0, bytes);
+        for (int32_t k = 0; k < state->branch_count; k++)
+            for (int32_t d = 0; d < state->dof_count; d++)
+                sum[d] += spectrum->share[k][j] * state->stretch[(int64_t)k * state->dof_count + d];
+    }
+    copy_line(fields, seen, copy->line);
+    worker_submit(fields->writer);
     fields->written++;
     fields->seconds += clock_seconds() - started;
     return true;

@@ -19,34 +19,6 @@ static Place point_place(const Interface *interface, int32_t point)
     return (Place){corner[0], corner[1]};
 }
 
-// Area of a face from its corners, which are the first of its points: three of 3 or 6, four of 4 or
-// 9.
-static double face_area(const Interface *interface, const int32_t *point, int32_t count)
-{
-    int32_t corners = count % 3 == 0 && count < 9 ? 3 : 4;
-    double twice = 0;
-    for (int32_t k = 0; k < corners; k++) {
-        Place a = point_place(interface, point[k]);
-        Place b = point_place(interface, point[(k + 1) % corners]);
-        twice += a.x * b.y - b.x * a.y;
-    }
-    return 0.5 * fabs(twice);
-}
-
-// The front came to all of the face, and not all of it by `origin`.
-static bool sweeps(const Interface *interface, const int32_t *point, int32_t count,
-                   const double *arrival, double origin)
-{
-    bool later = false;
-    for (int32_t k = 0; k < count; k++) {
-        int32_t i = point[k];
-        if (i >= interface->contact_count) continue;   // a corner that touches nothing
-        if (!isfinite(arrival[i])) return false;
-        later = later || arrival[i] > origin;
-    }
-    return later;
-}
-
 // |grad T| of a face, time over length.
 static double slowness(const Interface *interface, const int32_t *point, int32_t count,
                        const double *arrival)
@@ -81,8 +53,27 @@ double front_area_speed(const Interface *interface, const double *arrival, doubl
     for (int32_t f = 0; f < faces->count; f++) {
         const int32_t *point = faces->point + (int64_t)f * faces->width;
         int32_t count = contact_face_points(faces, f);
-        if (!sweeps(interface, point, count, arrival, origin)) continue;
-        double area = face_area(interface, point, count);
+
+        // Faces that the front came to all of, and not all of it by `origin`.
+        bool everywhere = true, later = false;
+        for (int32_t k = 0; k < count; k++) {
+            int32_t i = point[k];
+            if (i >= interface->contact_count) continue;   // a corner that touches nothing
+            everywhere = everywhere && isfinite(arrival[i]);
+            later = later || arrival[i] > origin;
+        }
+        if (!everywhere || !later) continue;
+
+        // Area from the corners, which are the first of the points: three of 3 or 6, four of 4 or
+        // 9.
+        int32_t corners = count % 3 == 0 && count < 9 ? 3 : 4;
+        double twice = 0;
+        for (int32_t k = 0; k < corners; k++) {
+            Place a = point_place(interface, point[k]);
+            Place b = point_place(interface, point[(k + 1) % corners]);
+            twice += a.x * b.y - b.x * a.y;
+        }
+        double area = 0.5 * fabs(twice);
         swept += area;
         length_time += area * slowness(interface, point, count, arrival);
     }

@@ -12,8 +12,14 @@
 // So near to a node the next one does not count: the front may have stopped there.
 static const double AT_NODE = 1e-6;   // of the way to the next
 
-static void place_stations(const Interface *interface, FrontPath *path)
+bool front_path_create(const Interface *interface, double threshold, FrontPath *path, Error *err)
 {
+    *path = (FrontPath){.threshold = threshold, .t_before = NAN};
+    path->rate_before = NEW_ARRAY(double, interface->contact_count, err);
+    path->arrival = NEW_ARRAY(double, interface->contact_count, err);
+    if (!error_is_clean(err)) return false;
+    front_path_restart(interface, path);
+
     int32_t last = interface_line_count(interface) - 1, i = 0;
     double start = interface_line_x(interface, 0);
     double length = interface_line_x(interface, last) - start;
@@ -35,16 +41,7 @@ static void place_stations(const Interface *interface, FrontPath *path)
         else if (next != station->pad)
             station->pad = -1;
     }
-}
 
-bool front_path_create(const Interface *interface, double threshold, FrontPath *path, Error *err)
-{
-    *path = (FrontPath){.threshold = threshold, .t_before = NAN};
-    path->rate_before = NEW_ARRAY(double, interface->contact_count, err);
-    path->arrival = NEW_ARRAY(double, interface->contact_count, err);
-    if (!error_is_clean(err)) return false;
-    front_path_restart(interface, path);
-    place_stations(interface, path);
     return true;
 }
 
@@ -59,20 +56,16 @@ void front_path_restart(const Interface *interface, FrontPath *path)
     for (int32_t i = 0; i < interface->contact_count; i++) path->arrival[i] = NAN;
 }
 
-// When the rate passed the threshold on its way from `before` (at t_before) to `now` (at t).
-static double passage(const FrontPath *path, double before, double now, double t)
-{
-    if (isnan(path->t_before) || before >= path->threshold) return t;
-    double part = (path->threshold - before) / (now - before);
-    return path->t_before + part * (t - path->t_before);
-}
-
 void front_path_follow(FrontPath *path, const Observation *seen)
 {
     for (int32_t i = 0; i < seen->interface->contact_count; i++) {
         double rate = slip_size(seen->interface, i, seen->state->slip_rate);
-        if (rate > path->threshold && isnan(path->arrival[i]))
-            path->arrival[i] = passage(path, path->rate_before[i], rate, seen->t);
+        if (!(rate > path->threshold) || !isnan(path->arrival[i])) continue;
+        // When the rate passed the threshold on its way from `before` to now.
+        double before = path->rate_before[i];
+        double part = (path->threshold - before) / (rate - before);
+        bool at_once = isnan(path->t_before) || before >= path->threshold;
+        path->arrival[i] = at_once ? seen->t : path->t_before + part * (seen->t - path->t_before);
     }
 }
 

@@ -58,9 +58,21 @@ void history_destroy(History *history)
     *history = (History){0};
 }
 
-// Numbers of the whole block; that of SERIES_ROD_WAY is there though it may not be written.
-static void fill_numbers(const Observation *seen, double *number)
+// row[s]: of each series, as many entries as it has columns: 1, the contact nodes (or their
+// tangents), the pads or the probes.
+static void fill_rows(History *history, const Observation *seen, double *row[RESULT_SERIES_COUNT])
 {
+    const Interface *interface = seen->interface;
+    const ContactArrays *contact = history->contact;
+    double *number = history->end.last, *pads = history->pad_rows;
+    for (ResultSeries s = 0; s < RESULT_SERIES_COUNT; s++) {
+        row[s] = &number[s];
+        if (result_series_columns(s) != COLUMNS_PADS) continue;
+        row[s] = pads;
+        pads += history->pad_count;
+    }
+
+    // Numbers of the whole block; that of SERIES_ROD_WAY is there though it may not be written.
     number[SERIES_TIME] = seen->t;
     number[SERIES_ROD] = seen->U;
     number[SERIES_ROD_WAY] = seen->rod_way;
@@ -72,13 +84,8 @@ static void fill_numbers(const Observation *seen, double *number)
     number[SERIES_MAX_SLIP_RATE] = seen->max_slip_rate;
     number[SERIES_CERTIFIED] = seen->certified;
     number[SERIES_ENERGY_ERROR] = seen->energy_imbalance;
-}
 
-// row[s]: [pad_count] of each series of pads; their slip is the mean over nodes by weight.
-static void fill_pads(const History *history, const Observation *seen, double *const *row)
-{
-    const Interface *interface = seen->interface;
-    const ContactArrays *contact = history->contact;
+    // Pads; their slip is the mean over nodes by weight.
     pad_sums(seen, history->pad_sums);
     for (int32_t p = 0; p < history->pad_count; p++) {
         const PadSum *sum = &history->pad_sums[p];
@@ -95,22 +102,8 @@ static void fill_pads(const History *history, const Observation *seen, double *c
         row[SERIES_PAD_SLIP][p] += part * slip[0];
         if (contact->tangents > 1) row[SERIES_PAD_SLIP_ACROSS][p] += part * slip[1];
     }
-}
 
-// row[s]: of each series, as many entries as it has columns: 1, the contact nodes (or their
-// tangents), the pads or the probes.
-static void fill_rows(History *history, const Observation *seen, double *row[RESULT_SERIES_COUNT])
-{
-    const ContactArrays *contact = history->contact;
-    double *pads = history->pad_rows;
-    for (ResultSeries s = 0; s < RESULT_SERIES_COUNT; s++) {
-        row[s] = &history->end.last[s];
-        if (result_series_columns(s) != COLUMNS_PADS) continue;
-        row[s] = pads;
-        pads += history->pad_count;
-    }
-    fill_numbers(seen, history->end.last);
-    fill_pads(history, seen, row);
+    // Probes and contact nodes, where they lie.
     Probes *probes = history->probes;
     if (probes) {
         probes_read(probes, seen->state);

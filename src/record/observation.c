@@ -13,53 +13,9 @@
 // displacement divided by the step: less cannot be told from nothing.
 static const double ROUNDINGS_LIMIT = 1e6;
 
-// The velocity that counts as 1 in the conditions of the last stage.
-static double judged_velocity(const StepControl *control, const ObservationScales *scales)
-{
-    const State *state = &control->now;
-    double rounding = DBL_EPSILON * dense_max_abs(state->displacement, state->dof_count) /
-                      control->scheme.reach;
-    return fmax(scales->slip_velocity, ROUNDINGS_LIMIT * rounding);
-}
-
 // Where friction is 0 at rest every node slips at all times: what is slower than this part of the
 // rod's velocity hardly moves while the rod drives the block by its own slip.
 static const double CREEP = 0.1;
-
-// x of the last node of the run of nodes from the trailing edge that do not stick: l. *slips: some
-// node of the run slips.
-static double slip_front(const Observation *seen, bool *slips)
-{
-    const Interface *interface = seen->interface;
-    double front = interface_line_x(interface, 0);
-    *slips = false;
-    for (int32_t k = 0; k < interface_line_count(interface); k++) {
-        int32_t i = interface_line_node(interface, k);
-        if (seen_status(seen, i) == CONTACT_STICK) break;
-        *slips = *slips || status_slips(seen_status(seen, i));
-        front = interface->x[i];
-    }
-    return front;
-}
-
-// Moments about the origin, x F_z - z F_x, of everything but inertia; and of inertia.
-typedef struct Moments {
-    double forces, inertia;
-} Moments;
-
-static Moments sum_moments(const StepControl *control)
-{
-    const BulkOperator *system = control->scheme.system;
-    const Interface *interface = control->scheme.interface;
-    const State *state = &control->now;
-    const double *rotation = system->rigid + (int64_t)interface->dim * system->dof_count;
-    double factor = load_factor(control->scheme.course, state->time);
-    Moments sum = {.forces = factor * dense_dot(rotation, system->load, system->dof_count),
-                   .inertia = dense_dot(rotation, state->inertia, system->dof_count)};
-    for (int32_t k = 0; k < interface->count; k++)
-        sum.forces += rotation[system->interface_dofs[k]] * state->reaction[k];
-    return sum;
-}
 
 Observation observe(const StepControl *control, const ObservationScales *scales)
 {
@@ -78,7 +34,17 @@ Observation observe(const StepControl *control, const ObservationScales *scales)
                         .certified = control->certified,
                         .grows = control->grows};
     if (scheme->friction->whole.law->creeps) seen.creep = CREEP * scales->slip_velocity;
-    seen.front = slip_front(&seen, &seen.front_slips);
+
+    // The front: x of the last node of the run of nodes from the trailing edge that do not stick.
+    seen.front = interface_line_x(interface, 0);
+    for (int32_t k = 0; k < interface_line_count(interface); k++) {
+        int32_t i = interface_line_node(interface, k);
+        if (seen_status(&seen, i) == CONTACT_STICK) break;
+        seen.front_slips = seen.front_slips || status_slips(seen_status(&seen, i));
+        seen.front = interface->x[i];
+    }
+
+    // mu, and the extremes over the contact.
     if (scheme->rod->stiffness == 0) seen.rod_way = seen.U;
     double load = scales->load * load_factor(scheme->course, state->time);
     seen.mu = seen.rod_force / load;
@@ -89,17 +55,30 @@ Observation observe(const StepControl *control, const ObservationScales *scales)
         seen.penetration = fmax(seen.penetration, -height - interface_gap(interface, i));
         seen.max_slip_rate = fmax(seen.max_slip_rate, slip_size(interface, i, state->slip_rate));
     }
-    Moments moments = sum_moments(control);
-    double moment_scale = scales->load * scales->length;
-    seen.moment_error = fabs(moments.forces - moments.inertia) / moment_scale;
-    seen.moment_static_error = fabs(moments.forces) / moment_scale;
+
+    // Moments about the origin, x F_z - z F_x, of everything but inertia; and of inertia.
+    const BulkOperator *system = scheme->system;
+    const double *rotation = system->rigid + (int64_t)interface->dim * system->dof_count;
+    double moment = load_factor(scheme->course, state->time) *
+                    dense_dot(rotation, system->load, system->dof_count);
+    double inertia = dense_dot(rotation, state->inertia, system->dof_count);
+    for (int32_t k = 0; k < interface->count; k++)
+        moment += rotation[system->interface_dofs[k]] * state->reaction[k];
+    seen.moment_error = fabs(moment - inertia) / (scales->load * scales->length);
+    seen.moment_static_error = fabs(moment) / (scales->load * scales->length);
+
+    // The ledger of energy.
     seen.energy_imbalance = energy_imbalance(&control->ledger);
     // A rod that hits a block at rest turns over more than the ledger holds as yet.
     double speed = scheme->rod->velocity;
     double turnover =
         fmax(energy_turnover(&control->ledger), 0.5 * scheme->system->mass_total * speed * speed);
     seen.energy_error = turnover > 0 ? fabs(seen.energy_imbalance) / turnover : 0;
+
+    // Conditions of the contact at the end of the step.
     if (control->counters.accepted > 0) {
+        double rounding = DBL_EPSILON * dense_max_abs(state->displacement, state->dof_count) /
+                          scheme->reach;
         // The scheme still holds the bounds of the accepted step's last stage.
         ContactProblem problem = {.interface = interface,
                                   .friction = scheme->friction,
@@ -108,9 +87,9 @@ Observation observe(const StepControl *control, const ObservationScales *scales)
                                   .rod_lag = scheme->rod->lag,
                                   .rod_reach = scheme->reach,
                                   .bound = scheme->bound};
-        ContactResidual residual = contact_residual(&problem, state->slip_rate, state->reaction,
-                                                    scales->load / interface->contact_count,
-                                                    judged_velocity(control, scales));
+        ContactResidual residual = contact_residual(
+            &problem, state->slip_rate, state->reaction, scales->load / interface->contact_count,
+            fmax(scales->slip_velocity, ROUNDINGS_LIMIT * rounding));
         seen.contact_error = contact_residual_max(&residual);
         seen.equation_error = control->outcome.residual / scales->load;
     }

@@ -6,15 +6,6 @@
 #include <math.h>
 #include <string.h>
 
-// Neighbours along the contact belong to the same pad where there is contact between them.
-static double cells_of(const Interface *interface, int32_t i)
-{
-    int32_t pad = interface->pad[i], last = interface->contact_count - 1;
-    double before = i > 0 && interface->pad[i - 1] == pad ? 0.5 : 0;
-    double after = i < last && interface->pad[i + 1] == pad ? 0.5 : 0;
-    return before + after;
-}
-
 void pad_sums(const Observation *seen, PadSum *sums)
 {
     const Interface *interface = seen->interface;
@@ -27,7 +18,11 @@ void pad_sums(const Observation *seen, PadSum *sums)
         if (interface->y) sum->shear_across -= state->reaction[interface_tangent(interface, i) + 1];
         if (!status_slips(seen_status(seen, i))) continue;
         sum->slipping += interface->weight[i];
-        sum->slipping_cells += cells_of(interface, i);
+        // Neighbours along the contact belong to the same pad where there is contact between them.
+        int32_t pad = interface->pad[i], last = interface->contact_count - 1;
+        double before = i > 0 && interface->pad[i - 1] == pad ? 0.5 : 0;
+        double after = i < last && interface->pad[i + 1] == pad ? 0.5 : 0;
+        sum->slipping_cells += before + after;
         sum->fastest = fmax(sum->fastest, slip_size(interface, i, state->slip_rate));
     }
 }

@@ -49,18 +49,6 @@ void pads_destroy(Pads *pads)
     *pads = (Pads){0};
 }
 
-// A node counts from when it has stuck: the tail of a sliding is not the next cycle's slip.
-// A node that opens after it stuck has slipped, as it carries nothing any more.
-static void mark_nodes(Pads *pads, const Observation *seen)
-{
-    for (int32_t i = 0; i < pads->contact_count; i++) {
-        if (seen_status(seen, i) == CONTACT_STICK)
-            pads->stuck[i] = 1;
-        else if (pads->stuck[i])
-            pads->slipped[i] = 1;
-    }
-}
-
 // How much of pad p slipped before it turned fast, if it is on this pad that a rapid event has
 // begun; NaN where the event of another pad has run over it.
 static double slow_length(const Events *events, int32_t p)
@@ -103,17 +91,6 @@ static void follow_pad(Pads *pads, const Observation *seen, int32_t p, int32_t *
     if (sum->fastest < pads->events->rate_stop) pad->rapid = false;
 }
 
-// All is forgotten but `last`; called in every step of a sliding, so that a cycle begins with its
-// end.
-static void begin_cycle(Pads *pads)
-{
-    memset(pads->stuck, 0, (size_t)pads->contact_count);
-    memset(pads->slipped, 0, (size_t)pads->contact_count);
-    pads->detached = 0;
-    pads->mu = -INFINITY;
-    for (int32_t p = 0; p < pads->count; p++) pads->list[p].now = NOTHING_YET;
-}
-
 // While the block slides as a whole nothing is followed but the step in which it crosses: what pads
 // do then says nothing of how they detach.
 bool pads_record(void *self, const Observation *seen, Error *err)
@@ -125,7 +102,15 @@ bool pads_record(void *self, const Observation *seen, Error *err)
     for (int32_t p = 0; events->ended && p < pads->count; p++)
         pads->list[p].slidings += events_pad_slid(events, seen->interface, p);
     if (!sliding || events->crossed) {
-        mark_nodes(pads, seen);
+        // A node counts from when it has stuck: the tail of a sliding is not the next cycle's slip.
+        // A node that opens after it stuck has slipped, as it carries nothing any more.
+        for (int32_t i = 0; i < pads->contact_count; i++) {
+            if (seen_status(seen, i) == CONTACT_STICK)
+                pads->stuck[i] = 1;
+            else if (pads->stuck[i])
+                pads->slipped[i] = 1;
+        }
+
         for (int32_t p = 0; p < pads->count; p++) follow_pad(pads, seen, p, &detaching);
         pads->detached += detaching;
         pads->mu = fmax(pads->mu, seen->mu);
@@ -139,8 +124,16 @@ bool pads_record(void *self, const Observation *seen, Error *err)
             if (pads->cycles == 1) pad->first = pad->now;
         }
     }
-    if (sliding || (events->ended && events->list[events->count - 1].kind == EVENT_LEADING))
-        begin_cycle(pads);
+    if (sliding || (events->ended && events->list[events->count - 1].kind == EVENT_LEADING)) {
+        // All is forgotten but `last`, in every step of a sliding, so that a cycle begins with its
+        // end.
+        memset(pads->stuck, 0, (size_t)pads->contact_count);
+        memset(pads->slipped, 0, (size_t)pads->contact_count);
+        pads->detached = 0;
+        pads->mu = -INFINITY;
+        for (int32_t p = 0; p < pads->count; p++) pads->list[p].now = NOTHING_YET;
+    }
+
     return error_is_clean(err);
 }
 

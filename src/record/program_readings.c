@@ -48,19 +48,6 @@ static Estimate level_of(const ProgramPiece *piece)
     return error <= STEADY_RANGE * fabs(middle) ? (Estimate){middle, error} : NONE;
 }
 
-// Error of the reference point. After a velocity step it comes from nodes that are not quite at the
-// rod's velocity (mu may be steeper there than on the way); after a hold, from the length of the
-// step behind the peak.
-static double top_error(const ProgramPiece *piece)
-{
-    const ProgramReading *reading = &piece->reading;
-    const ProgramTop *top = &piece->top;
-    if (reading->kind == READING_HOLD) return top->off;
-    double slope = (top->mu - reading->before.value) /
-                   log(reading->velocity / reading->velocity_before);
-    return 2 * fabs(slope) * top->off;
-}
-
 // The first bin in which no more than 1/e of the way to `after` is left.
 static Estimate distance_of(const ProgramPiece *piece, const Estimate *after, double error)
 {
@@ -89,7 +76,16 @@ static ProgramReading read_piece(const ProgramPiece *piece)
 {
     ProgramReading reading = piece->reading;
     const ProgramTop *top = &piece->top;
-    double error = top_error(piece);
+
+    // Error of the reference point. After a velocity step it comes from nodes that are not quite at
+    // the rod's velocity (mu may be steeper there than on the way); after a hold, from the length
+    // of the step behind the peak.
+    double error = top->off;
+    if (reading.kind != READING_HOLD) {
+        double slope = (top->mu - reading.before.value) /
+                       log(reading.velocity / reading.velocity_before);
+        error = 2 * fabs(slope) * top->off;
+    }
     reading.after = level_of(piece);
     reading.distance = distance_of(piece, &reading.after, error);
     double evolved = fabs(top->mu - reading.after.value) *
@@ -103,26 +99,6 @@ static ProgramReading read_piece(const ProgramPiece *piece)
 
 // --- steps --------------------------------------------------------------------------------------
 
-// Begins the reading of a piece that follows `old` with a jump from velocity `v` to `next`.
-static ProgramReading begin_reading(const ProgramPiece *old, double v, double next)
-{
-    ProgramReading reading = {.kind = READING_NONE, .before = NONE, .velocity = next};
-    if (v > 0 && next > 0 && v != next) {
-        reading.kind = READING_STEP;
-        reading.velocity_before = v;
-        reading.before = level_of(old);
-    } else if (v == 0 && next > 0 && old->level && old->reading.velocity_before > 0) {
-        reading.kind = READING_HOLD;
-        reading.velocity_before = old->reading.velocity_before;
-        reading.before = old->reading.before;
-        reading.duration = old->ends - old->begins;
-    } else if (v > 0 && next == 0) {
-        reading.velocity_before = v;
-        reading.before = level_of(old);
-    }
-    return reading;
-}
-
 // The piece under way is over; the next one begins at `time`, where the step seen last is.
 static void begin_piece(ProgramReadings *readings, double time)
 {
@@ -134,7 +110,22 @@ static void begin_piece(ProgramReadings *readings, double time)
     double before = rod_course_velocity(course, time);
     double after = rod_course_velocity(course, time * (1 + REACHED));
     if (fabs(after - before) <= tiny) after = before;
-    ProgramReading reading = begin_reading(now, before, after);
+
+    // The reading that a jump from velocity `before` to `after` begins.
+    ProgramReading reading = {.kind = READING_NONE, .before = NONE, .velocity = after};
+    if (before > 0 && after > 0 && before != after) {
+        reading.kind = READING_STEP;
+        reading.velocity_before = before;
+        reading.before = level_of(now);
+    } else if (before == 0 && after > 0 && now->level && now->reading.velocity_before > 0) {
+        reading.kind = READING_HOLD;
+        reading.velocity_before = now->reading.velocity_before;
+        reading.before = now->reading.before;
+        reading.duration = now->ends - now->begins;
+    } else if (before > 0 && after == 0) {
+        reading.velocity_before = before;
+        reading.before = level_of(now);
+    }
     double ends = schedule_next(&course->schedule, time);
     double last = isfinite(ends) ? rod_course_velocity(course, ends) : after;
     reading.t = time;
@@ -150,20 +141,6 @@ static void begin_piece(ProgramReadings *readings, double time)
     };
 }
 
-// Two bins each become one.
-static void merge_bins(ProgramPiece *piece)
-{
-    for (int32_t bin = 0, one = 0; one < PROGRAM_BINS; bin++, one += 2) {
-        int32_t next = one + 1;
-        piece->at[bin] = piece->at[one];
-        piece->first[bin] = piece->first[one];
-        piece->low[bin] = fmin(piece->low[one], piece->low[next]);
-        piece->high[bin] = fmax(piece->high[one], piece->high[next]);
-    }
-    piece->count = PROGRAM_BINS / 2;
-    piece->width = piece->at[piece->count - 1] / piece->count;
-}
-
 static void add_to_bin(ProgramPiece *piece, double mu, double slip)
 {
     int32_t last = piece->count - 1;
@@ -172,7 +149,17 @@ static void add_to_bin(ProgramPiece *piece, double mu, double slip)
         piece->high[last] = fmax(piece->high[last], mu);
         return;
     }
-    if (piece->count == PROGRAM_BINS) merge_bins(piece);
+    if (piece->count == PROGRAM_BINS) {   // two bins each become one
+        for (int32_t bin = 0, one = 0; one < PROGRAM_BINS; bin++, one += 2) {
+            int32_t next = one + 1;
+            piece->at[bin] = piece->at[one];
+            piece->first[bin] = piece->first[one];
+            piece->low[bin] = fmin(piece->low[one], piece->low[next]);
+            piece->high[bin] = fmax(piece->high[one], piece->high[next]);
+        }
+        piece->count = PROGRAM_BINS / 2;
+        piece->width = piece->at[piece->count - 1] / piece->count;
+    }
     int32_t k = piece->count++;
     piece->at[k] = slip;
     piece->first[k] = piece->low[k] = piece->high[k] = mu;
@@ -254,8 +241,14 @@ static void archive_reading(ProgramReading *reading, Archive *archive)
     archive_estimate(&reading->distance, archive);
 }
 
-static void archive_piece(ProgramPiece *piece, Archive *archive)
+void program_readings_archive(ProgramReadings *readings, Archive *archive)
 {
+    if (!readings->course) return;
+    archive_section(archive, "program readings");
+    archive_flag(archive, &readings->started);
+    archive_numbers_of(archive, &readings->mu, &readings->slip, &readings->U);
+
+    ProgramPiece *piece = &readings->now;
     ProgramTop *top = &piece->top;
     archive_reading(&piece->reading, archive);
     archive_flag(archive, &piece->level);
@@ -268,15 +261,6 @@ static void archive_piece(ProgramPiece *piece, Archive *archive)
     archive_numbers(archive, piece->high, piece->count);
     archive_numbers_of(archive, &top->mu, &top->slip, &top->off);
     archive_flag(archive, &piece->fell);
-}
-
-void program_readings_archive(ProgramReadings *readings, Archive *archive)
-{
-    if (!readings->course) return;
-    archive_section(archive, "program readings");
-    archive_flag(archive, &readings->started);
-    archive_numbers_of(archive, &readings->mu, &readings->slip, &readings->U);
-    archive_piece(&readings->now, archive);
     archive_index(archive, &readings->count, 0, PROGRAM_READINGS_MAX + 1);
     for (int32_t k = 0; k < readings->count; k++) archive_reading(&readings->list[k], archive);
 }

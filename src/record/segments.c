@@ -8,13 +8,6 @@
 
 enum { SEGMENTS = 16 };   // about so many, and no fewer than pads
 
-// A pad of so many nodes out of `all` is cut into parts with as many nodes each, as far as it goes.
-static int32_t parts_of(int32_t nodes, int32_t all)
-{
-    int32_t parts = (int32_t)lround((double)SEGMENTS * nodes / all);
-    return parts < 1 ? 1 : (parts > nodes ? nodes : parts);
-}
-
 bool segments_create(const Interface *interface, Segments *segments, Error *err)
 {
     int32_t nodes = interface->contact_count;
@@ -27,7 +20,9 @@ bool segments_create(const Interface *interface, Segments *segments, Error *err)
         int32_t own = 0, seen = 0;
         for (int32_t i = 0; i < nodes; i++) own += interface->pad[i] == p;
         if (own == 0) continue;
-        int32_t parts = parts_of(own, nodes);
+        // Parts with as many nodes each, as far as it goes.
+        int32_t parts = (int32_t)lround((double)SEGMENTS * own / nodes);
+        parts = parts < 1 ? 1 : (parts > own ? own : parts);
         for (int32_t i = 0; i < nodes; i++) {
             if (interface->pad[i] != p) continue;
             int32_t segment = segments->count + seen++ * parts / own;

@@ -12,25 +12,6 @@ static void keep_largest(double *largest, double value)
     if (fabs(value) > fabs(*largest)) *largest = value;
 }
 
-// Means over the contact.
-typedef struct Means {
-    double weight, x, y;   // of all; of places, length
-    double slip[2];   // length
-} Means;
-
-static Means means_of(const ContactArrays *contact, const Interface *interface)
-{
-    Means means = {0};
-    for (int32_t i = 0; i < contact->count; i++) means.weight += interface->weight[i];
-    for (int32_t i = 0; i < contact->count; i++) {
-        double part = interface->weight[i] / means.weight;
-        means.x += part * interface->x[i];
-        means.y += part * interface->y[i];
-        for (int32_t c = 0; c < 2; c++) means.slip[c] += part * contact->slip[2 * i + c];
-    }
-    return means;
-}
-
 bool turning_record(void *self, const Observation *seen, Error *err)
 {
     (void)err;
@@ -38,11 +19,20 @@ bool turning_record(void *self, const Observation *seen, Error *err)
     const ContactArrays *contact = turning->contact;
     const Interface *interface = seen->interface;
     if (contact->tangents < 2) return true;
-    Means means = means_of(contact, interface);
+
+    // Means over the contact, of places and of slip.
+    double weight = 0, mean_x = 0, mean_y = 0, mean_slip[2] = {0};
+    for (int32_t i = 0; i < contact->count; i++) weight += interface->weight[i];
+    for (int32_t i = 0; i < contact->count; i++) {
+        double part = interface->weight[i] / weight;
+        mean_x += part * interface->x[i];
+        mean_y += part * interface->y[i];
+        for (int32_t c = 0; c < 2; c++) mean_slip[c] += part * contact->slip[2 * i + c];
+    }
     double turned = 0, inertia = 0, low = INFINITY, high = -INFINITY;
     for (int32_t i = 0; i < contact->count; i++) {
         double w = interface->weight[i];
-        double x = interface->x[i] - means.x, y = interface->y[i] - means.y;
+        double x = interface->x[i] - mean_x, y = interface->y[i] - mean_y;
         const double *slip = &contact->slip[contact->tangents * i];
         turned += w * (x * slip[1] - y * slip[0]);
         inertia += w * (x * x + y * y);
@@ -52,8 +42,8 @@ bool turning_record(void *self, const Observation *seen, Error *err)
     }
     turning->breadth = high - low;
     keep_largest(&turning->angle, turned / inertia);
-    keep_largest(&turning->drift, means.slip[1]);
-    keep_largest(&turning->way, means.slip[0]);
+    keep_largest(&turning->drift, mean_slip[1]);
+    keep_largest(&turning->way, mean_slip[0]);
     return true;
 }
 

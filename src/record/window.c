@@ -13,23 +13,6 @@ bool window_is_sought(const Window *window)
     return window->def.around > 0 || window->def.last > 0;
 }
 
-// A sliding goes from the step before its rapid event to the one in which all is slow again.
-static void follow_slidings(Window *window, const Observation *seen)
-{
-    const Events *events = window->events;
-    if (events->began) window->onset = window->before;
-    window->before = seen->t;
-    window->slides = window->slides || events->crossed;
-    window->ended = window->slides && events->ended;
-    if (!window->ended) return;
-    window->slides = false;
-    window->slidings++;
-    if (window->slidings != window->def.around) return;
-    window->found = true;
-    window->begin = window->onset;
-    window->end = seen->t;
-}
-
 static bool record_inside(Window *window, const Observation *seen, Error *err)
 {
     const WindowDef *def = &window->def;
@@ -47,7 +30,21 @@ bool window_record(void *self, const Observation *seen, Error *err)
     Window *window = self;
     if (!record_inside(window, seen, err)) return false;
     if (seen->t > window->furthest && !recorders_record(&window->outside, seen, err)) return false;
-    if (!window->found) follow_slidings(window, seen);
+    if (window->found) return true;
+
+    // A sliding goes from the step before its rapid event to the one in which all is slow again.
+    const Events *events = window->events;
+    if (events->began) window->onset = window->before;
+    window->before = seen->t;
+    window->slides = window->slides || events->crossed;
+    window->ended = window->slides && events->ended;
+    if (!window->ended) return true;
+    window->slides = false;
+    window->slidings++;
+    if (window->slidings != window->def.around) return true;
+    window->found = true;
+    window->begin = window->onset;
+    window->end = seen->t;
     return true;
 }
 

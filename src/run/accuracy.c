@@ -71,22 +71,6 @@ static void begin_level(Accuracy *accuracy, double refine)
         (Level){.refine = refine, .slip_cells = NAN, .seconds_expected = expected};
 }
 
-// From a mesh that is so many times coarser than the scene's up: one that gmsh refuses or that has
-// too few contact nodes is passed over. The scene's own mesh is taken whatever it is.
-static bool first_level(Accuracy *accuracy, Error *err)
-{
-    for (int32_t halvings = COARSER_MAX; halvings >= 0; halvings--) {
-        bool coarse = false, last = halvings == 0;
-        begin_level(accuracy, ldexp(1, -halvings));
-        accuracy_run_member(accuracy, last ? NULL : &coarse, err);
-        if (!coarse && (last || error_is_clean(err))) break;
-        if (err->code == ERROR_INPUT || err->code == ERROR_LIBRARY) *err = (Error){0};
-        if (!error_is_clean(err)) return false;
-        accuracy->levels.count--;
-    }
-    return error_is_clean(err) && add_runs(accuracy, accuracy_runs_first(accuracy) - 1, err);
-}
-
 static const ErrorBar *asked(const Accuracy *accuracy)
 {
     return levels_answer(&accuracy->levels, accuracy->levels.asked);
@@ -132,29 +116,25 @@ static double next_step(const Accuracy *accuracy)
     return far ? span : step;
 }
 
-// The first run of a new level. A mesh that can only be split refuses the first step (ERROR_INPUT),
-// and is halved from then on.
-static bool try_level(Accuracy *accuracy, double refine, bool *coarse, Error *err)
-{
-    begin_level(accuracy, refine * next_step(accuracy));
-    if (!accuracy_run_member(accuracy, coarse, err) && err->code == ERROR_INPUT &&
-        accuracy->step < STEP_SPLIT) {
-        *err = (Error){0};
-        accuracy->step = STEP_SPLIT;
-        accuracy->levels.count--;
-        begin_level(accuracy, refine * accuracy->step);
-        accuracy_run_member(accuracy, coarse, err);
-    }
-    return error_is_clean(err);
-}
-
-// Meshes whose cells are still too long for slip are passed over, while there is time for a finer.
+// Runs on a finer mesh. One whose cells are still too long for slip is passed over, while there is
+// time for a finer one. A mesh that can only be split refuses the first step (ERROR_INPUT), and is
+// halved from then on.
 static bool add_level(Accuracy *accuracy, double refine, Error *err)
 {
     bool coarse = true;
     for (int32_t k = accuracy->levels.count + 1; coarse; k++) {
+        bool *may_be = k >= LEVELS_MAX ? NULL : &coarse;
         coarse = false;
-        if (!try_level(accuracy, refine, k >= LEVELS_MAX ? NULL : &coarse, err)) return false;
+        begin_level(accuracy, refine * next_step(accuracy));
+        if (!accuracy_run_member(accuracy, may_be, err) && err->code == ERROR_INPUT &&
+            accuracy->step < STEP_SPLIT) {
+            *err = (Error){0};
+            accuracy->step = STEP_SPLIT;
+            accuracy->levels.count--;
+            begin_level(accuracy, refine * accuracy->step);
+            accuracy_run_member(accuracy, may_be, err);
+        }
+        if (!error_is_clean(err)) return false;
         refine = accuracy_last_level(accuracy)->refine;
         if (!coarse) break;
         accuracy->out_of_time = growth_ahead(accuracy, accuracy->step) *
@@ -191,86 +171,62 @@ static void show_level(const Accuracy *accuracy)
     if (options->on_level) options->on_level(&view, options->context);
 }
 
-static const char NO_TIME[] = "no time for more";
+static const char NO_TIME[] = "no time for more";   // why a search ended
 
-static bool end_here(Accuracy *accuracy, const char *why)
-{
-    accuracy->levels.ended = why;
-    return true;
-}
-
-// A level without a whole run does not count.
-static void drop_cut_level(Accuracy *accuracy)
-{
-    Levels *levels = &accuracy->levels;
-    if (levels->count > 1 && accuracy_last_level(accuracy)->run_count == 0) levels->count--;
-    levels_estimate(levels);
-}
-
-// More runs where branches and drops leave more than the mesh does, else a finer mesh.
-static bool go_on(Accuracy *accuracy, bool *ended, Error *err)
-{
-    const ErrorBar *answer = asked(accuracy);
-    Level *level = accuracy_last_level(accuracy);
-    double between = hypot(answer->parts.branches, answer->parts.drops);
-    if (isnan(answer->value))
-        return *ended = end_here(accuracy, levels_run_in(&accuracy->levels)
-                                               ? "the run-in of a run was not over"
-                                               : "no load drop in any run");
-    accuracy->levels.met = is_met(accuracy);
-    if (accuracy->levels.met) return *ended = end_here(accuracy, "the error bar is met");
-    if (between > answer->parts.mesh && level->run_count + 2 <= LEVEL_RUNS_MAX - 1) {
-        if (!has_time_for(accuracy, 2)) return *ended = end_here(accuracy, NO_TIME);
-        TRY(add_runs(accuracy, 2, err));
-        goto cleanup;
-    }
-    if (accuracy->levels.count == LEVELS_MAX)
-        return *ended = end_here(accuracy, "the finest mesh that is tried");
-    if (!has_time_for_level(accuracy, next_step(accuracy)))
-        return *ended = end_here(accuracy, NO_TIME);
-    TRY(add_level(accuracy, level->refine, err));
-    if (accuracy->out_of_time) *ended = end_here(accuracy, NO_TIME);
-cleanup:
-    drop_cut_level(accuracy);
-    return error_is_clean(err);
-}
-
+// From mesh to mesh until levels.ended says why there is none to follow.
 static bool find_levels(Accuracy *accuracy, Error *err)
 {
-    bool ended = false;
-    if (!first_level(accuracy, err)) return false;
-    if (!levels_have_runs(&accuracy->levels)) ended = end_here(accuracy, NO_TIME);
-    if (!ended) show_level(accuracy);
-    while (!ended) {
-        int32_t before = accuracy->levels.count, runs = accuracy_last_level(accuracy)->run_count;
-        if (!go_on(accuracy, &ended, err)) return false;
-        bool new = accuracy->levels.count != before ||
-                   accuracy_last_level(accuracy)->run_count != runs;
-        if (new) show_level(accuracy);
+    Levels *levels = &accuracy->levels;
+
+    // The first mesh, from one that is so many times coarser than the scene's up: one that gmsh
+    // refuses or that has too few contact nodes is passed over. The scene's own mesh is taken
+    // whatever it is.
+    for (int32_t halvings = COARSER_MAX; halvings >= 0; halvings--) {
+        bool coarse = false, last = halvings == 0;
+        begin_level(accuracy, ldexp(1, -halvings));
+        accuracy_run_member(accuracy, last ? NULL : &coarse, err);
+        if (!coarse && (last || error_is_clean(err))) break;
+        if (err->code == ERROR_INPUT || err->code == ERROR_LIBRARY) *err = (Error){0};
+        if (!error_is_clean(err)) return false;
+        levels->count--;
     }
-    return true;
-}
+    if (!error_is_clean(err)) return false;
+    if (!add_runs(accuracy, accuracy_runs_first(accuracy) - 1, err)) return false;
+    if (!levels_have_runs(levels)) levels->ended = NO_TIME;
+    if (!levels->ended) show_level(accuracy);
 
-// Branches, not the mesh, are why the bar is not met, and more runs may mend it.
-static bool levels_lack_runs(const Accuracy *accuracy)
-{
-    const Levels *levels = &accuracy->levels;
-    const ErrorBar *answer = asked(accuracy);
-    return !is_met(accuracy) && answer->parts.mesh < levels->wanted * answer->value &&
-           levels->list[levels->count - 1].run_count + 2 <= LEVEL_RUNS_MAX;
-}
+    while (!levels->ended) {
+        const ErrorBar *answer = asked(accuracy);
+        const Level *level = accuracy_last_level(accuracy);
+        int32_t before = levels->count, runs = level->run_count;
 
-// After a loop that ended early: no error where it was for time.
-static bool is_time_up(const Accuracy *accuracy, Simulation *simulation, Error *err)
-{
-    const volatile sig_atomic_t *stop = accuracy->options->stop;
-    if (err->code != ERROR_INTERRUPT || (stop && *stop)) return false;
-    *err = (Error){0};
-    warnings_add(
-        &simulation->warnings,
-        "the run in full was cut short: time was up at U = %g (--within, accuracy.within); "
-        "history and pictures end there, the error bar is of the runs before",
-        simulation->seen.U);
+        // More runs where branches and drops leave more than the mesh does, else a finer mesh.
+        double between = hypot(answer->parts.branches, answer->parts.drops);
+        bool more_runs = between > answer->parts.mesh && runs + 2 <= LEVEL_RUNS_MAX - 1;
+        levels->met = !isnan(answer->value) && is_met(accuracy);
+        if (isnan(answer->value))
+            levels->ended = levels_run_in(levels) ? "the run-in of a run was not over"
+                                                  : "no load drop in any run";
+        else if (levels->met)
+            levels->ended = "the error bar is met";
+        else if (more_runs)
+            levels->ended = has_time_for(accuracy, 2) ? NULL : NO_TIME;
+        else if (levels->count == LEVELS_MAX)
+            levels->ended = "the finest mesh that is tried";
+        else if (!has_time_for_level(accuracy, next_step(accuracy)))
+            levels->ended = NO_TIME;
+        if (levels->ended) break;
+        bool added = more_runs ? add_runs(accuracy, 2, err)
+                               : add_level(accuracy, level->refine, err);
+        if (!more_runs && accuracy->out_of_time) levels->ended = NO_TIME;
+
+        // A level without a whole run does not count.
+        if (levels->count > 1 && accuracy_last_level(accuracy)->run_count == 0) levels->count--;
+        levels_estimate(levels);
+        if (!added) return false;
+        if (levels->count != before || accuracy_last_level(accuracy)->run_count != runs)
+            show_level(accuracy);
+    }
     return true;
 }
 
@@ -309,12 +265,26 @@ static bool run_in_full(Accuracy *accuracy, RunSummary *summary, Error *err)
     TRY(scene_refine(scene, accuracy_last_level(accuracy)->refine, err));
     TRY(amontons_simulation_create(scene, accuracy->options, &simulation, err));
     simulation->deadline = accuracy->deadline;
-    if (!simulation_loop(simulation, err)) TRY(is_time_up(accuracy, simulation, err));
+    if (!simulation_loop(simulation, err)) {   // which is no error where it was for time
+        const volatile sig_atomic_t *stop = accuracy->options->stop;
+        if (err->code != ERROR_INTERRUPT || (stop && *stop)) goto cleanup;
+        *err = (Error){0};
+        warnings_add(
+            &simulation->warnings,
+            "the run in full was cut short: time was up at U = %g (--within, accuracy.within); "
+            "history and pictures end there, the error bar is of the runs before",
+            simulation->seen.U);
+    }
     Answers answers = simulation_answers(simulation);
     if (accuracy_is_known(accuracy, &answers) && levels_reach(levels, simulation->seen.U))
         accuracy_count_run(accuracy, simulation, 1, &answers);
-    while (levels_lack_runs(accuracy) && accuracy_seconds_left(accuracy) > 0)
+
+    // More runs where branches, not the mesh, are why the bar is not met.
+    while (!is_met(accuracy) && accuracy_seconds_left(accuracy) > 0 &&
+           asked(accuracy)->parts.mesh < levels->wanted * asked(accuracy)->value &&
+           accuracy_last_level(accuracy)->run_count + 2 <= LEVEL_RUNS_MAX)
         TRY(add_runs(accuracy, 2, err));
+
     if (levels->met && !is_met(accuracy)) levels->ended = "the run in full widened it";
     levels->met = is_met(accuracy);
     if (!levels->met) warnings_of_bar(levels, &simulation->warnings);

@@ -37,17 +37,6 @@ int32_t accuracy_runs_first(const Accuracy *accuracy)
     return accuracy->levels.count == 1 || accuracy->step == STEP_SPLIT ? 2 : 1;
 }
 
-// The next pressure, over the scene's: the ends of the window, then points between them, in pairs
-// that leave the mean where it is.
-static double next_pressure(const Accuracy *accuracy)
-{
-    static const double places[] = {1, 0.5, 0.75, 0.25};
-    double half = accuracy->scene->accuracy.window / 2;
-    int32_t run = accuracy->members;
-    double place = places[run / 2 % (int32_t)(sizeof places / sizeof *places)];
-    return 1 + (run % 2 == 0 ? -half : half) * place;
-}
-
 double accuracy_full(const Accuracy *accuracy, double times)
 {
     double most = FULL_SHARE * accuracy->scene->accuracy.within;
@@ -97,37 +86,33 @@ static bool is_steered(const Scene *scene)
     return scene_has_program(&scene->rod.program) || scene_has_program(&scene->load.program);
 }
 
-// As far as the scene itself goes, and no load drop is ahead.
-static bool slides_steadily(const Accuracy *accuracy, const Simulation *simulation)
-{
-    return simulation->seen.t >= step_rule_end(accuracy->scene) &&
-           !isnan(steady_mu(&simulation->steady).value) && !is_steered(accuracy->scene);
-}
-
-// A run that comes to its end in the middle of its run-in, or slides slowly and is not steady yet,
-// goes on, once. What a program does may well look like a run-in, for ever.
-static bool goes_on(const Accuracy *accuracy, Simulation *simulation)
-{
-    const Scene *scene = accuracy->scene;
-    bool once = simulation->scene.time.until_U > LONGER * scene->time.until_U ||
-                simulation->scene.time.until_t > LONGER * scene->time.until_t;
-    bool is_steady_soon = simulation->steady.slides && simulation->drops.count == 0;
-    bool runs_in = regime_of(&simulation->drops).run_in != RUN_IN_OVER;
-    if (once || is_steered(scene) || !(runs_in || is_steady_soon)) return false;
-    simulation->scene.time.until_U *= LONGER;
-    simulation->scene.time.until_t *= LONGER;
-    simulation->t_end = step_rule_end(&simulation->scene);
-    return true;
-}
-
 // Steps until the answer is known, time is up, or the end.
 static bool step_until_known(Accuracy *accuracy, Simulation *simulation, EndWait *wait, Error *err)
 {
+    const Scene *scene = accuracy->scene;
+    Scene *own = &simulation->scene;
     for (bool finished = false; !finished;) {
         if (!amontons_simulation_step(simulation, NULL, &finished, err)) return false;
         end_wait_watch(wait, simulation);
-        if (slides_steadily(accuracy, simulation)) break;
-        if (finished && goes_on(accuracy, simulation)) finished = false;
+
+        // As far as the scene itself goes, it slides steadily, and no load drop is ahead.
+        if (simulation->seen.t >= step_rule_end(scene) &&
+            !isnan(steady_mu(&simulation->steady).value) && !is_steered(scene))
+            break;
+
+        // A run that comes to its end in the middle of its run-in, or slides slowly and is not
+        // steady yet, goes on, once. What a program does may well look like a run-in, for ever.
+        bool once = own->time.until_U > LONGER * scene->time.until_U ||
+                    own->time.until_t > LONGER * scene->time.until_t;
+        if (finished && !once && !is_steered(scene)) {
+            bool is_steady_soon = simulation->steady.slides && simulation->drops.count == 0;
+            if (is_steady_soon || regime_of(&simulation->drops).run_in != RUN_IN_OVER) {
+                own->time.until_U *= LONGER;
+                own->time.until_t *= LONGER;
+                simulation->t_end = step_rule_end(own);
+                finished = false;
+            }
+        }
         if (simulation->events.ended) {
             accuracy->so_far = answers_of(&simulation->drops);
             finished = finished || accuracy_is_known(accuracy, &accuracy->so_far);
@@ -135,15 +120,6 @@ static bool step_until_known(Accuracy *accuracy, Simulation *simulation, EndWait
         if (!finished && !simulation_may_go_on(simulation, err)) return false;
     }
     return true;
-}
-
-static bool contact_has_nodes(const Interface *interface)
-{
-    bool space = interface->dim > 2;
-    for (int32_t pad = 0; pad < interface->pad_count; pad++)
-        if (pad_size(interface, pad).nodes < (space ? SPACE_PAD_NODES_MIN : PAD_NODES_MIN))
-            return false;
-    return interface->contact_count >= (space ? SPACE_NODES_MIN : CONTACT_NODES_MIN);
 }
 
 // A StepCallback: says which run of which mesh it is, and what is known so far.
@@ -170,26 +146,6 @@ static void show_stage(const char *stage, void *context)
 }
 
 // --- what time allows ---------------------------------------------------------------------------
-
-// Mesh and basis of a run that is made are there for the next one.
-static bool keeps_model(const Simulation *simulation)
-{
-    char path[PATH_MAX];
-    return simulation->model.is_reduced && simulation->scene.reduction.cache &&
-           cache_folder_path(path);
-}
-
-// The run in full goes to the scene's end at the same pace, unless an event ends it before. Output
-// is not in it, and where it would take more than its share it is cut short.
-static void expect_full(Accuracy *accuracy, const Simulation *simulation, double stepping)
-{
-    const Scene *scene = accuracy->scene;
-    double way = step_rule_end(scene) / simulation->control.now.time;
-    bool sooner = scene->time.until_periodic || scene->time.until_slidings > 0 ||
-                  scene->time.until_mu_below > 0;
-    if (sooner || !isfinite(way)) way = fmin(way, 1);
-    accuracy->stepping = way * stepping;
-}
 
 // Notes a run that was stopped. This is an error only if the caller stopped it, not if time did.
 static void note_cut(Accuracy *accuracy, const Simulation *simulation, Error *err)
@@ -219,22 +175,18 @@ static void note_cut(Accuracy *accuracy, const Simulation *simulation, Error *er
         (void)FAULT(err, ERROR_INTERRUPT, "stopped on mesh %.0f of an error bar", cut->mesh);
 }
 
-// Nothing new is learnt on it.
+// Nothing new is learnt on a mesh with no more contact nodes than the last, or with too few, or
+// whose cells are too long for slip.
 static bool is_too_coarse(const Accuracy *accuracy, const Interface *interface)
 {
     const Level *last = &accuracy->levels.list[accuracy->levels.count - 1];
     bool same = accuracy->levels.count > 1 && last->contact_nodes <= last[-1].contact_nodes;
-    return last->undamped || same || !contact_has_nodes(interface);
-}
-
-// Its steps came to no end, as where slip weakens faster than viscosity can damp on a cell: a finer
-// mesh may.
-static void pass_over(Accuracy *accuracy, Error *err)
-{
-    snprintf(accuracy->passed_over, sizeof accuracy->passed_over,
-             "no run on the mesh of %d contact nodes, finer ones were taken: %.300s",
-             accuracy_last_level(accuracy)->contact_nodes, err->message);
-    *err = (Error){0};
+    bool space = interface->dim > 2;
+    if (last->undamped || same) return true;
+    for (int32_t pad = 0; pad < interface->pad_count; pad++)
+        if (pad_size(interface, pad).nodes < (space ? SPACE_PAD_NODES_MIN : PAD_NODES_MIN))
+            return true;
+    return interface->contact_count < (space ? SPACE_NODES_MIN : CONTACT_NODES_MIN);
 }
 
 void accuracy_count_run(Accuracy *accuracy, const Simulation *simulation, double pressure,
@@ -258,7 +210,15 @@ bool accuracy_run_member(Accuracy *accuracy, bool *coarse, Error *err)
     bool first = !levels_have_runs(&accuracy->levels) && accuracy->levels.count == 1;
     double started = clock_seconds(), deadline = accuracy->deadline - accuracy_full(accuracy, 1);
     accuracy->begun = started;
-    double pressure = next_pressure(accuracy);
+
+    // The next pressure, over the scene's: the ends of the window, then points between them, in
+    // pairs that leave the mean where it is.
+    static const double places[] = {1, 0.5, 0.75, 0.25};
+    double half = accuracy->scene->accuracy.window / 2;
+    double place = places[accuracy->members / 2 % (int32_t)(sizeof places / sizeof *places)];
+    double pressure = 1 + (accuracy->members % 2 == 0 ? -half : half) * place;
+
+    // Mesh and basis.
     Scene *scene = scene_of_run(accuracy, level->refine, pressure, err);
     accuracy->so_far = (Answers){.mu_M = {NAN, NAN}, .mu_hold = {NAN, NAN}};
     TRY(scene);
@@ -267,24 +227,43 @@ bool accuracy_run_member(Accuracy *accuracy, bool *coarse, Error *err)
     const Interface *interface = &simulation->model.interface;
     one_mesh_read(simulation, level);
     if (coarse && (*coarse = is_too_coarse(accuracy, interface))) goto cleanup;
+
+    // Steps. Where they come to no end, as where slip weakens faster than viscosity can damp on a
+    // cell, the mesh is passed over: a finer one may.
     double begun = clock_seconds();
     step_until_known(accuracy, simulation, &wait, err);
     if (coarse && (*coarse = err->code == ERROR_COMPUTE)) {
-        pass_over(accuracy, err);
+        snprintf(accuracy->passed_over, sizeof accuracy->passed_over,
+                 "no run on the mesh of %d contact nodes, finer ones were taken: %.300s",
+                 level->contact_nodes, err->message);
+        *err = (Error){0};
         goto cleanup;
     }
     TRY(error_is_clean(err));
+
+    // A whole run: what it says, and the time it took. Mesh and basis are made once where the cache
+    // keeps them.
     Answers answers = simulation_answers(simulation);
     const Event *least = drops_least_resolved(&simulation->drops, answers.first);
     if (least) level->slip_cells = fmin(level->slip_cells, least->slip_cells);
     level->end_wait = fmax(level->end_wait, end_wait_of(&wait, interface, answers.critical_length));
     accuracy_count_run(accuracy, simulation, pressure, &answers);
     accuracy->members++;
-    if (keeps_model(simulation))
+    char cache[PATH_MAX];
+    if (simulation->model.is_reduced && simulation->scene.reduction.cache &&
+        cache_folder_path(cache))
         level->making += begun - started;
     else
         accuracy->making = begun - started;
-    expect_full(accuracy, simulation, clock_seconds() - begun);
+
+    // The run in full goes to the scene's end at the same pace, unless an event ends it before.
+    // Output is not in it, and where it would take more than its share it is cut short.
+    const Scene *whole = accuracy->scene;
+    double way = step_rule_end(whole) / simulation->control.now.time;
+    bool sooner = whole->time.until_periodic || whole->time.until_slidings > 0 ||
+                  whole->time.until_mu_below > 0;
+    if (sooner || !isfinite(way)) way = fmin(way, 1);
+    accuracy->stepping = way * (clock_seconds() - begun);
 cleanup:
     if (err->code == ERROR_INTERRUPT) note_cut(accuracy, simulation, err);
     if (accuracy->out_of_time && !levels_have_runs(&accuracy->levels)) {

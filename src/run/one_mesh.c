@@ -8,22 +8,18 @@
 enum { END_NODES = 2 };   // with so few left to slip, they decide when the block slides
 static const double ROUNDING = 1e-6;   // of positions, in cells
 
-// On most nodes friction weakens faster than viscosity can damp.
-static bool is_undamped(const Simulation *simulation)
-{
-    double worst = 0;
-    int32_t undamped =
-        undamped_nodes(&simulation->control.certificate, simulation->model.scales.load, &worst);
-    return 2 * undamped > simulation->model.interface.contact_count;
-}
-
 void one_mesh_read(const Simulation *simulation, Level *level)
 {
     level->contact_nodes = simulation->model.interface.contact_count;
     level->nodes_along = interface_nodes_along(&simulation->model.interface);
     level->pads = simulation->model.interface.pad_count;
     level->space = simulation->model.interface.dim > 2;
-    level->undamped = is_undamped(simulation);
+
+    // On most nodes friction weakens faster than viscosity can damp.
+    double worst = 0;
+    int32_t undamped =
+        undamped_nodes(&simulation->control.certificate, simulation->model.scales.load, &worst);
+    level->undamped = 2 * undamped > simulation->model.interface.contact_count;
 }
 
 void one_mesh_answer(const Simulation *simulation, Answers *answers)

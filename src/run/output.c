@@ -26,32 +26,6 @@ bool output_check(const Scene *scene, Error *err)
     return possible;
 }
 
-// A name a line; freed by the caller. NULL: memory is short.
-static char *join_pad_names(const Interface *interface, Error *err)
-{
-    char *text = memory_array((int64_t)interface->pad_count * GROUP_NAME_SIZE + 1, 1, err);
-    for (int32_t p = 0, used = 0; text && p < interface->pad_count; p++)
-        used += snprintf(text + used, GROUP_NAME_SIZE + 1, "%s%s", p > 0 ? "\n" : "",
-                         interface->pad_name[p]);
-    return text;
-}
-
-// *points: [count * width] of the faces, as numbers; the caller's.
-static bool add_faces(const ContactFaces *faces, ResultHead *head, double **points, Error *err)
-{
-    int64_t count = (int64_t)faces->count * faces->width;
-    if (count == 0) return true;
-    if (!(*points = NEW_ARRAY(double, count, err))) return false;
-    for (int64_t k = 0; k < count; k++) (*points)[k] = faces->point[k];
-    head->faces[FACES_NODES].rows = faces->count;
-    head->faces[FACES_NODES].width = faces->width;
-    head->faces[FACES_NODES].values = *points;
-    head->faces[FACES_CORNERS].rows = faces->corner_count;
-    head->faces[FACES_CORNERS].width = 2;
-    head->faces[FACES_CORNERS].values = faces->corner;
-    return true;
-}
-
 // A line for each of `count`: those of the scene's formulas by their names; and their unit.
 static const char *state_names(const Scene *scene, int32_t count, char *names, size_t size)
 {
@@ -66,23 +40,6 @@ static const char *state_names(const Scene *scene, int32_t count, char *names, s
         if (numbered) snprintf(names + used, size - used, "_%d", k + 1);
     }
     return friction_state_unit(&scene->friction);
-}
-
-// Names and places of the probes into the head. names: a line each; places: [SCENE_PROBES_MAX *
-// DIM_MAX].
-static void add_probes(const Scene *scene, int32_t dim, char *names, double *places,
-                       ResultHead *head)
-{
-    const SceneProbes *probes = &scene->output.probes;
-    int32_t used = 0;
-    for (int32_t k = 0; k < probes->count; k++) {
-        used += snprintf(names + used, GROUP_NAME_SIZE + 1, "%s%s", k > 0 ? "\n" : "",
-                         probes->probe[k].name);
-        memcpy(places + (int64_t)k * dim, probes->probe[k].at.value, (size_t)dim * sizeof *places);
-    }
-    head->probes = probes->count;
-    head->probe_names = names;
-    head->probe_places = places;
 }
 
 // mu_M and l_c are NaN in the head: they are known at the end only.
@@ -132,18 +89,48 @@ static bool open_history(Simulation *simulation, Error *err)
         head.numbers[NUMBER_ROD_HIGH] = scene->rod.whole ? face[1] : middle + 0.5 * width;
         if (scene->rod.breadth > 0) head.numbers[NUMBER_ROD_BREADTH] = scene->rod.breadth;
     }
+
+    // Names of the probes, a line each, and their places.
+    const SceneProbes *probes = &scene->output.probes;
     char probe_names[SCENE_PROBES_MAX * (GROUP_NAME_SIZE + 1)];
     double probe_places[SCENE_PROBES_MAX * DIM_MAX];
-    add_probes(scene, model->mesh.dim, probe_names, probe_places, &head);
-    double *points = NULL;
-    char *pads = join_pad_names(&simulation->model.interface, err);
-    head.pads = pads;
+    int32_t dim = model->mesh.dim, used = 0;
+    for (int32_t k = 0; k < probes->count; k++) {
+        used += snprintf(probe_names + used, GROUP_NAME_SIZE + 1, "%s%s", k > 0 ? "\n" : "",
+                         probes->probe[k].name);
+        memcpy(probe_places + (int64_t)k * dim, probes->probe[k].at.value,
+               (size_t)dim * sizeof *probe_places);
+    }
+    head.probes = probes->count;
+    head.probe_names = probe_names;
+    head.probe_places = probe_places;
+
+    // Names of the pads, a line each; faces of the contact, as numbers.
+    const Interface *interface = &model->interface;
+    const ContactFaces *faces = &interface->faces;
+    int64_t point_count = (int64_t)faces->count * faces->width;
+    double *points = NEW_ARRAY(double, point_count, err);
+    char *pads = memory_array((int64_t)interface->pad_count * GROUP_NAME_SIZE + 1, 1, err);
     TRY(error_is_clean(err));
+    used = 0;
+    for (int32_t p = 0; p < interface->pad_count; p++)
+        used += snprintf(pads + used, GROUP_NAME_SIZE + 1, "%s%s", p > 0 ? "\n" : "",
+                         interface->pad_name[p]);
+    head.pads = pads;
+    for (int64_t k = 0; k < point_count; k++) points[k] = faces->point[k];
+    if (point_count > 0) {
+        head.faces[FACES_NODES].rows = faces->count;
+        head.faces[FACES_NODES].width = faces->width;
+        head.faces[FACES_NODES].values = points;
+        head.faces[FACES_CORNERS].rows = faces->corner_count;
+        head.faces[FACES_CORNERS].width = 2;
+        head.faces[FACES_CORNERS].values = faces->corner;
+    }
+
     TRY(probes_create(model->probes, head.probes, &model->mesh, &model->system,
                       model->materials.list, &model->bulk.spectrum, &simulation->probes, err));
-    TRY(add_faces(&model->interface.faces, &head, &points, err));
-    TRY(history_create(simulation->folder.path, &head, &simulation->model.interface,
-                       &simulation->contact, &simulation->history, err));
+    TRY(history_create(simulation->folder.path, &head, interface, &simulation->contact,
+                       &simulation->history, err));
     if (head.probes > 0) simulation->history.probes = &simulation->probes;
 cleanup:
     memory_free_all(points, pads);
@@ -161,29 +148,6 @@ bool output_store_warnings(Simulation *simulation, Error *err)
         used += (size_t)snprintf(lines + used, sizeof lines - used, "%s%s", k > 0 ? "\n" : "",
                                  warnings->text[k]);
     return array_file_set_text(simulation->history.file, "warnings", lines, err);
-}
-
-static bool open_fields(Simulation *simulation, Error *err)
-{
-    const Scene *scene = &simulation->scene;
-    FieldsDef def = {.every_U = scene->output.fields_every_U,
-                     .every_t = scene->output.fields_every_t,
-                     .every_step = scene->output.fields_every_step,
-                     .at_events = scene->output.fields_at_events};
-    if (scene->output.fields_film) {
-        double V = fabs(scene->rod.velocity), U = scene->time.until_U;
-        double way = U > 0 ? U : V * scene->time.until_t, step = scene->output.film_step;
-        def.at_events = true;
-        def.every_U = def.every_slip = step > 0 ? step : way / FILM_PARTS;
-    }
-    if (!fields_create(&def, simulation->folder.path, &simulation->model.mesh,
-                       &simulation->model.interface, &simulation->fields, err))
-        return false;
-    simulation->fields.files.materials = simulation->model.materials.list;
-    simulation->fields.files.spectrum = &simulation->model.bulk.spectrum;
-    simulation->fields.friction = &simulation->model.friction;
-    simulation->fields.events = &simulation->events;
-    return true;
 }
 
 // In a part of the run only what is inside the window is written: fields, and the history where it
@@ -205,7 +169,23 @@ bool output_open(Simulation *simulation, Error *err)
                       &simulation->history, history_record);
     }
     if (scene->output.fields) {
-        if (!open_fields(simulation, err)) return false;
+        FieldsDef fields = {.every_U = scene->output.fields_every_U,
+                            .every_t = scene->output.fields_every_t,
+                            .every_step = scene->output.fields_every_step,
+                            .at_events = scene->output.fields_at_events};
+        if (scene->output.fields_film) {
+            double V = fabs(scene->rod.velocity), U = scene->time.until_U;
+            double way = U > 0 ? U : V * scene->time.until_t, step = scene->output.film_step;
+            fields.at_events = true;
+            fields.every_U = fields.every_slip = step > 0 ? step : way / FILM_PARTS;
+        }
+        if (!fields_create(&fields, simulation->folder.path, &simulation->model.mesh,
+                           &simulation->model.interface, &simulation->fields, err))
+            return false;
+        simulation->fields.files.materials = simulation->model.materials.list;
+        simulation->fields.files.spectrum = &simulation->model.bulk.spectrum;
+        simulation->fields.friction = &simulation->model.friction;
+        simulation->fields.events = &simulation->events;
         recorders_add(def.given ? &window->inside : &simulation->recorders, &simulation->fields,
                       fields_record);
     }
@@ -228,22 +208,38 @@ void output_warn_of_window(Simulation *simulation)
                      simulation->seen.U, simulation->seen.t);
 }
 
-// A picture of a window that the run did not reach is not drawn; the run was warned.
-static bool has_data(const Simulation *simulation, const char *figure)
+// By the module `render`, loaded here and only here.
+bool output_draw_figures(Simulation *simulation, Error *err)
 {
-    const Window *window = &simulation->window;
-    if (!window->def.given) return true;
-    bool fields = strcmp(figure, "field") == 0;
-    return simulation->history.end.rows > 1 && (!fields || simulation->fields.written > 0);
-}
+    const SceneNames *wanted = &simulation->scene.output.figures;
+    const char *names[SCENE_LIST_MAX];
+    int32_t count = 0;
 
-// One after the other. What this result has nothing for is a warning: what was computed is there.
-static bool draw_each(Simulation *simulation, const PictureRequest *all, Error *err)
-{
-    simulation->figures = 0;
-    for (int32_t k = 0; k < all->figure_count; k++) {
-        PictureRequest one = *all;
-        one.figures = &all->figures[k];
+    // A picture of a window that the run did not reach is not drawn; the run was warned.
+    bool rows = !simulation->window.def.given || simulation->history.end.rows > 1;
+    bool fields = !simulation->window.def.given || simulation->fields.written > 0;
+    for (int32_t k = 0; k < wanted->count; k++)
+        if (rows && (fields || strcmp(wanted->name[k], "field") != 0))
+            names[count++] = wanted->name[k];
+    if (count == 0) return true;
+    PictureRequest request = {.figures = names, .figure_count = count};
+    const char *compare = simulation->scene.output.compare;
+    if (compare[0]) request.style.compare = compare;
+    if (simulation->scene.output.cycle[0]) request.style.cycle = simulation->scene.output.cycle;
+
+    // All at once; else one after the other. What this result has nothing for is a warning: what
+    // was computed is there.
+    double started = clock_seconds();
+    bool drawn = pictures_draw(simulation->folder.path, &request, err);
+    simulation->figures = count;
+    if (!drawn) {
+        if (err->code != ERROR_INPUT) return false;
+        *err = (Error){0};
+        simulation->figures = 0;
+    }
+    for (int32_t k = 0; k < count && !drawn; k++) {
+        PictureRequest one = request;
+        one.figures = &names[k];
         one.figure_count = 1;
         if (pictures_draw(simulation->folder.path, &one, err)) {
             simulation->figures++;
@@ -252,29 +248,6 @@ static bool draw_each(Simulation *simulation, const PictureRequest *all, Error *
         if (err->code != ERROR_INPUT) return false;
         warnings_add(&simulation->warnings, "a picture is not drawn: %.300s", err->message);
         *err = (Error){0};
-    }
-    return true;
-}
-
-// By the module `render`, loaded here and only here.
-bool output_draw_figures(Simulation *simulation, Error *err)
-{
-    const SceneNames *wanted = &simulation->scene.output.figures;
-    const char *names[SCENE_LIST_MAX];
-    int32_t count = 0;
-    for (int32_t k = 0; k < wanted->count; k++)
-        if (has_data(simulation, wanted->name[k])) names[count++] = wanted->name[k];
-    if (count == 0) return true;
-    PictureRequest request = {.figures = names, .figure_count = count};
-    const char *compare = simulation->scene.output.compare;
-    if (compare[0]) request.style.compare = compare;
-    if (simulation->scene.output.cycle[0]) request.style.cycle = simulation->scene.output.cycle;
-    double started = clock_seconds();
-    simulation->figures = count;
-    if (!pictures_draw(simulation->folder.path, &request, err)) {
-        if (err->code != ERROR_INPUT) return false;
-        *err = (Error){0};
-        if (!draw_each(simulation, &request, err)) return false;
     }
     simulation->figures_seconds = clock_seconds() - started;
     return true;

@@ -17,60 +17,6 @@
 #include <math.h>
 #include <stdio.h>
 
-// The counters of amontons.h, name by name: a benchmark reads them here.
-static void write_steps(JsonWriter *json, const RunCounters *counters)
-{
-    json_begin_object(json, "steps");
-    json_integer(json, "accepted", counters->accepted);
-    json_integer(json, "rejected", counters->rejected);
-    json_integer(json, "rejected_uncertified", counters->rejected_uncertified);
-    json_integer(json, "stepped_over_oscillations", counters->stepped_over_oscillations);
-    json_integer(json, "unsolved_retries", counters->unsolved_retries);
-    json_integer(json, "factorisations", counters->factorisations);
-    json_integer(json, "solves", counters->solves);
-    json_integer(json, "contact_solves", counters->contact_solves);
-    json_integer(json, "contact_iterations", counters->contact_iterations);
-    json_integer(json, "contact_fallbacks", counters->contact_fallbacks);
-    json_integer(json, "contact_rescued", counters->contact_rescued);
-    json_integer(json, "certificates", counters->certificates);
-    json_integer(json, "loop_allocations", counters->loop_allocations);
-    json_end(json);
-}
-
-// Rounding depends on the kernels: writes those of OpenBLAS, and those that this processor could
-// run.
-static void write_kernels(JsonWriter *json)
-{
-    json_begin_object(json, "kernels");
-    json_text(json, "openblas", kernels_name());
-    json_text(json, "possible", kernels_possible());
-    json_end(json);
-}
-
-// Levels on which a step was accepted, the longest first.
-static void write_dt_levels(JsonWriter *json, const DtLevels *dt_levels)
-{
-    json_begin_list(json, "rungs");
-    for (int32_t k = 0; k < dt_levels->level_count; k++) {
-        if (dt_levels->accepted[k] == 0) continue;
-        json_begin_object(json, NULL);
-        json_number(json, "dt", dt_level_step(dt_levels, k));
-        json_integer(json, "accepted", dt_levels->accepted[k]);
-        json_end(json);
-    }
-    json_end(json);
-}
-
-// Wall seconds by stage; outside_loop_cpu is processor time, of all but the loop of steps and
-// relaxing.
-static void write_timing(JsonWriter *json, const Model *model, const RunTiming *timing)
-{
-    json_object_of(json, "timing_s", {"mesh", model->seconds_mesh},
-                   {"reduce", model->seconds_reduce}, {"relax", timing->relax},
-                   {"solve", timing->solve}, {"output", timing->output}, {"total", timing->total},
-                   {"outside_loop_cpu", timing->outside});
-}
-
 static void write_model(JsonWriter *json, const Model *model, int64_t relaxation_steps)
 {
     WaveSpeeds speeds = material_speeds(&model->materials.list[model->contact_region]);
@@ -116,31 +62,12 @@ static void write_base(JsonWriter *json, const Simulation *simulation)
     json_end(json);
 }
 
-// When the front of a rapid event came to each station, how fast it went in between, and whether
-// that is faster than the fastest wave anywhere.
-static void write_front(JsonWriter *json, const Event *event, const FrontPath *path,
-                        double wave_speed)
-{
-    double speeds[FRONT_STATIONS - 1];
-    bool faster = fabs(event->front_speed) > wave_speed;
-    for (int32_t k = 0; k < FRONT_STATIONS - 1; k++) {
-        speeds[k] = front_path_speed(path, event->front_times, k);
-        faster = faster || fabs(speeds[k]) > wave_speed;
-    }
-    json_boolean(json, "faster_than_waves", faster);
-    json_number_list(json, "front_times", event->front_times, FRONT_STATIONS);
-    json_number_list(json, "front_speeds", speeds, FRONT_STATIONS - 1);
-}
-
-static const char *pad_name(const Pads *pads, int32_t p)
-{
-    return p >= 0 && p < pads->count && *pads->list[p].name ? pads->list[p].name : NULL;
-}
-
 // Over how much of a pad slow slip turned fast. A slow event has none.
 static void write_slip(JsonWriter *json, const Event *event, const Pads *pads)
 {
-    json_text(json, "slip_pad", event ? pad_name(pads, event->pad) : NULL);
+    bool named = event && event->pad >= 0 && event->pad < pads->count &&
+                 *pads->list[event->pad].name;
+    json_text(json, "slip_pad", named ? pads->list[event->pad].name : NULL);
     json_numbers_of(json, {"slip_length", event ? event->slip_length : NAN},
                     {"slip_cells", event ? event->slip_cells : NAN});
 }
@@ -166,58 +93,50 @@ static void write_events(JsonWriter *json, const Events *events, const Pads *pad
         if (events->in_space) json_number(json, "area_front_speed", event->area_front_speed);
         if (event->kind != EVENT_QUASI_STATIC) {
             write_slip(json, event, pads);
-            write_front(json, event, &events->path, wave_speed);
+
+            // When the front of a rapid event came to each station, how fast it went in between,
+            // and whether that is faster than the fastest wave anywhere.
+            double speeds[FRONT_STATIONS - 1];
+            bool faster = fabs(event->front_speed) > wave_speed;
+            for (int32_t s = 0; s < FRONT_STATIONS - 1; s++) {
+                speeds[s] = front_path_speed(&events->path, event->front_times, s);
+                faster = faster || fabs(speeds[s]) > wave_speed;
+            }
+            json_boolean(json, "faster_than_waves", faster);
+            json_number_list(json, "front_times", event->front_times, FRONT_STATIONS);
+            json_number_list(json, "front_speeds", speeds, FRONT_STATIONS - 1);
         }
         json_end(json);
     }
     json_end(json);
 }
 
-static void write_warnings(JsonWriter *json, const RunWarnings *warnings)
-{
-    json_begin_list(json, "warnings");
-    for (int32_t k = 0; k < warnings->count; k++) json_text(json, NULL, warnings->text[k]);
-    json_end(json);
-}
-
-// Forces of the whole block at the load ratios of the answers; in the plane with `thickness` only.
-static void write_forces(JsonWriter *json, const Simulation *simulation, const Answers *answers)
-{
-    double load = simulation->model.scales.load *
-                  scene_whole_force(&simulation->scene, simulation->model.interface.dim);
-    if (isnan(load)) return;
-    json_numbers_of(json, {"F_N", load}, {"F_T_M", load * answers->mu_M.value},
-                    {"F_T_hold", load * answers->mu_hold.value},
-                    {"F_T_max", load * answers->mu_max});
-}
-
 static void write_results(JsonWriter *json, const RunReport *report)
 {
     const Simulation *simulation = report->simulation;
+    const Answers *answers = report->answers;
+    const Model *model = &simulation->model;
     json_begin_object(json, "results");
-    answers_write_json(report->answers, &simulation->drops, simulation->model.length, json);
-    write_forces(json, simulation, report->answers);
-    steady_write_json(&simulation->steady, report->answers, json);
+    answers_write_json(answers, &simulation->drops, model->length, json);
+
+    // Forces of the whole block at the load ratios of the answers; in the plane with `thickness`
+    // only.
+    double load = model->scales.load * scene_whole_force(&simulation->scene, model->interface.dim);
+    if (!isnan(load))
+        json_numbers_of(json, {"F_N", load}, {"F_T_M", load * answers->mu_M.value},
+                        {"F_T_hold", load * answers->mu_hold.value},
+                        {"F_T_max", load * answers->mu_max});
+    steady_write_json(&simulation->steady, answers, json);
     write_slip(json, report->least_resolved, &simulation->pads);
     pads_write_json(&simulation->pads, json);
-    if (simulation->turning.contact && simulation->model.interface.dim > 2)
+    if (simulation->turning.contact && model->interface.dim > 2)
         turning_write_json(&simulation->turning, json);
     if (simulation->readings.course) program_results_json(&simulation->readings, json);
-    const Model *model = &simulation->model;
     const Material *material =
         model->materials.count > 0 ? &model->materials.list[model->contact_region] : NULL;
     write_events(json, &simulation->events, &simulation->pads,
                  material ? material_speeds(material).longitudinal : (double)NAN);
     json_end(json);
-}
-
-static void write_errors(JsonWriter *json, const RunErrors *errors)
-{
-    json_object_of(json, "errors", {"energy", errors->energy},
-                   {"complementarity", errors->complementarity},
-                   {"penetration", errors->penetration}, {"moment", errors->moment},
-                   {"moment_quasi_static", errors->moment_quasi_static},
-                   {"equation", errors->equation}, {"reduction", errors->reduction});
 }
 
 // Where the work since the rod's start went, per width in the plane; nothing of a run that failed
@@ -256,20 +175,74 @@ static void write_all(JsonWriter *json, const char *folder, const RunReport *rep
         json_text(json, "message", report->failure->message);
     }
     json_text(json, "version", AMONTONS_VERSION);
-    write_kernels(json);
+
+    // Rounding depends on the kernels: writes those of OpenBLAS, and those that this processor
+    // could run.
+    json_begin_object(json, "kernels");
+    json_text(json, "openblas", kernels_name());
+    json_text(json, "possible", kernels_possible());
+    json_end(json);
+
     json_text(json, "sources", sources);
     json_integer(json, "resumed", simulation->resumed);
-    write_warnings(json, &simulation->warnings);
+
+    json_begin_list(json, "warnings");
+    for (int32_t k = 0; k < simulation->warnings.count; k++)
+        json_text(json, NULL, simulation->warnings.text[k]);
+    json_end(json);
+
     scene_write_json(&simulation->scene, json, "scene", folder);
-    write_steps(json, report->counters);
-    write_dt_levels(json, &simulation->control.dt_levels);
-    write_timing(json, &simulation->model, &simulation->timing);
+
+    // The counters of amontons.h, name by name: a benchmark reads them here.
+    json_begin_object(json, "steps");
+    json_integer(json, "accepted", report->counters->accepted);
+    json_integer(json, "rejected", report->counters->rejected);
+    json_integer(json, "rejected_uncertified", report->counters->rejected_uncertified);
+    json_integer(json, "stepped_over_oscillations", report->counters->stepped_over_oscillations);
+    json_integer(json, "unsolved_retries", report->counters->unsolved_retries);
+    json_integer(json, "factorisations", report->counters->factorisations);
+    json_integer(json, "solves", report->counters->solves);
+    json_integer(json, "contact_solves", report->counters->contact_solves);
+    json_integer(json, "contact_iterations", report->counters->contact_iterations);
+    json_integer(json, "contact_fallbacks", report->counters->contact_fallbacks);
+    json_integer(json, "contact_rescued", report->counters->contact_rescued);
+    json_integer(json, "certificates", report->counters->certificates);
+    json_integer(json, "loop_allocations", report->counters->loop_allocations);
+    json_end(json);
+
+    // Levels on which a step was accepted, the longest first.
+    const DtLevels *dt_levels = &simulation->control.dt_levels;
+    json_begin_list(json, "rungs");
+    for (int32_t k = 0; k < dt_levels->level_count; k++) {
+        if (dt_levels->accepted[k] == 0) continue;
+        json_begin_object(json, NULL);
+        json_number(json, "dt", dt_level_step(dt_levels, k));
+        json_integer(json, "accepted", dt_levels->accepted[k]);
+        json_end(json);
+    }
+    json_end(json);
+
+    // Wall seconds by stage; outside_loop_cpu is processor time, of all but the loop of steps and
+    // relaxing.
+    const RunTiming *timing = &simulation->timing;
+    json_object_of(json, "timing_s", {"mesh", simulation->model.seconds_mesh},
+                   {"reduce", simulation->model.seconds_reduce}, {"relax", timing->relax},
+                   {"solve", timing->solve}, {"output", timing->output}, {"total", timing->total},
+                   {"outside_loop_cpu", timing->outside});
+
     write_model(json, &simulation->model, simulation->relaxation_steps);
     write_base(json, simulation);
     write_results(json, report);
     if (simulation->levels) levels_write_json(simulation->levels, json);
     write_energy(json, simulation);
-    write_errors(json, &simulation->errors);
+
+    const RunErrors *errors = &simulation->errors;
+    json_object_of(json, "errors", {"energy", errors->energy},
+                   {"complementarity", errors->complementarity},
+                   {"penetration", errors->penetration}, {"moment", errors->moment},
+                   {"moment_quasi_static", errors->moment_quasi_static},
+                   {"equation", errors->equation}, {"reduction", errors->reduction});
+
     json_end(json);
 }
 

@@ -99,21 +99,6 @@ static bool archive_head(Simulation *simulation, Archive *archive, SavedHead *he
 
 // --- the list -----------------------------------------------------------------------------------
 
-static void archive_errors(RunErrors *errors, Archive *archive)
-{
-    archive_section(archive, "errors");
-    archive_numbers_of(archive, &errors->energy, &errors->complementarity, &errors->moment,
-                       &errors->equation, &errors->penetration, &errors->moment_quasi_static);
-}
-
-static void archive_warnings(RunWarnings *warnings, Archive *archive)
-{
-    archive_section(archive, "warnings");
-    archive_index(archive, &warnings->count, 0, RUN_WARNINGS_MAX + 1);
-    for (int32_t k = 0; k < warnings->count && !archive->failed; k++)
-        archive_text(archive, warnings->text[k], RUN_WARNING_SIZE);
-}
-
 // in_loop: allocations of the loop of steps. They and wall times are summed over the parts of a
 // run; how its basis was come by is told of the first.
 static void archive_report(Simulation *simulation, int64_t in_loop, Archive *archive)
@@ -174,8 +159,18 @@ static bool archive_parts(Simulation *simulation, Archive *archive, Error *err)
     contact_arrays_archive(&simulation->contact, archive);
     turning_archive(&simulation->turning, archive);
     program_readings_archive(&simulation->readings, archive);
-    archive_errors(&simulation->errors, archive);
-    archive_warnings(&simulation->warnings, archive);
+
+    RunErrors *errors = &simulation->errors;
+    archive_section(archive, "errors");
+    archive_numbers_of(archive, &errors->energy, &errors->complementarity, &errors->moment,
+                       &errors->equation, &errors->penetration, &errors->moment_quasi_static);
+
+    RunWarnings *warnings = &simulation->warnings;
+    archive_section(archive, "warnings");
+    archive_index(archive, &warnings->count, 0, RUN_WARNINGS_MAX + 1);
+    for (int32_t k = 0; k < warnings->count && !archive->failed; k++)
+        archive_text(archive, warnings->text[k], RUN_WARNING_SIZE);
+
     return true;
 }
 

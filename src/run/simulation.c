@@ -40,14 +40,6 @@ static bool report_step(void *self, const Observation *seen, Error *err)
     return true;
 }
 
-// A run that fails before t = 0 has no answer and no error, and reports none.
-static void note_nothing(Simulation *simulation)
-{
-    simulation->drops = drops_none();
-    simulation->steady = steady_of(NULL, 0, 0);
-    simulation->errors = (RunErrors){NAN, NAN, NAN, NAN, NAN, NAN, NAN};
-}
-
 // Events come first: the others read them.
 static bool open_recorders(Simulation *simulation, Error *err)
 {
@@ -83,14 +75,6 @@ static bool open_recorders(Simulation *simulation, Error *err)
     return true;
 }
 
-// For time.until.mu_below.
-static void note_mu(Simulation *simulation)
-{
-    double limit = simulation->scene.time.until_mu_below, mu = simulation->seen.mu;
-    simulation->mu_fell = limit > 0 && simulation->mu_above && mu < limit;
-    simulation->mu_above = simulation->mu_above || mu >= limit;
-}
-
 // Looks at the state just accepted and hands it on.
 static bool record_step(Simulation *simulation, Error *err)
 {
@@ -98,7 +82,12 @@ static bool record_step(Simulation *simulation, Error *err)
     double started = clock_seconds();
     Observation seen = observe(control, &simulation->model.scales);
     simulation->seen = seen;
-    note_mu(simulation);
+
+    // For time.until.mu_below.
+    double limit = simulation->scene.time.until_mu_below, mu = simulation->seen.mu;
+    simulation->mu_fell = limit > 0 && simulation->mu_above && mu < limit;
+    simulation->mu_above = simulation->mu_above || mu >= limit;
+
     RunErrors *errors = &simulation->errors;
     errors->energy = fmax(errors->energy, seen.energy_error);
     errors->complementarity = fmax(errors->complementarity, seen.contact_error);
@@ -147,21 +136,6 @@ static bool tell_stage(void *self, const char *stage, Error *err)
 static bool goes_on_reducing(void *self, Error *err)
 {
     return simulation_may_go_on(self, err);
-}
-
-// From the scene: the block relaxes, an earlier result is set aside, t = 0 is recorded.
-static bool begin_anew(Simulation *simulation, Error *err)
-{
-    double begun = clock_processor_seconds();
-    if (!tell_stage(simulation, "relaxing", err)) return false;
-    if (!start_relax(simulation, err)) return false;
-    simulation->timing.outside -= clock_processor_seconds() - begun;
-    if (!explicit_loop_prepare(simulation, err)) return false;
-    if (!result_folder_clear(&simulation->folder, err)) return false;
-    if (!open_recorders(simulation, err)) return false;
-    if (!record_step(simulation, err)) return false;
-    simulation->allocations_before = simulation_allocations(simulation);
-    return true;
 }
 
 // From a checkpoint, which is known to be this scene's before the result is touched.
@@ -220,7 +194,12 @@ bool simulation_create_by(const Scene *scene, const RunOptions *options, double 
     Simulation *simulation = NEW_ARRAY(Simulation, 1, err);
     TRY(simulation);
     *out = simulation;   // also when a stage fails: what is there can be reported and destroyed
-    note_nothing(simulation);
+
+    // A run that fails before t = 0 has no answer and no error, and reports none.
+    simulation->drops = drops_none();
+    simulation->steady = steady_of(NULL, 0, 0);
+    simulation->errors = (RunErrors){NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+
     simulation->scene = *scene;
     simulation->options = *options;
     simulation->deadline = deadline;
@@ -264,8 +243,19 @@ bool simulation_create_by(const Scene *scene, const RunOptions *options, double 
                     &simulation->warnings);
     if (options->resume)
         TRY(go_on(simulation, &state, err));
-    else
-        TRY(begin_anew(simulation, err));
+    else {
+        // From the scene: the block relaxes, an earlier result is set aside, t = 0 is recorded.
+        double begun = clock_processor_seconds();
+        TRY(tell_stage(simulation, "relaxing", err));
+        TRY(start_relax(simulation, err));
+        simulation->timing.outside -= clock_processor_seconds() - begun;
+        TRY(explicit_loop_prepare(simulation, err));
+        TRY(result_folder_clear(&simulation->folder, err));
+        TRY(open_recorders(simulation, err));
+        TRY(record_step(simulation, err));
+        simulation->allocations_before = simulation_allocations(simulation);
+    }
+
     simulation->timing.outside += clock_processor_seconds();
 cleanup:
     amontons_state_free(&state);
@@ -277,15 +267,6 @@ bool amontons_simulation_create(const Scene *scene, const RunOptions *options, S
 {
     NUMBERS_HAVE_A_POINT;
     return simulation_create_by(scene, options, INFINITY, out, err);
-}
-
-// One of those that time.until asks for.
-static bool simulation_has_event(const Simulation *simulation)
-{
-    const Events *events = &simulation->events;
-    double slidings = simulation->scene.time.until_slidings;
-    bool slid = slidings > 0 && events->rapid < 0 && events->kinds[EVENT_LEADING] >= slidings;
-    return slid || simulation->mu_fell;
 }
 
 // A run is also finished if the time that is left is shorter than every step size whose matrices
@@ -301,32 +282,12 @@ bool simulation_is_finished(const Simulation *simulation)
                      (implicit && !step_control_fits(control, remaining)));
     if (simulation->scene.time.until_periodic && simulation->events.ended)
         finished = finished || answers_of(&simulation->drops).enough;
-    return finished || simulation_has_event(simulation);
-}
 
-// Steps end at the points of programs, but for what is too short to be worth a level: that is
-// stepped over while waves are resolved.
-static bool advance_implicit(Simulation *simulation, Error *err)
-{
-    static const double WORTH = 0.125;   // of the wave step
-    StepControl *control = &simulation->control;
-    double point = steering_next_point(simulation), end = simulation->t_end;
-    double now = control->now.time;
-    bool near = point - now < WORTH * control->def.wave_step;
-    if (near) step_control_disturb(control);
-    control->lands = !near && point < end;
-    if (!step_control_advance(control, (control->lands ? point : end) - now, err)) return false;
-    steering_pass_point(simulation, point);
-    return true;
-}
-
-// One record of many small steps: of few where slip is rapid, as its events would be missed else.
-static bool advance_explicit(Simulation *simulation, Error *err)
-{
+    // An event that time.until asks for.
     const Events *events = &simulation->events;
-    double rate = events->rapid >= 0 ? -1 : events->rate_start;
-    return step_control_advance_explicit(&simulation->control, &simulation->explicit_reference,
-                                         simulation->explicit_steps, rate, err);
+    double slidings = simulation->scene.time.until_slidings;
+    bool slid = slidings > 0 && events->rapid < 0 && events->kinds[EVENT_LEADING] >= slidings;
+    return finished || slid || simulation->mu_fell;
 }
 
 // An explicit `step` is one record. *finished: the end of the scene, or the
@@ -334,22 +295,39 @@ static bool advance_explicit(Simulation *simulation, Error *err)
 bool amontons_simulation_step(Simulation *simulation, StepView *view, bool *finished, Error *err)
 {
     NUMBERS_HAVE_A_POINT;
+    static const double WORTH = 0.125;   // of the wave step
     StepControl *control = &simulation->control;
-    double started = clock_seconds();
+    const Events *events = &simulation->events;
+    double started = clock_seconds(), end = simulation->t_end, now = control->now.time;
+    bool implicit = simulation->scene.time.scheme != SCHEME_EXPLICIT;
     if (!steering_is_open(simulation, err)) return false;
-    if (!(simulation->scene.time.scheme == SCHEME_EXPLICIT ? advance_explicit(simulation, err)
-                                                           : advance_implicit(simulation, err)))
-        return false;
+    if (implicit) {
+        // Steps end at the points of programs, but for what is too short to be worth a level: that
+        // is stepped over while waves are resolved.
+        double point = steering_next_point(simulation);
+        bool near = point - now < WORTH * control->def.wave_step;
+        if (near) step_control_disturb(control);
+        control->lands = !near && point < end;
+        if (!step_control_advance(control, (control->lands ? point : end) - now, err)) return false;
+        steering_pass_point(simulation, point);
+    } else {
+        // One record of many small steps: of few where slip is rapid, as its events would be missed
+        // else.
+        double rate = events->rapid >= 0 ? -1 : events->rate_start;
+        if (!step_control_advance_explicit(control, &simulation->explicit_reference,
+                                           simulation->explicit_steps, rate, err))
+            return false;
+    }
     simulation->timing.solve += clock_seconds() - started;
+
+    // The state reached goes to the recorders.
     if (!record_step(simulation, err)) return false;
     if (!output_begin_result(simulation, err)) return false;
-    bool implicit = simulation->scene.time.scheme != SCHEME_EXPLICIT;
-    bool ends = isfinite(simulation->t_end);
-    if (implicit && ends && !step_control_gets_on(control, simulation->t_end, err)) return false;
+    if (implicit && isfinite(simulation->t_end) &&
+        !step_control_gets_on(control, simulation->t_end, err))
+        return false;
     *finished = simulation_is_finished(simulation);
-    if (view)
-        *view = step_view(&simulation->seen, &simulation->events, &simulation->contact,
-                          simulation->t_end);
+    if (view) *view = step_view(&simulation->seen, events, &simulation->contact, simulation->t_end);
     return true;
 }
 

@@ -8,31 +8,29 @@
 
 #include <math.h>
 
-// Always false. Says what is kept only where it is.
-static bool stop_here(Simulation *simulation, Error *err)
-{
-    Error lost = {0};
-    bool asked = checkpoint_is_kept(simulation), kept = asked && checkpoint_now(simulation, &lost);
-    const char *folder = simulation->folder.path;
-    double U = simulation->seen.U, t = simulation->seen.t;
-    if (asked && !kept)
-        return FAULT(err, ERROR_INTERRUPT, "stopped at U = %g (t = %g); this state is not kept: %s",
-                     U, t, lost.message);
-    return FAULT(err, ERROR_INTERRUPT, "stopped at U = %g (t = %g)%s%s%s", U, t,
-                 *folder ? "; what was computed is kept in " : "", folder,
-                 kept ? "; the same command with --resume goes on from there" : "");
-}
-
 bool simulation_loop(Simulation *simulation, Error *err)
 {
-    Error unseen = {0};
+    Error unseen = {0}, lost = {0};
     bool finished = simulation->goes_on && simulation_is_finished(simulation);
     if (!rewind_start(simulation, err)) return false;
     while (!finished) {
         if (!amontons_simulation_step(simulation, NULL, &finished, err)) return false;
         if (!rewind_follow(simulation, &finished, err)) return false;
         checkpoint_when_due(simulation);
-        if (!simulation_may_go_on(simulation, &unseen) && !stop_here(simulation, err)) return false;
+        if (simulation_may_go_on(simulation, &unseen)) continue;
+
+        // Stopped. It says what is kept only where it is.
+        bool asked = checkpoint_is_kept(simulation);
+        bool kept = asked && checkpoint_now(simulation, &lost);
+        const char *folder = simulation->folder.path;
+        double U = simulation->seen.U, t = simulation->seen.t;
+        if (asked && !kept)
+            return FAULT(err, ERROR_INTERRUPT,
+                         "stopped at U = %g (t = %g); this state is not kept: %s", U, t,
+                         lost.message);
+        return FAULT(err, ERROR_INTERRUPT, "stopped at U = %g (t = %g)%s%s%s", U, t,
+                     *folder ? "; what was computed is kept in " : "", folder,
+                     kept ? "; the same command with --resume goes on from there" : "");
     }
     return true;
 }

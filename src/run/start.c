@@ -48,34 +48,6 @@ bool start_prepare_steps(Simulation *simulation, Error *err)
     return step_control_create(&block, &def, &simulation->control, err);
 }
 
-// The rod comes to the face where that is now.
-static void touch_rod(Simulation *simulation)
-{
-    const Interface *interface = &simulation->model.interface;
-    const BulkOperator *system = &simulation->model.system;
-    const double *now = simulation->control.now.displacement;
-    simulation->control.now.rod_way = 0;
-    for (int32_t j = 0; j < interface->rod_count; j++)
-        simulation->rod.origin[j] = now[system->interface_dofs[interface_rod(interface, j)]];
-}
-
-// Adds the velocity at t = 0, but for what is held. (What may move in a reduced bulk never is.)
-static void set_moving(const Model *model, State *state)
-{
-    const Interface *interface = &model->interface;
-    const BulkOperator *system = &model->system;
-    const uint8_t *held = system->reduced ? NULL : model->bulk.held;
-    const double *x = system->rigid, *z = x + (int64_t)(interface->dim - 1) * state->dof_count;
-    for (int32_t k = 0; k < state->dof_count; k++) {
-        if (held && held[k]) continue;
-        state->velocity[k] += model->scene->start.velocity_x * x[k];
-        state->velocity[k] += model->scene->start.velocity_z * z[k];
-    }
-    for (int32_t k = 0; k < interface->count; k++)
-        state->slip_rate[k] = state->velocity[system->interface_dofs[k]];
-    bulk_operator_apply(system, BULK_MASS, state->velocity, state->momentum);
-}
-
 void start_programs(Simulation *simulation)
 {
     const Scene *scene = &simulation->scene;
@@ -116,11 +88,34 @@ bool start_relax(Simulation *simulation, Error *err)
     simulation->rod.kind = ROD_KINDS[scene->rod.kind];
     simulation->rod.velocity = scene->rod.velocity;
     start_programs(simulation);
-    // A rod that was held stands where it stood, however far its soft ends were pressed in.
+
+    // The rod comes to the face where that is now. One that was held stands where it stood, however
+    // far its soft ends were pressed in.
+    const Interface *interface = &model->interface;
+    const BulkOperator *system = &model->system;
+    State *now = &simulation->control.now;
     bool held = scene->start.rod == START_ROD_HELD;
-    if (scene->rod.kind != ROD_NONE && !held) touch_rod(simulation);
-    if (scene->start.velocity_x != 0 || scene->start.velocity_z != 0)
-        set_moving(model, &simulation->control.now);
+    if (scene->rod.kind != ROD_NONE && !held) {
+        now->rod_way = 0;
+        for (int32_t j = 0; j < interface->rod_count; j++)
+            simulation->rod.origin[j] =
+                now->displacement[system->interface_dofs[interface_rod(interface, j)]];
+    }
+
+    // The velocity at t = 0 is added, but for what is held. (What may move in a reduced bulk never
+    // is.)
+    if (scene->start.velocity_x != 0 || scene->start.velocity_z != 0) {
+        const uint8_t *fixed = system->reduced ? NULL : model->bulk.held;
+        const double *x = system->rigid, *z = x + (int64_t)(interface->dim - 1) * now->dof_count;
+        for (int32_t k = 0; k < now->dof_count; k++) {
+            if (fixed && fixed[k]) continue;
+            now->velocity[k] += scene->start.velocity_x * x[k];
+            now->velocity[k] += scene->start.velocity_z * z[k];
+        }
+        for (int32_t k = 0; k < interface->count; k++)
+            now->slip_rate[k] = now->velocity[system->interface_dofs[k]];
+        bulk_operator_apply(system, BULK_MASS, now->velocity, now->momentum);
+    }
     friction_states_reset(&simulation->control.scheme.memory, &simulation->control.now);
     step_control_restart(&simulation->control);
 cleanup:

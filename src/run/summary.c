@@ -16,21 +16,6 @@
 #include <stdio.h>
 #include <string.h>
 
-static ContactView contact_view(const Interface *interface, const ContactArrays *contact)
-{
-    return (ContactView){.count = contact->count,
-                         .tangents = contact->tangents,
-                         .x = interface->x,
-                         .y = interface->y,
-                         .slip_rate = contact->slip_rate,
-                         .slip = contact->slip,
-                         .pressure = contact->pressure,
-                         .shear = contact->shear,
-                         .status = contact->status,
-                         .state = contact->state,
-                         .states = contact->states};
-}
-
 StepView step_view(const Observation *seen, const Events *events, const ContactArrays *contact,
                    double t_end)
 {
@@ -46,7 +31,17 @@ StepView step_view(const Observation *seen, const Events *events, const ContactA
                       .certified = seen->certified,
                       .events = kinds[EVENT_BOUNDED] + kinds[EVENT_LEADING],
                       .slidings = kinds[EVENT_LEADING],
-                      .contact = contact_view(seen->interface, contact)};
+                      .contact = {.count = contact->count,
+                                  .tangents = contact->tangents,
+                                  .x = seen->interface->x,
+                                  .y = seen->interface->y,
+                                  .slip_rate = contact->slip_rate,
+                                  .slip = contact->slip,
+                                  .pressure = contact->pressure,
+                                  .shear = contact->shear,
+                                  .status = contact->status,
+                                  .state = contact->state,
+                                  .states = contact->states}};
 }
 
 // There are fewer phases than RUN_PHASES_MAX: the list below is fixed. A note that is too long is
@@ -127,18 +122,6 @@ RunCounters summary_count(const Simulation *simulation)
                                                  : 0};
 }
 
-// Where slow slip had the fewest cells to turn fast on, of the load drops from number `first` on.
-static void note_slip(const Simulation *simulation, int32_t first, RunSummary *summary)
-{
-    const Event *least = drops_least_resolved(&simulation->drops, first);
-    const Interface *interface = &simulation->model.interface;
-    summary->slip_length = least ? least->slip_length : NAN;
-    summary->slip_cells = least ? least->slip_cells : NAN;
-    if (least && interface->pad_count > 1)
-        snprintf(summary->slip_pad, sizeof summary->slip_pad, "%s",
-                 interface->pad_name[least->pad]);
-}
-
 static void note_levels(const Simulation *simulation, RunSummary *summary)
 {
     const Levels *levels = simulation->levels;
@@ -164,18 +147,6 @@ void amontons_known_to(double value, double known_to, char text[ESTIMATE_SIZE])
 {
     NUMBERS_HAVE_A_POINT;
     text_known_to(value, known_to, text);
-}
-
-static void note_program(const ProgramReadings *readings, RunSummary *summary)
-{
-    if (!readings->course) return;
-    ProgramSums sums = program_results_sum(readings);
-    summary->velocity_steps = sums.steps;
-    summary->holds = sums.holds;
-    memcpy(summary->direct_effect, &sums.direct, sizeof summary->direct_effect);
-    memcpy(summary->level_change, &sums.change, sizeof summary->level_change);
-    memcpy(summary->slip_distance, &sums.distance, sizeof summary->slip_distance);
-    memcpy(summary->healing, &sums.healing, sizeof summary->healing);
 }
 
 RunSummary summary_none(void)
@@ -269,12 +240,33 @@ void summary_fill(const Simulation *simulation, const RunCounters *counters, con
     if (answers->regime.run_in != RUN_IN_OVER)
         summary->run_in = run_in_name(answers->regime.run_in);
     mesh_move_text(&simulation->model.mesh, summary->mesh_moved);
-    note_slip(simulation, answers->first, summary);
+
+    // Where slow slip had the fewest cells to turn fast on, of the load drops from number `first`
+    // on.
+    const Event *least = drops_least_resolved(&simulation->drops, answers->first);
+    const Interface *interface = &simulation->model.interface;
+    summary->slip_length = least ? least->slip_length : NAN;
+    summary->slip_cells = least ? least->slip_cells : NAN;
+    if (least && interface->pad_count > 1)
+        snprintf(summary->slip_pad, sizeof summary->slip_pad, "%s",
+                 interface->pad_name[least->pad]);
+
     if (simulation->pads.count > 1) {
         pads_order(&simulation->pads, true, summary->pads_order_first);
         pads_order(&simulation->pads, false, summary->pads_order);
     }
-    note_program(&simulation->readings, summary);
+
+    // The direct effect and healing, where the rod jumps.
+    if (simulation->readings.course) {
+        ProgramSums sums = program_results_sum(&simulation->readings);
+        summary->velocity_steps = sums.steps;
+        summary->holds = sums.holds;
+        memcpy(summary->direct_effect, &sums.direct, sizeof summary->direct_effect);
+        memcpy(summary->level_change, &sums.change, sizeof summary->level_change);
+        memcpy(summary->slip_distance, &sums.distance, sizeof summary->slip_distance);
+        memcpy(summary->healing, &sums.healing, sizeof summary->healing);
+    }
+
     memcpy(summary->mu_M_parts, &answers->mu_M_parts, sizeof summary->mu_M_parts);
     memcpy(summary->mu_hold_parts, &answers->mu_hold_parts, sizeof summary->mu_hold_parts);
     if (simulation->levels) note_levels(simulation, summary);

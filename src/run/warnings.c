@@ -287,31 +287,23 @@ void warnings_of_slip(const Scene *scene, const Interface *interface, const Even
                  (double)SLIP_CELLS_ENOUGH, finer_mesh(scene));
 }
 
-// Returns why the mesh's part of the bar is unknown.
-static const char *why_unknown(const Levels *levels)
-{
-    const Level *last = &levels->list[levels->count - 1];
-    if (last->undamped) return "cells are too long for slip";
-    return levels->count == 1 ? "one mesh" : "only the last mesh has an answer";
-}
-
-static const char *why_not_sure(const Levels *levels)
-{
-    bool alike = levels_span_left(levels, levels->asked) > 1;
-    return alike ? " by meshes less than twice as fine as one another" : "";
-}
-
 void warnings_of_bar(const Levels *levels, RunWarnings *warnings)
 {
     const ErrorBar *answer = levels_answer(levels, levels->asked);
+    const Level *last = &levels->list[levels->count - 1];
+    bool alike = levels_span_left(levels, levels->asked) > 1;
     if (isnan(answer->parts.mesh))
         warnings_add(warnings, "error bar not met: the mesh's part of it is not known (%s: %s)",
-                     why_unknown(levels), levels->ended);
+                     last->undamped       ? "cells are too long for slip"
+                     : levels->count == 1 ? "one mesh"
+                                          : "only the last mesh has an answer",
+                     levels->ended);
     else
         warnings_add(warnings,
                      "error bar not met: %s is known to %.1f %%%s, asked for %.1f %% (%s)",
                      ANSWER_NAMES[levels->asked], 100 * answer->bar / answer->value,
-                     why_not_sure(levels), 100 * levels->wanted, levels->ended);
+                     alike ? " by meshes less than twice as fine as one another" : "",
+                     100 * levels->wanted, levels->ended);
 }
 
 void warnings_of_last_mesh(const Levels *levels, RunWarnings *warnings)
@@ -402,26 +394,6 @@ static void note_slope(const Interface *interface, double reach, int32_t a, int3
     *slope = (Slope){found, {0.5 * (x[a] + x[b]), y ? 0.5 * (y[a] + y[b]) : 0}};
 }
 
-// Between neighbours of a pad in the plane, in space between any two nodes of a face.
-static Slope steepest_floor(const Interface *interface, double reach)
-{
-    const ContactFaces *faces = &interface->faces;
-    Slope slope = {.steepest = GAP_STEEP};
-    int32_t count = interface->contact_count;
-    for (int32_t i = 1; i < count && interface->dim == 2; i++)
-        if (interface->pad[i] == interface->pad[i - 1])
-            note_slope(interface, reach, i - 1, i, &slope);
-    for (int32_t f = 0; f < faces->count; f++) {
-        const int32_t *point = &faces->point[(int64_t)f * faces->width];
-        int32_t points = contact_face_points(faces, f);
-        for (int32_t a = 0; a < points; a++)
-            for (int32_t b = 0; b < a; b++)
-                if (point[a] < count && point[b] < count)   // the others are corners of T6
-                    note_slope(interface, reach, point[a], point[b], &slope);
-    }
-    return slope;
-}
-
 void warnings_of_gaps(const Model *model, RunWarnings *warnings)
 {
     const Interface *interface = &model->interface;
@@ -440,7 +412,24 @@ void warnings_of_gaps(const Model *model, RunWarnings *warnings)
     // The block can reach gaps up to 10 times as deep as the mean pressure presses it down.
     double pressure = model->scales.load / (model->length * model->breadth);
     double reach = least + 10 * pressure / model->materials.mean.young * model->height;
-    Slope slope = steepest_floor(interface, reach);
+
+    // The steepest slope between neighbours of a pad in the plane, in space between any two nodes
+    // of a face.
+    const ContactFaces *faces = &interface->faces;
+    Slope slope = {.steepest = GAP_STEEP};
+    int32_t count = interface->contact_count;
+    for (int32_t i = 1; i < count && interface->dim == 2; i++)
+        if (interface->pad[i] == interface->pad[i - 1])
+            note_slope(interface, reach, i - 1, i, &slope);
+    for (int32_t f = 0; f < faces->count; f++) {
+        const int32_t *point = &faces->point[(int64_t)f * faces->width];
+        int32_t points = contact_face_points(faces, f);
+        for (int32_t a = 0; a < points; a++)
+            for (int32_t b = 0; b < a; b++)
+                if (point[a] < count && point[b] < count)   // the others are corners of T6
+                    note_slope(interface, reach, point[a], point[b], &slope);
+    }
+
     char across[40] = "";
     if (interface->y) snprintf(across, sizeof across, ", y = %.4g", slope.at[1]);
     if (slope.steepest > GAP_STEEP)

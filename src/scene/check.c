@@ -105,26 +105,20 @@ static bool check_required(const Check *check)
     return true;
 }
 
-// A key of another law would do nothing.
-static bool check_friction_keys(const Check *check)
-{
-    int32_t count = 0;
-    const SceneKey *keys = scene_keys(&count);
-    const FrictionLaw *law = &check->scene->friction;
-    for (int32_t k = 0; k < count; k++) {
-        const char *word = friction_word(&keys[k]);
-        if (word && check->scene->given[k] && friction_use(law, word) == FRICTION_UNUSED)
-            return blame(check, keys[k].name, "the law `%s` does not read it; leave it out",
-                         friction_law_name(law));
-    }
-    return true;
-}
-
 // The coefficient at rest is the largest: mu_K <= mu_S. One's own law is checked by
 // scene/friction_law.
 static bool check_friction(const Check *check)
 {
-    if (!check_friction_keys(check)) return false;
+    // A key of another law would do nothing.
+    int32_t count = 0;
+    const SceneKey *keys = scene_keys(&count);
+    for (int32_t k = 0; k < count; k++) {
+        const char *word = friction_word(&keys[k]);
+        if (word && check->scene->given[k] &&
+            friction_use(&check->scene->friction, word) == FRICTION_UNUSED)
+            return blame(check, keys[k].name, "the law `%s` does not read it; leave it out",
+                         friction_law_name(&check->scene->friction));
+    }
     if (*check->scene->own_friction.file &&
         (is_given(check, "friction.velocity") || is_given(check, "friction.mu")))
         return blame(check, "friction.file", "give either a file or velocity and mu");

@@ -57,17 +57,6 @@ bool scene_contact_law(const Scene *scene, const SceneContactLaw *item, double p
            scene_friction_law(scene, item->formula, pressure, law, &key, err);
 }
 
-// Numbers that the item does not give are those of the scene; for another formula they are 0, as
-// the numbers of the scene's law do not belong to it.
-static void complete(const FrictionLaw *law, SceneContactLaw *item)
-{
-    bool formula = *item->formula != 0;
-    if (!item->has_law) item->kind = law->kind;
-    if (!item->has_static) item->mu_static = formula ? 0 : law->mu_static;
-    if (!item->has_kinetic) item->mu_kinetic = formula ? 0 : law->mu_kinetic;
-    if (!item->has_critical) item->critical_velocity = formula ? 0 : law->critical_velocity;
-}
-
 bool scene_contact_laws(const SceneValue *value, Scene *scene, Error *err)
 {
     SceneContactLaw *item = scene->contact_laws.item, *first = item;
@@ -75,7 +64,15 @@ bool scene_contact_laws(const SceneValue *value, Scene *scene, Error *err)
     YAML_EACH (node, value->document, value->node) {
         FrictionLaw law;
         Error found = {0};
-        complete(&scene->friction, item);
+
+        // Numbers that the item does not give are those of the scene; for another formula they are
+        // 0, as the numbers of the scene's law do not belong to it.
+        const FrictionLaw *whole = &scene->friction;
+        bool formula = *item->formula != 0;
+        if (!item->has_law) item->kind = whole->kind;
+        if (!item->has_static) item->mu_static = formula ? 0 : whole->mu_static;
+        if (!item->has_kinetic) item->mu_kinetic = formula ? 0 : whole->mu_kinetic;
+        if (!item->has_critical) item->critical_velocity = formula ? 0 : whole->critical_velocity;
         if (!scene_contact_law(scene, item, scene_nominal_pressure(scene), &law, &found))
             return yaml_error(value->document, node, err, "friction.contacts: %s: %s", item->group,
                               found.message);

@@ -20,15 +20,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-static void hash_parameters(const Scene *scene, Hash *hash)
-{
-    for (int32_t i = 0; i < scene->mesh.parameter_count; i++) {
-        hash_text(hash, scene->mesh.parameters[i].name);
-        hash_text(hash, scene->mesh.parameters[i].text);
-        hash_number(hash, scene->mesh.parameters[i].value);
-    }
-}
-
 bool scene_hash(const Scene *scene, bool (*counts)(const char *key), Hash *hash, Error *err)
 {
     int32_t count = 0;
@@ -46,7 +37,11 @@ bool scene_hash(const Scene *scene, bool (*counts)(const char *key), Hash *hash,
             if (keys[k].whole)
                 hash_number(hash, *(const bool *)((const char *)scene + keys[k].is_whole));
         } else if (keys[k].type == KEY_PARAMETERS) {
-            hash_parameters(scene, hash);
+            for (int32_t i = 0; i < scene->mesh.parameter_count; i++) {
+                hash_text(hash, scene->mesh.parameters[i].name);
+                hash_text(hash, scene->mesh.parameters[i].text);
+                hash_number(hash, scene->mesh.parameters[i].value);
+            }
         } else {
             scene_key_value(&keys[k], scene, words, VALUE_SIZE);
             hash_text(hash, words);

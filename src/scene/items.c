@@ -60,15 +60,6 @@ bool scene_part_has_numbers(const SceneItems *items, const char *word)
     return !part || scene_key_has_numbers(scene_part_key(items, part, 0, "").type);
 }
 
-// Words of branches stand in lists of their own: "material.relaxation.0.time",
-// "materials.pads.relaxation.0.time".
-static const char *branch_dimension(const SceneKey *key, const char *part, const char *word)
-{
-    if (key->type != KEY_BRANCHES && !strstr(part, ".relaxation.")) return NULL;
-    if (strcmp(word, "time") == 0) return "time";
-    return strcmp(word, "shear") == 0 || strcmp(word, "bulk") == 0 ? "stress" : NULL;
-}
-
 const char *scene_dimension(const char *name, const char **whole)
 {
     int32_t count = 0, index = scene_key_index(name);
@@ -82,7 +73,14 @@ const char *scene_dimension(const char *name, const char **whole)
     if (index >= 0 || (index = scene_key_above(name, &part)) < 0) return NULL;
     const SceneKey *key = &keys[index];
     if (key->type == KEY_PARAMETERS) return key->unit;
-    const char *of_branch = branch_dimension(key, part, dot + 1);
+
+    // Words of branches stand in lists of their own: "material.relaxation.0.time",
+    // "materials.pads.relaxation.0.time".
+    const char *word = dot + 1, *of_branch = NULL;
+    if (key->type == KEY_BRANCHES || strstr(part, ".relaxation."))
+        of_branch = strcmp(word, "time") == 0                                 ? "time"
+                    : strcmp(word, "shear") == 0 || strcmp(word, "bulk") == 0 ? "stress"
+                                                                              : NULL;
     const ScenePart *found = key->items ? find_part(key->items, dot + 1) : NULL;
     if (of_branch || !found) return of_branch;
     SceneKey own = scene_part_key(key->items, found, 0, "");
@@ -211,32 +209,17 @@ static int32_t take_item(const SceneKey *key, const char *name, size_t length,
     return *count - 1;
 }
 
-// The axes of a direction.
-static void hold_axes(Scene *scene)
-{
-    static const bool along[][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}};
-    for (int32_t k = 0; k < scene->load.support_count; k++) {
-        SceneSupport *support = &scene->load.supports[k];
-        support->x = along[support->direction][0];
-        support->y = along[support->direction][1];
-        support->z = along[support->direction][2];
-    }
-}
-
-// Where the words of an item begin in "layer.young" and "layer.relaxation.0.shear"; names of items
-// may have dots. NULL: nowhere.
-static const char *last_words(const char *part)
-{
-    static const char branches[] = ".relaxation.";
-    const char *found = strstr(part, branches);
-    return found ? found : strrchr(part, '.');
-}
-
 // The rest of the path of a --set: an item's map, or one word of an item.
 static bool set_below(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
 {
     SceneValue one = {.document = value->document, .node = value->node};
-    const char *dot = last_words(value->part);
+
+    // Where the words of an item begin in "layer.young" and "layer.relaxation.0.shear"; names of
+    // items may have dots. NULL: nowhere.
+    static const char branches[] = ".relaxation.";
+    const char *found = strstr(value->part, branches);
+    const char *dot = found ? found : strrchr(value->part, '.');
+
     bool whole = yaml_kind(value->document, value->node) == YAML_MAP;
     size_t length = whole ? strlen(value->part) : dot ? (size_t)(dot - value->part) : 0;
     int32_t k = take_item(key, value->part, length, &one, scene, err);
@@ -263,6 +246,15 @@ bool scene_items_set(const SceneKey *key, const SceneValue *value, Scene *scene,
         int32_t k = take_item(key, name, strlen(name), &one, scene, err);
         if (k < 0 || !set_item(key, k, &one, scene, err)) return false;
     }
-    hold_axes(scene);
+
+    // The axes of a direction.
+    static const bool along[][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}};
+    for (int32_t k = 0; k < scene->load.support_count; k++) {
+        SceneSupport *support = &scene->load.supports[k];
+        support->x = along[support->direction][0];
+        support->y = along[support->direction][1];
+        support->z = along[support->direction][2];
+    }
+
     return true;
 }

@@ -12,28 +12,6 @@
 
 enum { LEVELS_MAX = 4 };
 
-static void write_parameters(const Scene *scene, JsonWriter *json, const char *name)
-{
-    json_begin_object(json, name);
-    for (int32_t i = 0; i < scene->mesh.parameter_count; i++) {
-        const MeshParameter *parameter = &scene->mesh.parameters[i];
-        if (*parameter->text)
-            json_text(json, parameter->name, parameter->text);
-        else
-            json_number(json, parameter->name, parameter->value);
-    }
-    json_end(json);
-}
-
-static bool is_file(const char *key)
-{
-    static const char *const files[] = {"mesh.file", "friction.file", "contact.profile",
-                                        "output.compare"};
-    for (size_t k = 0; k < sizeof files / sizeof *files; k++)
-        if (strcmp(key, files[k]) == 0) return true;
-    return false;
-}
-
 static void write_items(const SceneItems *items, const Scene *scene, JsonWriter *json,
                         const char *name)
 {
@@ -90,7 +68,15 @@ void scene_write_value(const SceneKey *key, const Scene *scene, JsonWriter *json
         json_end(json);
         return;
     case KEY_PARAMETERS:
-        write_parameters(scene, json, name);
+        json_begin_object(json, name);
+        for (int32_t i = 0; i < scene->mesh.parameter_count; i++) {
+            const MeshParameter *parameter = &scene->mesh.parameters[i];
+            if (*parameter->text)
+                json_text(json, parameter->name, parameter->text);
+            else
+                json_number(json, parameter->name, parameter->value);
+        }
+        json_end(json);
         return;
     case KEY_ITEMS:
         write_items(key->items, scene, json, name);
@@ -113,6 +99,8 @@ void scene_write_value(const SceneKey *key, const Scene *scene, JsonWriter *json
 // are closed, those it has more are opened.
 void scene_write_json(const Scene *scene, JsonWriter *json, const char *name, const char *folder)
 {
+    static const char *const files[] = {"mesh.file", "friction.file", "contact.profile",
+                                        "output.compare"};
     int32_t count = 0, depth = 0;
     const SceneKey *keys = scene_keys(&count);
     char open[LEVELS_MAX][GROUP_NAME_SIZE] = {0};   // names of the maps that are open
@@ -140,7 +128,10 @@ void scene_write_json(const Scene *scene, JsonWriter *json, const char *name, co
             json_begin_object(json, open[depth++]);
             rest = dot + 1;
         }
-        if (!is_file(keys[k].name)) {
+        bool is_file = false;
+        for (size_t n = 0; n < sizeof files / sizeof *files; n++)
+            is_file = is_file || strcmp(keys[k].name, files[n]) == 0;
+        if (!is_file) {
             scene_write_value(&keys[k], scene, json, rest);
             continue;
         }

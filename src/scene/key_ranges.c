@@ -32,13 +32,6 @@ const char *scene_range_words(SceneRange range)
     return ranges[range].words;
 }
 
-static void join_choices(const char *const *choices, char *words, int32_t size)
-{
-    int32_t used = (int32_t)strlen(words);
-    for (int32_t k = 0; choices[k] && used < size; k++)
-        used += snprintf(words + used, (size_t)(size - used), "%s%s", k ? ", " : "", choices[k]);
-}
-
 // The list of choices is joined behind the words; what does not fit into `size` is cut.
 void scene_key_allowed(const SceneKey *key, char *words, int32_t size)
 {
@@ -59,5 +52,8 @@ void scene_key_allowed(const SceneKey *key, char *words, int32_t size)
     bool names = key->type == KEY_NAMES && key->choices, none = scene_key_may_be_none(key);
     snprintf(words, (size_t)size, "%s%s%s", none ? "none, or " : "", names ? "a list of: " : text,
              key->type == KEY_NUMBERS ? ranges[key->range].words : "");
-    if (key->choices) join_choices(key->choices, words, size);
+    int32_t used = (int32_t)strlen(words);
+    for (int32_t k = 0; key->choices && key->choices[k] && used < size; k++)
+        used +=
+            snprintf(words + used, (size_t)(size - used), "%s%s", k ? ", " : "", key->choices[k]);
 }

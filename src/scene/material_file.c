@@ -174,13 +174,6 @@ static bool to_shear(const MaterialData *data, double poisson, bool bulk_relaxes
     return true;
 }
 
-// Young's modulus of a shear modulus.
-static double complex to_young(const MaterialFit *fit, double complex G)
-{
-    double complex K = fit->bulk_relaxes ? fit->bulk * G / fit->shear.rest : fit->bulk;
-    return isinf(fit->bulk) ? 3 * G : 9 * K * G / (3 * K + G);
-}
-
 void material_fit_at(const MaterialFit *fit, const MaterialData *data, double at, double value[2])
 {
     double storage, loss = 0;
@@ -189,7 +182,11 @@ void material_fit_at(const MaterialFit *fit, const MaterialData *data, double at
     else
         relaxation_moduli(&fit->shear, at, &storage, &loss);
     double complex modulus = storage + I * loss;
-    if (!data->shear) modulus = to_young(fit, modulus);
+    if (!data->shear) {   // Young's modulus of a shear modulus
+        double complex G = modulus;
+        double complex K = fit->bulk_relaxes ? fit->bulk * G / fit->shear.rest : fit->bulk;
+        modulus = isinf(fit->bulk) ? 3 * G : 9 * K * G / (3 * K + G);
+    }
     value[0] = creal(modulus);
     value[1] = cimag(modulus);
 }
@@ -201,18 +198,6 @@ double material_fit_viscosity(const MaterialFit *fit, const MaterialData *data)
     for (int32_t i = 0; i < data->data.count; i++) fastest = fmax(fastest, data->data.at[i]);
     relaxation_moduli(&fit->shear, fastest, &storage, &loss);
     return 2 * 0.1 * loss / fastest;
-}
-
-// Takes the part of a viscosity off the losses in shear.
-static bool take_viscosity(const RelaxationData *data, double viscosity, double *loss, Error *err)
-{
-    for (int32_t i = 0; i < data->count; i++) {
-        loss[i] -= data->at[i] * viscosity;
-        if (!(loss[i] > 0))
-            return REFUSE(err, "eta1 alone, %g, damps more than was measured at %g Hz",
-                          2 * viscosity, data->at[i] / TWO_PI);
-    }
-    return true;
 }
 
 bool material_fit(const MaterialData *data, double poisson, bool bulk_relaxes, double eta1,
@@ -235,7 +220,14 @@ bool material_fit(const MaterialData *data, double poisson, bool bulk_relaxes, d
     }
     if (!data->shear)
         TRY(to_shear(data, poisson, bulk_relaxes, fit->shear.rest, moduli, loss, err));
-    if (own.loss && !has_viscosity) TRY(take_viscosity(&own, eta1 / 2, loss, err));
+
+    // The part of a given viscosity is taken off the losses in shear.
+    for (int32_t i = 0; own.loss && !has_viscosity && i < own.count; i++) {
+        loss[i] -= own.at[i] * (eta1 / 2);
+        if (!(loss[i] > 0))
+            FAIL(err, ERROR_INPUT, "eta1 alone, %g, damps more than was measured at %g Hz",
+                 2 * (eta1 / 2), own.at[i] / TWO_PI);
+    }
     own.storage = moduli;
     own.loss = own.loss ? loss : NULL;
     TRY(relaxation_fit(&own, has_viscosity, &fit->shear, err));

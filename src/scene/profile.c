@@ -49,9 +49,12 @@ static bool read_head(const CsvTable *csv, int32_t k, int32_t *name, CsvUnit *un
     return unit_to_si(head, "length", &one);
 }
 
-// The column of errors of the gap, which says nothing of the surface's shape; -1: none.
-static int32_t find_error(const CsvTable *csv)
+// place[x, y, gap]: which column of the file it is, -1: none; scale: what a 1 in it is, length.
+// *columns: how many these are.
+static bool read_heads(const CsvTable *csv, SceneUnits units, int32_t place[COLUMNS_MAX],
+                       double scale[COLUMNS_MAX], int32_t *columns, Error *err)
 {
+    // The column of errors of the gap, which says nothing of the surface's shape; -1: none.
     int32_t error = -1;
     for (int32_t k = 0; csv->named && error < 0 && k < csv->columns; k++) {
         int32_t name;
@@ -59,15 +62,6 @@ static int32_t find_error(const CsvTable *csv)
         if (read_head(csv, k, &name, &unit) && name == COLUMNS_MAX - 1)
             csv_find_error(csv, k, &error, &unit);
     }
-    return error;
-}
-
-// place[x, y, gap]: which column of the file it is, -1: none; scale: what a 1 in it is, length.
-// *columns: how many these are.
-static bool read_heads(const CsvTable *csv, SceneUnits units, int32_t place[COLUMNS_MAX],
-                       double scale[COLUMNS_MAX], int32_t *columns, Error *err)
-{
-    int32_t error = find_error(csv);
     *columns = csv->columns - (error >= 0);
     for (int32_t k = 0; k < COLUMNS_MAX; k++) {
         place[k] = -1;

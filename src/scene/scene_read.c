@@ -94,17 +94,6 @@ static bool gather_children(Reader *reader, const char *name, const SceneValue *
     return true;
 }
 
-static bool add_formula(Reader *reader, const char *name, const SceneValue *value, Error *err)
-{
-    if (reader->formula_count == FORMULAS_MAX)
-        return yaml_error(value->document, value->node, err, "%s: more than %d formulas", name,
-                          FORMULAS_MAX);
-    FormulaSetting *formula = &reader->formulas[reader->formula_count++];
-    *formula = (FormulaSetting){.value = *value, .before = reader->setting_count};
-    snprintf(formula->name, sizeof formula->name, "%s", name);
-    return true;
-}
-
 // Formulas in the value of a key, at whatever depth of its lists and maps: "load.pressure",
 // "materials.pads.young", "material.relaxation.0.shear", "load.tractions.1.x". Words of items that
 // take texts have none.
@@ -113,8 +102,15 @@ static bool gather_formulas(Reader *reader, const SceneItems *items, const char 
 {
     YamlKind kind = yaml_kind(value->document, value->node);
     int32_t number = 0;
-    if (scene_is_formula(value->document, value->node))
-        return add_formula(reader, name, value, err);
+    if (scene_is_formula(value->document, value->node)) {
+        if (reader->formula_count == FORMULAS_MAX)
+            return yaml_error(value->document, value->node, err, "%s: more than %d formulas", name,
+                              FORMULAS_MAX);
+        FormulaSetting *formula = &reader->formulas[reader->formula_count++];
+        *formula = (FormulaSetting){.value = *value, .before = reader->setting_count};
+        snprintf(formula->name, sizeof formula->name, "%s", name);
+        return true;
+    }
     if (kind != YAML_LIST && kind != YAML_MAP) return true;
     YAML_EACH (node, value->document, value->node) {
         char path[KEY_NAME_SIZE], place[16];
@@ -230,12 +226,6 @@ static bool store_defaults(Reader *reader, const char *group, Scene *scene, Erro
     return true;
 }
 
-static bool is_none(const SceneKey *key, const SceneValue *value)
-{
-    return scene_key_may_be_none(key) && yaml_kind(value->document, value->node) == YAML_SCALAR &&
-           strcmp(yaml_text(value->document, value->node), "none") == 0;
-}
-
 static bool store_setting(Reader *reader, const Setting *setting, Scene *scene, Error *err)
 {
     static const char fields[] = "output.fields";
@@ -243,7 +233,10 @@ static bool store_setting(Reader *reader, const Setting *setting, Scene *scene, 
     const SceneKey *key = &reader->keys[setting->key];
     SceneValue value = setting->value;
     if (value.part) value.part = setting->group;
-    if (is_none(key, &value)) return store_defaults(reader, key->name, scene, err);
+    bool none = scene_key_may_be_none(key) &&
+                yaml_kind(value.document, value.node) == YAML_SCALAR &&
+                strcmp(yaml_text(value.document, value.node), "none") == 0;
+    if (none) return store_defaults(reader, key->name, scene, err);
     if (key->type == KEY_FIELDS && !store_defaults(reader, fields, scene, err)) return false;
     if (!store_value(key, &value, scene, err)) return false;
     bool is_part_of_fields = strncmp(key->name, fields, strlen(fields)) == 0 &&
@@ -331,22 +324,6 @@ static void forget_values(const Reader *reader, int32_t first)
                       &none);
 }
 
-// The first formula that waits is wrong, or waits for itself. Always false.
-static bool report_waiting(const Reader *reader, const bool *waiting, const Scene *scene,
-                           Error *err)
-{
-    int32_t k = 0;
-    char ignored[SCENE_NUMBER_SIZE];
-    while (!waiting[k]) k++;
-    const FormulaSetting *formula = &reader->formulas[k];
-    const YamlDocument *document = formula->value.document;
-    SceneSetting setting = {formula->name, document, formula->value.node};
-    return scene_formula_number(&setting, scene_number, scene, ignored, err) &&
-           yaml_error(document, formula->value.node, err,
-                      "%s: a formula over itself, or over another one that is over this",
-                      formula->name);
-}
-
 // Works out formulas over what else the scene has, in rounds: all that name none that is waiting,
 // after which settings are stored again. ERROR_INPUT: what is wrong with one, or that some wait
 // for each other.
@@ -378,7 +355,18 @@ static bool work_out_formulas(Reader *reader, Scene *scene, Error *err)
         for (int32_t k = 0; k < reader->formula_count; k++) waiting[k] = waiting[k] && !known[k];
         if (found > 0 && !store_settings(reader, scene, err)) return false;
     }
-    return left == 0 || report_waiting(reader, waiting, scene, err);
+    if (left == 0) return true;
+
+    // The first formula that waits is wrong, or waits for itself.
+    int32_t k = 0;
+    while (!waiting[k]) k++;
+    const FormulaSetting *formula = &reader->formulas[k];
+    SceneSetting setting = {formula->name, formula->value.document, formula->value.node};
+    char ignored[SCENE_NUMBER_SIZE];
+    return scene_formula_number(&setting, scene_number, scene, ignored, err) &&
+           yaml_error(setting.document, setting.node, err,
+                      "%s: a formula over itself, or over another one that is over this",
+                      formula->name);
 }
 
 // --- reading ------------------------------------------------------------------------------------

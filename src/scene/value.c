@@ -55,14 +55,6 @@ static bool set_items(const SceneKey *key, const SceneValue *value, YamlKind kin
 
 // --- numbers ------------------------------------------------------------------------------------
 
-// Splits "10 um/s" into 10 and "um/s".
-static bool split_number(const char *text, double *number, const char **suffix)
-{
-    int32_t length = text_number(text, number);
-    *suffix = text + length + strspn(text + length, " ");
-    return length > 0;
-}
-
 // A unit of another dimension: which are allowed, and by what the number has to be divided. Always
 // false.
 static bool report_unit(const SceneKey *key, const SceneValue *value, const char *suffix,
@@ -109,25 +101,6 @@ static bool apply_unit(const SceneKey *key, const SceneValue *value, SceneUnits 
     return *whole || report_unit(key, value, suffix, err);
 }
 
-// ERROR_INPUT: "0,003", or a minus sign that is none of ASCII, as word processors and spreadsheets
-// have it.
-static bool check_typing(const SceneKey *key, const SceneValue *value, Error *err)
-{
-    static const char minus[] = "\xE2\x88\x92", dash[] = "\xE2\x80\x93";   // U+2212, U+2013
-    const char *text = yaml_text(value->document, value->node);
-    const char *comma = strchr(text, ',');
-    if (comma > text && isdigit((unsigned char)comma[-1]) && isdigit((unsigned char)comma[1]))
-        return yaml_error(value->document, value->node, err,
-                          "%s: found `%.60s`, with a comma: decimals follow a point, as in 0.003",
-                          key->name, text);
-    if (strstr(text, minus) || strstr(text, dash))
-        return yaml_error(value->document, value->node, err,
-                          "%s: found `%.60s`, with a minus sign or dash of a word processor: the "
-                          "hyphen of the keyboard, -, is needed",
-                          key->name, text);
-    return true;
-}
-
 // A formula that has no value yet: what holds it is read again when scene/scene_read has worked it
 // out. Until then its number is 0, which is not checked.
 static bool is_waiting(const SceneValue *value)
@@ -139,18 +112,32 @@ static bool is_waiting(const SceneValue *value)
 static bool read_number(const SceneKey *key, const SceneValue *value, SceneUnits units,
                         double *number, bool *whole, Error *err)
 {
-    const char *suffix = "";
+    static const char minus[] = "\xE2\x88\x92", dash[] = "\xE2\x80\x93";   // U+2212, U+2013
+    const YamlDocument *document = value->document;
     if (!expect_scalar(key, value, err)) return false;
-    const char *text = yaml_text(value->document, value->node);
-    if (!check_typing(key, value, err)) return false;
-    if (!split_number(text, number, &suffix)) return report_wrong(key, value, err);
+
+    // "0,003", or a minus sign that is none of ASCII, as word processors and spreadsheets have it.
+    const char *text = yaml_text(document, value->node), *comma = strchr(text, ',');
+    if (comma > text && isdigit((unsigned char)comma[-1]) && isdigit((unsigned char)comma[1]))
+        return yaml_error(document, value->node, err,
+                          "%s: found `%.60s`, with a comma: decimals follow a point, as in 0.003",
+                          key->name, text);
+    if (strstr(text, minus) || strstr(text, dash))
+        return yaml_error(document, value->node, err,
+                          "%s: found `%.60s`, with a minus sign or dash of a word processor: the "
+                          "hyphen of the keyboard, -, is needed",
+                          key->name, text);
+
+    // "10 um/s" is 10 and "um/s".
+    int32_t length = text_number(text, number);
+    if (length == 0) return report_wrong(key, value, err);
+    const char *suffix = text + length + strspn(text + length, " ");
     if (!apply_unit(key, value, units, suffix, number, whole, err)) return false;
     if (!isfinite(*number)) return report_wrong(key, value, err);
     if (!scene_size_holds(*number))
-        return yaml_error(value->document, value->node, err,
+        return yaml_error(document, value->node, err,
                           "%s: found `%.60s`; allowed: 0, and numbers of a size from %g to %g",
-                          key->name, yaml_text(value->document, value->node), SCENE_SMALLEST,
-                          SCENE_LARGEST);
+                          key->name, text, SCENE_SMALLEST, SCENE_LARGEST);
     return true;
 }
 
@@ -326,26 +313,21 @@ static int32_t find_choice(const SceneKey *key, const char *text)
     return -1;
 }
 
-// The choice that a word probably means; -1: none. A yes or a no never means the other one, however
-// alike the words are.
-static int32_t nearest_choice(const SceneKey *key, const char *text, int32_t count)
+// A word that is no choice: which one it probably means. A yes or a no never means the other one,
+// however alike the words are. Always false.
+static bool report_choice(const SceneKey *key, const SceneValue *value, Error *err)
 {
     static const char *const words[][2] = {{"yes", "on"},  {"y", "on"},     {"on", "on"},
                                            {"true", "on"}, {"no", "off"},   {"n", "off"},
                                            {"off", "off"}, {"false", "off"}};
-    bool switches = false;
-    for (int32_t k = 0; k < count; k++) switches = switches || strcmp(key->choices[k], "off") == 0;
-    for (size_t k = 0; switches && k < sizeof words / sizeof *words; k++)
-        if (strcasecmp(text, words[k][0]) == 0) return find_choice(key, words[k][1]);
-    return text_nearest(text, key->choices, count);
-}
-
-static bool report_choice(const SceneKey *key, const SceneValue *value, Error *err)
-{
-    const char *text = yaml_text(value->document, value->node);
+    const char *text = yaml_text(value->document, value->node), *meant = NULL;
     int32_t count = 0;
-    while (key->choices[count]) count++;
-    int32_t nearest = nearest_choice(key, text, count);
+    bool switches = false;
+    for (; key->choices[count]; count++)
+        switches = switches || strcmp(key->choices[count], "off") == 0;
+    for (size_t k = 0; switches && k < sizeof words / sizeof *words; k++)
+        if (strcasecmp(text, words[k][0]) == 0) meant = words[k][1];
+    int32_t nearest = meant ? find_choice(key, meant) : text_nearest(text, key->choices, count);
     char allowed[300];
     scene_key_allowed(key, allowed, sizeof allowed);
     if (nearest < 0) return report_wrong(key, value, err);
@@ -389,20 +371,16 @@ static bool set_names(const SceneKey *key, const SceneValue *value, Scene *scene
 
 // --- the keys that are maps and lists of their own ----------------------------------------------
 
-static MeshParameter *find_parameter(Scene *scene, const char *name)
-{
-    for (int32_t i = 0; i < scene->mesh.parameter_count; i++)
-        if (strcmp(scene->mesh.parameters[i].name, name) == 0) return &scene->mesh.parameters[i];
-    return NULL;
-}
-
 // The parameter that the value's own key names, or the rest of the path of a --set.
 static bool set_parameter(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
 {
     MeshParameter made = {0};
     const char *name = value->part ? value->part : yaml_key(value->document, value->node);
     const char *text = yaml_text(value->document, value->node);
-    MeshParameter *parameter = find_parameter(scene, name);
+    MeshParameter *parameter = NULL;
+    for (int32_t i = 0; i < scene->mesh.parameter_count && !parameter; i++)
+        if (strcmp(scene->mesh.parameters[i].name, name) == 0)
+            parameter = &scene->mesh.parameters[i];
     if (is_waiting(value)) return true;
     bool full = !parameter && scene->mesh.parameter_count == SCENE_LIST_MAX;
     if (full || !*name || strlen(name) >= GROUP_NAME_SIZE)

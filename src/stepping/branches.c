@@ -53,19 +53,6 @@ void branches_start_stage(const Branches *branches, const Tableau *tableau, doub
     }
 }
 
-// image := K_k v of the S_j v.
-static void add_up_images(const Branches *branches, int32_t k, double *restrict image)
-{
-    int32_t dofs = branches->system->dof_count;
-    memset(image, 0, (size_t)dofs * sizeof *image);
-    for (int32_t j = 0; j < branches->spectrum->shape_count; j++) {
-        double share = branches->spectrum->share[k][j];
-        const double *restrict one = branches->image + (int64_t)j * dofs;
-        if (share == 0) continue;
-        for (int32_t d = 0; d < dofs; d++) image[d] += share * one[d];
-    }
-}
-
 double branches_end_stage(Branches *branches, const Tableau *tableau, double step, int32_t i,
                           const double *restrict velocity, const double *elastic, State *to,
                           double *restrict force, double *dissipated)
@@ -87,7 +74,16 @@ double branches_end_stage(Branches *branches, const Tableau *tableau, double ste
         double left = 1 / (1 + scaled / spectrum->time[k]), rate = 1 / spectrum->time[k];
         double *restrict stretch = to->stretch + (int64_t)k * dofs;
         double *restrict pull = to->pull + (int64_t)k * dofs, *restrict image = branches->work;
-        add_up_images(branches, k, image);
+
+        // image := K_k v of the S_j v.
+        memset(image, 0, (size_t)dofs * sizeof *image);
+        for (int32_t j = 0; j < spectrum->shape_count; j++) {
+            double share = spectrum->share[k][j];
+            const double *restrict one = branches->image + (int64_t)j * dofs;
+            if (share == 0) continue;
+            for (int32_t d = 0; d < dofs; d++) image[d] += share * one[d];
+        }
+
         for (int32_t d = 0; d < dofs; d++) {
             force[d] -= scaled * left * image[d];
             stretch[d] = left * (stretch[d] + scaled * velocity[d]);

@@ -9,7 +9,8 @@
 
 #include "stepping/state.h"
 
-// Of the branches of one relaxation time (fem/spectrum), a part of `elastic` and of `viscous`.
+// Energy of the branches of one relaxation time (fem/spectrum), a part of `elastic` and of
+// `viscous`.
 typedef struct BranchEnergy {
     double stored;   // now, in their springs
     double dissipated;   // in their dashpots, >= 0

@@ -167,31 +167,27 @@ static double excess_speed(const FrictionNode *node, double free_speed, double s
     return speed + strength * friction_coefficient(node, speed) - free_speed;
 }
 
-// The lower end of the highest of EXCESS_PARTS parts of 0 to free_speed at which excess_speed is
-// below 0, so that a root lies above; -1: at none. Where friction falls less than speed rises, at
-// every speed, excess_speed rises and the whole is one part.
-static double below_largest_root(const FrictionNode *node, double free_speed, double strength)
-{
-    enum { EXCESS_PARTS = 64 };
-    int32_t parts = strength * friction_steepest(node) < 1 ? 1 : EXCESS_PARTS;
-    for (int32_t k = parts - 1; k >= 0; k--) {
-        double low = free_speed * k / parts;
-        if (excess_speed(node, free_speed, strength, low) < 0) return low;
-    }
-    return -1;
-}
-
 // The speed left of `free_speed` by friction: the largest root of excess_speed; 0: sticks. Newton
 // from the right goes down to it where the law is convex; else halving helps where a step leaves
 // the interval that holds it. Both end where nothing is left between the ends of this interval.
 static double slip_speed(const FrictionNode *node, double free_speed, double strength, bool slipped)
 {
+    enum { EXCESS_PARTS = 64 };
     bool may_stick = free_speed <= strength * friction_coefficient(node, 0);
     bool convex = friction_is_convex(node->law);
     if (may_stick && (!slipped || (convex && 1 + strength * friction_slope(node, 0) > 0))) return 0;
-    double speed = free_speed, high = free_speed;
-    double low = convex ? 0 : below_largest_root(node, free_speed, strength);
-    if (low < 0) return 0;
+    double speed = free_speed, low = 0, high = free_speed;
+
+    // A law that is not convex: the highest of some parts of 0 to free_speed, at whose lower end
+    // excess_speed is below 0, so that a root lies above. Where friction falls less than speed
+    // rises, at every speed, excess_speed rises and the whole is one part.
+    if (!convex) {
+        int32_t parts = strength * friction_steepest(node) < 1 ? 1 : EXCESS_PARTS, k = parts - 1;
+        while (k >= 0 && !(excess_speed(node, free_speed, strength, free_speed * k / parts) < 0))
+            k--;
+        if (k < 0) return 0;
+        low = free_speed * k / parts;
+    }
     do {
         double slope = 1 + strength * friction_slope(node, speed), before = speed;
         if (convex && slope <= 0) return 0;   // there is no root: it has come to rest
@@ -210,43 +206,6 @@ static double slip_speed(const FrictionNode *node, double free_speed, double str
 static double mean_power(double force, double before, double after)
 {
     return 0.5 * force * (before + after);
-}
-
-// Reduces the free v [dim] of a pressed node by friction; its direction stays. kick: dt/m.
-static void resolve_slip(const ExplicitReference *scheme, int32_t i, double kick, double strength,
-                         double *v, State *state)
-{
-    const Interface *interface = scheme->def.interface;
-    int32_t t = interface_tangent(interface, i), tangents = slip_tangents(interface);
-    double free_speed = tangents == 1 ? fabs(v[0]) : hypot(v[0], v[1]), forward = 0;
-    for (int32_t c = 0; c < tangents; c++) forward += state->slip_rate[t + c] * v[c];
-    if (tangents == 1) forward = status_direction(state->status[i]) * v[0];
-    bool slipped = status_slips(state->status[i]) && forward > 0;
-    double speed = slip_speed(friction_at(scheme->def.friction, i), free_speed, strength, slipped);
-    state->status[i] = speed == 0 ? CONTACT_STICK : status_of_slip(v[0]);
-    for (int32_t c = 0; c < tangents; c++) {
-        double left = speed == 0 ? copysign(0, v[c]) : speed * (v[c] / free_speed);
-        state->reaction[t + c] = (left - v[c]) / kick;
-        v[c] = left;
-    }
-}
-
-// The law of node i in this step; and its states at the end of it.
-static void start_memory(const ExplicitReference *scheme, int32_t i, const State *state)
-{
-    if (scheme->def.stage_friction)
-        friction_set_stage(&scheme->def.stage_friction[i], state->theta + (int64_t)i * STATES_MAX,
-                           0.5 * scheme->def.step);
-}
-
-static void end_memory(const ExplicitReference *scheme, int32_t i, State *state)
-{
-    if (!scheme->def.stage_friction) return;
-    const FrictionNode *node = &scheme->def.stage_friction[i];
-    double speed = slip_size(scheme->def.interface, i, state->slip_rate), middle[STATES_MAX];
-    double *theta = state->theta + (int64_t)i * STATES_MAX;
-    friction_state(node, speed, middle);
-    for (int32_t k = 0; k < node->law->states; k++) theta[k] = 2 * middle[k] - theta[k];
 }
 
 // Contact node i; returns the power it dissipates. Places and velocities are those against the
@@ -275,19 +234,36 @@ static double resolve_contact(ExplicitReference *scheme, int32_t i, State *state
     double gap = start[last] + initial, bound = -gap / step;
     bool open = v[last] >= bound;
     scheme->bound[t + last] = bound;
-    start_memory(scheme, i, state);
+
+    // The law of the node in this step, at the states of its middle.
+    FrictionNode *memory = scheme->def.stage_friction ? &scheme->def.stage_friction[i] : NULL;
+    double *theta = state->theta + (int64_t)i * STATES_MAX;
+    if (memory) friction_set_stage(memory, theta, 0.5 * step);
+
+    // Open: no force. Pressed: friction takes speed from the free v, whose direction stays.
     if (open) {
         state->status[i] = CONTACT_OPEN;
         for (int32_t d = 0; d <= last; d++) reaction[d] = 0;
     } else {
         double strength = bound - v[last];   // (dt/m) r_n
-        if (scheme->def.stage_friction)
-            friction_set_pressure(&scheme->def.stage_friction[i],
-                                  strength / kick / interface->weight[i], 0);
-        resolve_slip(scheme, i, kick, strength, v, state);
+        if (memory) friction_set_pressure(memory, strength / kick / interface->weight[i], 0);
+        double free_speed = last == 1 ? fabs(v[0]) : hypot(v[0], v[1]), forward = 0;
+        for (int32_t c = 0; c < last; c++) forward += slip_rate[c] * v[c];
+        if (last == 1) forward = status_direction(state->status[i]) * v[0];
+        bool slipped = status_slips(state->status[i]) && forward > 0;
+        double speed =
+            slip_speed(friction_at(scheme->def.friction, i), free_speed, strength, slipped);
+        state->status[i] = speed == 0 ? CONTACT_STICK : status_of_slip(v[0]);
+        for (int32_t c = 0; c < last; c++) {
+            double left = speed == 0 ? copysign(0, v[c]) : speed * (v[c] / free_speed);
+            reaction[c] = (left - v[c]) / kick;
+            v[c] = left;
+        }
         reaction[last] = strength / kick;
         v[last] = bound;
     }
+
+    // Its motion, and the floor's under it.
     for (int32_t d = 0; d <= last; d++) {
         slip_rate[d] = v[d];
         power -= mean_power(reaction[d], before[d], v[d]);
@@ -304,7 +280,13 @@ static double resolve_contact(ExplicitReference *scheme, int32_t i, State *state
         *u = d == last ? floor - initial : floor + (start[d] + step * slip_rate[d]);
         scheme->mesh.next[explicit_velocity(&scheme->mesh, node) + d] = v[d];
     }
-    end_memory(scheme, i, state);
+
+    // States at the end of the step.
+    if (memory) {
+        double middle[STATES_MAX];
+        friction_state(memory, slip_size(interface, i, state->slip_rate), middle);
+        for (int32_t k = 0; k < memory->law->states; k++) theta[k] = 2 * middle[k] - theta[k];
+    }
     return power;
 }
 
@@ -357,130 +339,109 @@ static void lead_rod(ExplicitReference *scheme, double time)
     scheme->rod_way += step * own;
 }
 
-// Rod node j; returns the rod's power, and through *dissipated what is lost where the face is hit.
-static double resolve_rod(ExplicitReference *scheme, int32_t j, State *state, double *dissipated)
-{
-    const Interface *interface = scheme->def.interface;
-    int32_t x = interface_rod(interface, j), node = interface->rod_node[j];
-    double step = scheme->def.step, *u = scheme->mesh.next + explicit_place(&scheme->mesh, node);
-    double *v = u + explicit_room(&scheme->mesh);
-    double bound = scheme->bound[x], yields = rod_yields(scheme, j);
-    bool touches = rod_holds(scheme->def.rod, v[0], bound);
-    state->rod_touches[j] = touches;
-    // v' = v + kick r = bound - yields r.
-    state->reaction[x] = touches ? (bound - v[0]) / (scheme->mesh.kick[node] + yields) : 0;
-    if (touches) {
-        v[0] = bound - yields * state->reaction[x];
-        u[0] = scheme->mesh.now[explicit_place(&scheme->mesh, node)] + step * v[0];
-    }
-    state->slip_rate[x] = v[0];
-    double pushed = state->reaction[x] * v[0];
-    double before = scheme->mesh.now[explicit_velocity(&scheme->mesh, node)];
-    *dissipated += pushed - mean_power(state->reaction[x], before, v[0]);
-    return pushed;
-}
-
-// Power of the load that acts in the step, by the velocities at its end.
-static double load_power(const ExplicitReference *scheme)
-{
-    double power = 0;
-    int32_t dim = scheme->def.bulk->dim;
-    for (int32_t i = 0; i < scheme->mesh.node_count; i++)
-        for (int32_t d = 0; d < dim; d++)
-            power += scheme->def.bulk->load[node_dof(dim, i, d)] *
-                     scheme->mesh.next[explicit_velocity(&scheme->mesh, i) + d];
-    return scheme->factor * power;
-}
-
 // One step; the powers of the step go to the ledger.
 static void advance_once(ExplicitReference *scheme, State *state, EnergyLedger *ledger)
 {
     const Interface *interface = scheme->def.interface;
-    double step = scheme->def.step, frictional = 0, pushed = 0;
+    const Bulk *bulk = scheme->def.bulk;
+    double step = scheme->def.step, frictional = 0, pushed = 0, loaded = 0;
     scheme->factor = load_factor(scheme->def.course, scheme->time + step * (double)scheme->steps);
     add_up_pulls(scheme, state);
     double viscous = explicit_sweep_free(&scheme->mesh, scheme->factor);
     for (int32_t i = 0; i < interface->contact_count; i++)
         frictional += resolve_contact(scheme, i, state);
-    double end = scheme->time + step * (double)(scheme->steps + 1);
-    lead_rod(scheme, end);
-    for (int32_t j = 0; j < interface->rod_count; j++)
-        pushed += resolve_rod(scheme, j, state, &frictional);
+
+    // The rod's nodes.
+    lead_rod(scheme, scheme->time + step * (double)(scheme->steps + 1));
+    for (int32_t j = 0; j < interface->rod_count; j++) {
+        int32_t x = interface_rod(interface, j), node = interface->rod_node[j];
+        int64_t place = explicit_place(&scheme->mesh, node);
+        double *u = scheme->mesh.next + place, *v = u + explicit_room(&scheme->mesh);
+        double bound = scheme->bound[x], yields = rod_yields(scheme, j), force = 0;
+        bool touches = rod_holds(scheme->def.rod, v[0], bound);
+        if (touches) {   // v' = v + kick r = bound - yields r
+            force = (bound - v[0]) / (scheme->mesh.kick[node] + yields);
+            v[0] = bound - yields * force;
+            u[0] = scheme->mesh.now[place] + step * v[0];
+        }
+        state->rod_touches[j] = touches;
+        state->reaction[x] = force;
+        state->slip_rate[x] = v[0];
+        // The rod's power, and what of it is lost where the face is hit.
+        double given = force * v[0];
+        double before = scheme->mesh.now[explicit_velocity(&scheme->mesh, node)];
+        frictional += given - mean_power(force, before, v[0]);
+        pushed += given;
+    }
+
+    // Branches of the materials, and the power of a load that changes, by velocities at the end.
     viscous += advance_branches(scheme, state, ledger);
+    for (int32_t i = 0; scheme->def.course && i < scheme->mesh.node_count; i++)
+        for (int32_t d = 0; d < bulk->dim; d++)
+            loaded += bulk->load[node_dof(bulk->dim, i, d)] *
+                      scheme->mesh.next[explicit_velocity(&scheme->mesh, i) + d];
     ledger->viscous += step * viscous;
     ledger->frictional += step * frictional;
     ledger->rod_work += step * pushed;
-    if (scheme->def.course) scheme->load_work += step * load_power(scheme);
+    scheme->load_work += step * (scheme->factor * loaded);
     scheme->steps++;
 }
 
-// The largest |M a + C (v + v')/2 + K u_n + sum_k K_k e_k,n - f - r_n|.
-static double centred_residual(ExplicitReference *scheme, const State *state)
+bool explicit_reference_advance(ExplicitReference *scheme, int64_t steps, State *state,
+                                EnergyLedger *ledger, Error *err)
 {
     const Bulk *bulk = scheme->def.bulk;
+    ExplicitSweep *mesh = &scheme->mesh;
     int32_t dofs = bulk->dof_count;
-    double step = scheme->def.step;
-    double *field = scheme->mesh.next, *sum = scheme->mesh.force,
-           *viscous = scheme->mesh.force + dofs;
+    double step = scheme->def.step, load_work = 0;
+    to_nodes(scheme->def.mesh, state);
+    for (int64_t k = 0; k < steps; k++) {
+        advance_once(scheme, state, ledger);
+        double *spare = mesh->now;
+        mesh->now = mesh->next;
+        mesh->next = spare;
+    }
+
+    // The last step as a state of nodes; `next` still holds the v before it.
+    for (int32_t i = 0; i < mesh->node_count; i++) {
+        for (int32_t d = 0; d < bulk->dim; d++) {
+            int32_t dof = node_dof(bulk->dim, i, d);
+            int64_t place = explicit_velocity(mesh, i) + d;
+            double u = mesh->now[explicit_place(mesh, i) + d], v = mesh->now[place];
+            load_work += bulk->load[dof] * (u - state->displacement[dof]);
+            state->displacement[dof] = u;
+            state->velocity[dof] = v;
+            state->momentum[dof] = bulk->mass[dof] * v;
+            state->inertia[dof] = (v - mesh->next[place]) / mesh->kick[i];
+        }
+    }
+    sparse_apply(&bulk->pattern, bulk->stiffness, state->displacement, state->elastic_force);
+    state->time = scheme->time + step * (double)scheme->steps;
+    state->rod_way = scheme->rod_way;
+    ledger->load_work += scheme->def.course ? scheme->load_work : load_work;
+    scheme->load_work = 0;
+    energy_store(state, ledger);
+    if (!isfinite(ledger->elastic) || !isfinite(ledger->kinetic))
+        return FAULT(
+            err, ERROR_COMPUTE,
+            "the explicit steps of %g have blown up before t = %g: they are longer than is stable",
+            step, state->time);
+
+    // The largest |M a + C (v + v')/2 + K u_n + sum_k K_k e_k,n - f - r_n|.
+    double *field = mesh->next, *sum = mesh->force, *viscous = mesh->force + dofs;
     for (int32_t k = 0; k < dofs; k++)
         field[k] = state->velocity[k] -
-                   0.5 * scheme->mesh.kick[dof_node(bulk->dim, k)] * state->inertia[k];
+                   0.5 * mesh->kick[dof_node(bulk->dim, k)] * state->inertia[k];
     sparse_apply(&bulk->pattern, bulk->damping, field, viscous);
     for (int32_t k = 0; k < dofs; k++)
         field[k] = state->displacement[k] - step * state->velocity[k];
     sparse_apply(&bulk->pattern, bulk->stiffness, field, sum);
     for (int32_t k = 0; k < dofs; k++)
         sum[k] += state->inertia[k] + viscous[k] - scheme->factor * bulk->load[k];
-    for (int32_t k = 0; scheme->mesh.pull && k < dofs; k++) sum[k] += scheme->mesh.pull[k];
+    for (int32_t k = 0; mesh->pull && k < dofs; k++) sum[k] += mesh->pull[k];
     subtract_reactions(scheme, state, sum);
-    return dense_max_abs(sum, dofs);
-}
+    scheme->residual = dense_max_abs(sum, dofs);
 
-// The last step as a state of nodes; `next` still holds the v before it. Returns the work of the
-// loads since the state handed in.
-static double fill_state(ExplicitReference *scheme, State *state)
-{
-    const Bulk *bulk = scheme->def.bulk;
-    double load_work = 0;
-    for (int32_t i = 0; i < scheme->mesh.node_count; i++) {
-        for (int32_t d = 0; d < bulk->dim; d++) {
-            int32_t dof = node_dof(bulk->dim, i, d);
-            int64_t place = explicit_velocity(&scheme->mesh, i) + d;
-            double u = scheme->mesh.now[explicit_place(&scheme->mesh, i) + d],
-                   v = scheme->mesh.now[place];
-            load_work += bulk->load[dof] * (u - state->displacement[dof]);
-            state->displacement[dof] = u;
-            state->velocity[dof] = v;
-            state->momentum[dof] = bulk->mass[dof] * v;
-            state->inertia[dof] = (v - scheme->mesh.next[place]) / scheme->mesh.kick[i];
-        }
-    }
-    sparse_apply(&bulk->pattern, bulk->stiffness, state->displacement, state->elastic_force);
-    state->time = scheme->time + scheme->def.step * (double)scheme->steps;
-    state->rod_way = scheme->rod_way;
-    if (scheme->def.course) load_work = scheme->load_work;
-    scheme->load_work = 0;
-    return load_work;
-}
-
-bool explicit_reference_advance(ExplicitReference *scheme, int64_t steps, State *state,
-                                EnergyLedger *ledger, Error *err)
-{
-    to_nodes(scheme->def.mesh, state);
-    for (int64_t k = 0; k < steps; k++) {
-        advance_once(scheme, state, ledger);
-        double *spare = scheme->mesh.now;
-        scheme->mesh.now = scheme->mesh.next;
-        scheme->mesh.next = spare;
-    }
-    ledger->load_work += fill_state(scheme, state);
-    energy_store(state, ledger);
-    if (!isfinite(ledger->elastic) || !isfinite(ledger->kinetic))
-        return FAULT(
-            err, ERROR_COMPUTE,
-            "the explicit steps of %g have blown up before t = %g: they are longer than is stable",
-            scheme->def.step, state->time);
-    scheme->residual = centred_residual(scheme, state);
     to_jumps(scheme->def.mesh, state);
     double *const forces[] = {state->momentum, state->inertia, state->elastic_force};
     for (int k = 0; k < 3 && scheme->def.mesh; k++) floor_gather(scheme->def.mesh, forces[k]);

@@ -23,21 +23,29 @@ static int64_t block_size(const ExplicitSweep *sweep)
     return 2 * sweep->bulk->dim * explicit_room(sweep);
 }
 
-static int32_t count_blocks(const SparsePattern *pattern, int32_t dim)
+bool explicit_sweep_create(const Bulk *bulk, double step, ExplicitSweep *sweep, Error *err)
 {
-    int32_t count = 0;
+    const SparsePattern *pattern = &bulk->pattern;
+    int32_t dim = bulk->dim, nodes = dof_node(dim, bulk->dof_count), blocks = 0;
     for (int32_t row = 0; row < pattern->size; row += dim)
         for (int32_t k = pattern->start[row]; k < pattern->start[row + 1]; k += dim)
-            count += pattern->index[k] >= row;
-    return count;
-}
+            blocks += pattern->index[k] >= row;
 
-static void fill_blocks(ExplicitSweep *sweep)
-{
-    const Bulk *bulk = sweep->bulk;
-    const SparsePattern *pattern = &bulk->pattern;
-    int32_t filled = 0, dim = bulk->dim, room = explicit_room(sweep);
-    for (int32_t i = 0; i < sweep->node_count; i++) {
+    *sweep = (ExplicitSweep){.bulk = bulk, .step = step, .node_count = nodes};
+    int64_t size = explicit_field_size(sweep);
+    sweep->start = NEW_ARRAY(int32_t, (int64_t)nodes + 1, err);
+    sweep->column = NEW_ARRAY(int32_t, blocks, err);
+    sweep->blocks = NEW_ARRAY(double, block_size(sweep) * blocks, err);
+    sweep->kick = NEW_ARRAY(double, nodes, err);
+    sweep->now = NEW_ARRAY(double, size, err);
+    sweep->next = NEW_ARRAY(double, size, err);
+    sweep->force = NEW_ARRAY(double, size, err);
+    if (bulk->spectrum.count > 0) sweep->pull = NEW_ARRAY(double, bulk->dof_count, err);
+    if (!error_is_clean(err)) return false;
+
+    // Blocks of K and C, row by row.
+    int32_t filled = 0, room = explicit_room(sweep);
+    for (int32_t i = 0; i < nodes; i++) {
         const int32_t *row = pattern->start + node_dof(dim, i, 0);
         for (int32_t k = 0; k < row[1] - row[0]; k += dim) {
             int32_t j = dof_node(dim, pattern->index[row[0] + k]);
@@ -51,26 +59,9 @@ static void fill_blocks(ExplicitSweep *sweep)
             sweep->column[filled++] = j;
         }
         sweep->start[i + 1] = filled;
-        sweep->kick[i] = sweep->step / bulk->mass[node_dof(dim, i, 0)];
+        sweep->kick[i] = step / bulk->mass[node_dof(dim, i, 0)];
     }
-}
-
-bool explicit_sweep_create(const Bulk *bulk, double step, ExplicitSweep *sweep, Error *err)
-{
-    int32_t nodes = dof_node(bulk->dim, bulk->dof_count);
-    int32_t blocks = count_blocks(&bulk->pattern, bulk->dim);
-    *sweep = (ExplicitSweep){.bulk = bulk, .step = step, .node_count = nodes};
-    int64_t size = explicit_field_size(sweep);
-    sweep->start = NEW_ARRAY(int32_t, (int64_t)nodes + 1, err);
-    sweep->column = NEW_ARRAY(int32_t, blocks, err);
-    sweep->blocks = NEW_ARRAY(double, block_size(sweep) * blocks, err);
-    sweep->kick = NEW_ARRAY(double, nodes, err);
-    sweep->now = NEW_ARRAY(double, size, err);
-    sweep->next = NEW_ARRAY(double, size, err);
-    sweep->force = NEW_ARRAY(double, size, err);
-    if (bulk->spectrum.count > 0) sweep->pull = NEW_ARRAY(double, bulk->dof_count, err);
-    if (error_is_clean(err)) fill_blocks(sweep);
-    return error_is_clean(err);
+    return true;
 }
 
 void explicit_sweep_destroy(ExplicitSweep *sweep)

@@ -43,7 +43,6 @@ struct Growth {
     const Spectrum *spectrum;   // of the materials' branches; not owned
     int32_t shift_count;
     double shift[GROWTH_SHIFTS_MAX];   // s, 1/time
-    double near;   // the one whose space is searched
     InterfaceOperator *at[GROWTH_SHIFTS_MAX];   // A; owned, like all that follows
     MovingSet moving;   // of the state asked about
     double *matrix;   // [interface_count^2] of the moving unknowns
@@ -73,10 +72,19 @@ GrowthDef growth_def(double length, double speed, int32_t contact_count)
     return (GrowthDef){.slowest = speed / (4 * length), .fastest = speed * contact_count / length};
 }
 
-// The basis is the largest: 2 dof_count (VECTORS_LIMIT + 1) doubles, 41 vectors of twice the
-// reduced bulk's size.
-static bool allocate(Growth *growth, Error *err)
+// One operator for each s, factored here and never again: they know nothing of the state, whose W
+// is subtracted on the interface. The basis is the largest array: 41 vectors of twice the reduced
+// bulk's size.
+Growth *growth_create(const Block *block, const GrowthDef *def, Error *err)
 {
+    Growth *growth = NEW_ARRAY(Growth, 1, err);
+    if (!growth) goto cleanup;
+    growth->system = block->system;
+    growth->interface = block->interface;
+    growth->spectrum = bulk_operator_spectrum(block->system);
+    growth->on_spring = block->system->machine.stiffness > 0;
+    growth->states = friction_states(block->friction, block->interface->contact_count);
+    TRY(moving_set_create(block, &growth->moving, err));
     int64_t m = growth->interface->count, n = growth->system->dof_count;
     growth->matrix = NEW_ARRAY(double, m *m, err);
     growth->pivots = NEW_ARRAY(int32_t, m, err);
@@ -91,22 +99,7 @@ static bool allocate(Growth *growth, Error *err)
     growth->mode_re = NEW_ARRAY(double, m, err);
     growth->mode_im = NEW_ARRAY(double, m, err);
     growth->real_mode = NEW_ARRAY(double, m, err);
-    return error_is_clean(err);
-}
-
-// One operator for each s, factored here and never again: they know nothing of the state, whose W
-// is subtracted on the interface.
-Growth *growth_create(const Block *block, const GrowthDef *def, Error *err)
-{
-    Growth *growth = NEW_ARRAY(Growth, 1, err);
-    if (!growth) goto cleanup;
-    growth->system = block->system;
-    growth->interface = block->interface;
-    growth->spectrum = bulk_operator_spectrum(block->system);
-    growth->on_spring = block->system->machine.stiffness > 0;
-    growth->states = friction_states(block->friction, block->interface->contact_count);
-    TRY(moving_set_create(block, &growth->moving, err));
-    TRY(allocate(growth, err));
+    if (!error_is_clean(err)) goto cleanup;
     for (double s = def->slowest; growth->shift_count < GROWTH_SHIFTS_MAX; s *= 2) {
         int32_t k = growth->shift_count++;
         growth->shift[k] = s;
@@ -134,27 +127,23 @@ void growth_destroy(Growth *growth)
 
 // --- the scan -----------------------------------------------------------------------------------
 
-// INFINITY: S cannot be factored there.
-static double ratio_at(Growth *growth, const State *state, int32_t k)
-{
-    MovingSet *moving = &growth->moving;
-    moving_set_find(moving, state, true);
-    moving_set_settle(moving, 1 / growth->shift[k]);
-    moving_set_gather(moving, interface_operator_schur(growth->at[k]), 1, 0, growth->matrix);
-    moving_set_turn(moving, false, growth->matrix);
-    moving_set_add_dampers(moving, 1 / growth->shift[k], growth->matrix);
-    if (!dense_lu(growth->matrix, moving->count, growth->pivots)) return INFINITY;
-    return weakening_ratio(moving, growth->matrix, growth->pivots, 1e-12, growth->step);
-}
-
 // ratio >= 1: some s > 0 is a real growth rate with the pressure held. At an end of the range no
 // parabola is fitted.
 GrowthScan growth_scan(Growth *growth, const State *state)
 {
-    double ratio[GROWTH_SHIFTS_MAX] = {0}, octaves;
+    MovingSet *moving = &growth->moving;
+    double ratio[GROWTH_SHIFTS_MAX] = {0}, octaves, *matrix = growth->matrix;
     int32_t best = 0, count = growth->shift_count;
     for (int32_t k = 0; k < count; k++) {
-        ratio[k] = ratio_at(growth, state, k);
+        double reach = 1 / growth->shift[k];
+        moving_set_find(moving, state, true);
+        moving_set_settle(moving, reach);
+        moving_set_gather(moving, interface_operator_schur(growth->at[k]), 1, 0, matrix);
+        moving_set_turn(moving, false, matrix);
+        moving_set_add_dampers(moving, reach, matrix);
+        ratio[k] = INFINITY;   // where S cannot be factored
+        if (dense_lu(matrix, moving->count, growth->pivots))
+            ratio[k] = weakening_ratio(moving, matrix, growth->pivots, 1e-12, growth->step);
         if (ratio[k] > ratio[best]) best = k;
     }
     GrowthScan scan = {.ratio = ratio[best], .rate = growth->shift[best]};
@@ -166,73 +155,10 @@ GrowthScan growth_scan(Growth *growth, const State *state)
 
 // --- the eigenproblem ---------------------------------------------------------------------------
 
-// LU of the moving unknowns' rows of A - W, the friction rows combined.
-// Into growth->matrix and pivots; false where s is itself a growth rate.
-static bool factor_moving(Growth *growth, int32_t k)
-{
-    MovingSet *moving = &growth->moving;
-    const double *schur = interface_operator_schur(growth->at[k]);
-    moving_set_gather(moving, schur, 1, 0, growth->matrix);
-    moving_set_couple(moving, schur, growth->matrix);
-    moving_set_turn(moving, false, growth->matrix);
-    moving_set_add_dampers(moving, 1 / growth->shift[k], growth->matrix);
-    moving_set_subtract_weakening(moving, 1 / growth->shift[k], growth->matrix);
-    return dense_lu(growth->matrix, moving->count, growth->pivots);
-}
-
-static bool moves(const MovingSet *moving, int32_t unknown)
-{
-    for (int32_t r = 0; r < moving->count; r++)
-        if (moving->list[r].unknown == unknown) return true;
-    return false;
-}
-
-// Rod nodes that are held go the rod's way to the last bit: what they would fall behind by rounding
-// is an eigenvector of its own, with theta = -1/s.
-static void put_rod(const Growth *growth, double way, double *to)
-{
-    const Interface *interface = growth->interface;
-    to[2 * (int64_t)growth->system->dof_count] = way;
-    for (int32_t j = 0; j < interface->rod_count; j++) {
-        int32_t x = interface_rod(interface, j);
-        if (!moves(&growth->moving, x)) to[growth->system->interface_dofs[x]] = way;
-    }
-}
-
 // The z of x: [states] of each row.
 static double *memories_of(const Growth *growth, const double *x)
 {
     return (double *)x + 2 * (int64_t)growth->system->dof_count + growth->on_spring;
-}
-
-// Adds to growth->step what is remembered in `from`.
-static void pull_memories(const Growth *growth, double s, const double *from)
-{
-    const double *c = memories_of(growth, from);
-    for (int32_t r = 0; growth->moving.remembers && r < growth->moving.count;
-         r++, c += growth->states) {
-        const MovingUnknown *row = &growth->moving.list[r];
-        if (row->node >= 0)
-            growth->step[r] += friction_respond(&growth->moving.rates[row->node], s, 0, c, NULL) /
-                               s;
-        else
-            growth->step[r] -= row->memory * *c / (s * (s + row->fading));
-    }
-}
-
-// z of `to`, from the velocities in growth->step.
-static void put_memories(const Growth *growth, double s, const double *from, double *to)
-{
-    const double *c = memories_of(growth, from);
-    double *z = memories_of(growth, to);
-    memset(z, 0, (size_t)growth->states * (size_t)growth->interface->count * sizeof *z);
-    for (int32_t r = 0; r < growth->moving.count; r++, c += growth->states, z += growth->states) {
-        const MovingUnknown *row = &growth->moving.list[r];
-        if (row->node >= 0)
-            friction_respond(&growth->moving.rates[row->node], s, growth->step[r], c, z);
-        else if (row->memory != 0)
-            *z = (s * growth->step[r] - *c) / (s + row->fading);
-    }
 }
 
 // The stretches of branch k in x: [dof_count], behind all else.
@@ -242,71 +168,94 @@ static double *stretch_of(const Growth *growth, const double *x, int32_t k)
            (int64_t)k * growth->system->dof_count;
 }
 
-// Adds to growth->rhs what is stretched in `from`, sum_k K_k c_k/(s (s + 1/tau_k)).
-static void pull_branches(Growth *growth, double s, const double *from)
-{
-    const Spectrum *spectrum = growth->spectrum;
-    int32_t n = growth->system->dof_count;
-    for (int32_t j = 0; j < spectrum->shape_count; j++) {
-        memset(growth->sum, 0, (size_t)n * sizeof *growth->sum);
-        for (int32_t k = 0; k < spectrum->count; k++) {
-            const double *c = stretch_of(growth, from, k);
-            double factor = spectrum->share[k][j] / (s * (s + 1 / spectrum->time[k]));
-            for (int32_t i = 0; i < n; i++) growth->sum[i] += factor * c[i];
-        }
-        bulk_operator_apply(growth->system, bulk_shape(j), growth->sum, growth->image);
-        for (int32_t i = 0; i < n; i++) growth->rhs[i] += growth->image[i];
-    }
-}
-
-// Stretches of `to`, whose velocities stand in it already.
-static void put_branches(const Growth *growth, double s, const double *from, double *to)
-{
-    int32_t n = growth->system->dof_count;
-    for (int32_t k = 0; k < growth->spectrum->count; k++) {
-        const double *c = stretch_of(growth, from, k), *y = to + n;
-        double *e = stretch_of(growth, to, k);
-        for (int32_t i = 0; i < n; i++)
-            e[i] = (s * y[i] - c[i]) / (s + 1 / growth->spectrum->time[k]);
-    }
-}
-
-// to = shifted inverse of from; both [state_size].
-// to and from must be distinct. Held unknowns come out as 0, as they come in: the border is set so.
+// to = shifted inverse of from; both [state_size], distinct. Held unknowns come out as 0, as they
+// come in: the border is set so.
 static bool apply_inverse(Growth *growth, int32_t k, const double *from, double *to, Error *err)
 {
     BulkOperator *system = growth->system;
+    const Interface *interface = growth->interface;
+    const Spectrum *spectrum = growth->spectrum;
+    const MovingSet *moving = &growth->moving;
+    double *step = growth->step, *rhs = growth->rhs, *sum = growth->sum, *image = growth->image;
     int32_t n = system->dof_count;
     double s = growth->shift[k];
-    const double *a = from, *b = from + n;
+    const double *a = from, *b = from + n, *c;
     double rod = growth->on_spring ? from[2 * (int64_t)n] : 0, square = s * s;
-    bulk_operator_apply(system, BULK_MASS, b, growth->rhs);
-    bulk_operator_apply(system, BULK_STIFFNESS, a, growth->image);
-    for (int32_t j = 0; j < n; j++) growth->rhs[j] = growth->image[j] / square - growth->rhs[j];
-    pull_branches(growth, s, from);
-    interface_operator_pull(growth->at[k], system->machine.stiffness * rod / square);
-    TRY(interface_operator_condense(growth->at[k], growth->rhs, growth->g, err));
-    for (int32_t r = 0; r < growth->moving.count; r++) {
-        const MovingUnknown *row = &growth->moving.list[r];
-        double way = a[system->interface_dofs[row->unknown]] - rod;   // of soft nodes
-        growth->step[r] = growth->g[row->unknown] + row->spring * way / square;
-        if (row->normal >= 0) growth->step[r] += row->friction * growth->g[row->normal];
+
+    // The right side in the bulk: K a/s^2 - M b, and what the branches are stretched by,
+    // sum_k K_k c_k/(s (s + 1/tau_k)).
+    bulk_operator_apply(system, BULK_MASS, b, rhs);
+    bulk_operator_apply(system, BULK_STIFFNESS, a, image);
+    for (int32_t j = 0; j < n; j++) rhs[j] = image[j] / square - rhs[j];
+    for (int32_t j = 0; j < spectrum->shape_count; j++) {
+        memset(sum, 0, (size_t)n * sizeof *sum);
+        for (int32_t l = 0; l < spectrum->count; l++) {
+            double factor = spectrum->share[l][j] / (s * (s + 1 / spectrum->time[l]));
+            c = stretch_of(growth, from, l);
+            for (int32_t i = 0; i < n; i++) sum[i] += factor * c[i];
+        }
+        bulk_operator_apply(system, bulk_shape(j), sum, image);
+        for (int32_t i = 0; i < n; i++) rhs[i] += image[i];
     }
-    moving_set_turn_vector(&growth->moving, false, growth->step);
-    pull_memories(growth, s, from);
-    dense_lu_solve(growth->matrix, growth->moving.count, growth->pivots, growth->step);
-    if (growth->states > 0) put_memories(growth, s, from, to);
-    moving_set_turn_vector(&growth->moving, true, growth->step);
-    memset(growth->border, 0, (size_t)growth->interface->count * sizeof(double));
-    for (int32_t r = 0; r < growth->moving.count; r++)
-        growth->border[growth->moving.list[r].unknown] = growth->step[r];
+    interface_operator_pull(growth->at[k], system->machine.stiffness * rod / square);
+    TRY(interface_operator_condense(growth->at[k], rhs, growth->g, err));
+
+    // The moving unknowns' rows of it, with springs of soft rod nodes and what friction remembers.
+    for (int32_t r = 0; r < moving->count; r++) {
+        const MovingUnknown *row = &moving->list[r];
+        double way = a[system->interface_dofs[row->unknown]] - rod;   // of soft nodes
+        step[r] = growth->g[row->unknown] + row->spring * way / square;
+        if (row->normal >= 0) step[r] += row->friction * growth->g[row->normal];
+    }
+    moving_set_turn_vector(moving, false, step);
+    c = memories_of(growth, from);
+    for (int32_t r = 0; moving->remembers && r < moving->count; r++, c += growth->states) {
+        const MovingUnknown *row = &moving->list[r];
+        if (row->node >= 0)
+            step[r] += friction_respond(&moving->rates[row->node], s, 0, c, NULL) / s;
+        else
+            step[r] -= row->memory * *c / (s * (s + row->fading));
+    }
+
+    // Their velocities, and by these what friction remembers then.
+    dense_lu_solve(growth->matrix, moving->count, growth->pivots, step);
+    double *z = memories_of(growth, to);
+    c = memories_of(growth, from);
+    memset(z, 0, (size_t)growth->states * (size_t)interface->count * sizeof *z);
+    for (int32_t r = 0; growth->states > 0 && r < moving->count;
+         r++, c += growth->states, z += growth->states) {
+        const MovingUnknown *row = &moving->list[r];
+        if (row->node >= 0)
+            friction_respond(&moving->rates[row->node], s, step[r], c, z);
+        else if (row->memory != 0)
+            *z = (s * step[r] - *c) / (s + row->fading);
+    }
+    moving_set_turn_vector(moving, true, step);
+
+    // Velocities and displacements of all unknowns.
+    memset(growth->border, 0, (size_t)interface->count * sizeof(double));
+    for (int32_t r = 0; r < moving->count; r++) growth->border[moving->list[r].unknown] = step[r];
     double own = interface_operator_release(growth->at[k], growth->border);
     TRY(interface_operator_expand(growth->at[k], growth->border, to + n, err));
-    for (int32_t j = 0; j < growth->interface->count; j++)
+    for (int32_t j = 0; j < interface->count; j++)
         to[n + system->interface_dofs[j]] = growth->border[j];
     for (int32_t j = 0; j < n; j++) to[j] = to[n + j] - a[j] / s;
-    if (growth->on_spring) put_rod(growth, own - rod / s, to);
-    put_branches(growth, s, from, to);
+
+    // Rod nodes that are held go the rod's way to the last bit: what they would fall behind by
+    // rounding is an eigenvector of its own, with theta = -1/s.
+    if (growth->on_spring) to[2 * (int64_t)n] = own - rod / s;
+    for (int32_t j = 0; growth->on_spring && j < interface->rod_count; j++) {
+        int32_t x = interface_rod(interface, j), r = 0;
+        while (r < moving->count && moving->list[r].unknown != x) r++;
+        if (r == moving->count) to[system->interface_dofs[x]] = own - rod / s;
+    }
+
+    // Stretches of the branches, by these velocities.
+    for (int32_t l = 0; l < spectrum->count; l++) {
+        double *e = stretch_of(growth, to, l), rate = 1 / spectrum->time[l];
+        c = stretch_of(growth, from, l);
+        for (int32_t i = 0; i < n; i++) e[i] = (s * to[n + i] - c[i]) / (s + rate);
+    }
 cleanup:
     return error_is_clean(err);
 }
@@ -328,31 +277,25 @@ static double orthogonalise(Growth *growth, int32_t count, double *x, double *do
     return norm;
 }
 
-// The first vector: what an uneven slip brings about.
-static bool start_basis(Growth *growth, int32_t k, Error *err)
-{
-    int32_t n = growth->system->dof_count;
-    double *seed = growth->basis + state_size(growth), *dots = growth->projected;
-    memset(seed, 0, (size_t)state_size(growth) * sizeof(double));
-    for (int32_t j = 0; j < n; j++) seed[j] = 1e-3 * (1 + 0.5 * cos(1.7 * j));
-    for (int32_t j = 0; j < growth->interface->count; j++)
-        seed[growth->system->interface_dofs[j]] = 0;
-    for (int32_t r = 0; r < growth->moving.count; r++)
-        seed[growth->system->interface_dofs[growth->moving.list[r].unknown]] = 1 +
-                                                                               0.5 * cos(1.3 * r);
-    TRY(apply_inverse(growth, k, seed, growth->basis, err));
-    orthogonalise(growth, 0, growth->basis, dots);
-cleanup:
-    return error_is_clean(err);
-}
-
 // Fills `projected` [VECTORS_LIMIT + 1 rows]; *count: the dimension reached, *rest: its last
 // residual. Arnoldi: column j of `projected` has the products of step j, below its diagonal the
 // length of what was new.
 static bool build_basis(Growth *growth, int32_t k, int32_t *count, double *rest, Error *err)
 {
+    const int32_t *dofs = growth->system->interface_dofs;
     int64_t size = state_size(growth), rows = VECTORS_LIMIT + 1;
-    TRY(start_basis(growth, k, err));
+    double *seed = growth->basis + size;
+
+    // The first vector: what an uneven slip brings about.
+    memset(seed, 0, (size_t)size * sizeof(double));
+    for (int32_t j = 0; j < growth->system->dof_count; j++)
+        seed[j] = 1e-3 * (1 + 0.5 * cos(1.7 * j));
+    for (int32_t j = 0; j < growth->interface->count; j++) seed[dofs[j]] = 0;
+    for (int32_t r = 0; r < growth->moving.count; r++)
+        seed[dofs[growth->moving.list[r].unknown]] = 1 + 0.5 * cos(1.3 * r);
+    TRY(apply_inverse(growth, k, seed, growth->basis, err));
+    orthogonalise(growth, 0, growth->basis, growth->projected);
+
     memset(growth->projected, 0, sizeof growth->projected);
     for (*count = 0; *count < VECTORS_LIMIT;) {
         int32_t j = (*count)++;
@@ -424,35 +367,27 @@ static int32_t keep_rate(GrowthRates *rates, GrowthRate found, double shift)
     return place;
 }
 
-// One converged eigenpair: columns re (and im) of its Ritz vector.
-static void take_pair(Growth *growth, int32_t count, GrowthRate found, const double *re,
-                      const double *im, GrowthRates *rates)
-{
-    if (keep_rate(rates, found, growth->near) == 0) {
-        lift_mode(growth, count, re, growth->mode_re);
-        memset(growth->mode_im, 0, (size_t)growth->interface->count * sizeof(double));
-        if (im) lift_mode(growth, count, im, growth->mode_im);
-        // The pair came by theta with im > 0; lambda with im > 0 has the conjugate vector.
-        for (int32_t m = 0; m < growth->interface->count; m++) growth->mode_im[m] *= -1;
-        scale_mode(growth, growth->mode_re, growth->mode_im);
-    }
-    if (found.im == 0 && found.re > rates->real.re) {
-        rates->real = found;
-        lift_mode(growth, count, re, growth->real_mode);
-        scale_mode(growth, growth->real_mode, NULL);
-        rates->real_mode = growth->real_mode;
-    }
-}
-
 // theta of largest modulus belong to the lambda nearest to s, and converge first. rest * last
 // component of the Ritz vector is the residual of the pair.
 static bool rates_near_shift(Growth *growth, int32_t k, GrowthRates *rates, Error *err)
 {
+    MovingSet *moving = &growth->moving;
+    const double *schur = interface_operator_schur(growth->at[k]);
     int32_t count = 0;
     double rest = 0, s = growth->shift[k];
     int64_t rows = VECTORS_LIMIT + 1;
-    growth->near = s;
-    if (!factor_moving(growth, k)) return true;   // s is itself a rate; other shifts see it
+    size_t bytes = (size_t)growth->interface->count * sizeof(double);
+
+    // LU of the moving unknowns' rows of A - W, the friction rows combined.
+    moving_set_gather(moving, schur, 1, 0, growth->matrix);
+    moving_set_couple(moving, schur, growth->matrix);
+    moving_set_turn(moving, false, growth->matrix);
+    moving_set_add_dampers(moving, 1 / s, growth->matrix);
+    moving_set_subtract_weakening(moving, 1 / s, growth->matrix);
+    if (!dense_lu(growth->matrix, moving->count, growth->pivots))
+        return true;   // s is itself a rate; other shifts see it
+
+    // Its space, and the eigenvalues of what it makes of the inverse.
     TRY(build_basis(growth, k, &count, &rest, err));
     for (int32_t j = 0; j < count; j++)
         memcpy(growth->square + (int64_t)count * j, growth->projected + rows * j,
@@ -460,6 +395,8 @@ static bool rates_near_shift(Growth *growth, int32_t k, GrowthRates *rates, Erro
     if (!dense_eigen_general(growth->square, count, growth->theta_re, growth->theta_im,
                              growth->ritz, growth->eigen_work))
         FAIL(err, ERROR_COMPUTE, "the growth rates near %g were not found", s);
+
+    // Pairs that have converged: the rightmost, and the largest that is real, with their modes.
     for (int32_t j = 0; j < count; j++) {
         bool pair = growth->theta_im[j] != 0;
         double x = growth->theta_re[j], y = growth->theta_im[j], square = x * x + y * y;
@@ -468,9 +405,22 @@ static bool rates_near_shift(Growth *growth, int32_t k, GrowthRates *rates, Erro
         if (pair) j++;
         if (!(rest * last <= RESIDUAL_LIMIT * sqrt(square))) continue;
         if (s * sqrt(square) < NO_RATE) continue;
-        // lambda = s + 1/theta; of a pair the one with im > 0 is kept, whose vector is conjugate.
+        // lambda = s + 1/theta; of a pair the one with im > 0 is kept. It came by theta with
+        // im > 0; lambda with im > 0 has the conjugate vector.
         GrowthRate found = {.re = s + x / square, .im = fabs(y) / square};
-        take_pair(growth, count, found, re, im, rates);
+        if (keep_rate(rates, found, s) == 0) {
+            lift_mode(growth, count, re, growth->mode_re);
+            memset(growth->mode_im, 0, bytes);
+            if (im) lift_mode(growth, count, im, growth->mode_im);
+            for (int32_t m = 0; m < growth->interface->count; m++) growth->mode_im[m] *= -1;
+            scale_mode(growth, growth->mode_re, growth->mode_im);
+        }
+        if (found.im == 0 && found.re > rates->real.re) {
+            rates->real = found;
+            lift_mode(growth, count, re, growth->real_mode);
+            scale_mode(growth, growth->real_mode, NULL);
+            rates->real_mode = growth->real_mode;
+        }
     }
 cleanup:
     return error_is_clean(err);

@@ -39,69 +39,57 @@ static MovingUnknown *add_unknown(MovingSet *set, int32_t unknown)
     return moving;
 }
 
-// d [dim - 1] of node i: against friction where it has no speed.
-static void find_direction(const MovingSet *set, const State *state, int32_t i, double *d)
-{
-    int32_t t = interface_tangent(set->interface, i);
-    d[0] = status_direction(state->status[i]);
-    if (slip_tangents(set->interface) == 1) return;
-    d[1] = 0;
-    double speed = slip_size(set->interface, i, state->slip_rate);
-    double shear = slip_size(set->interface, i, state->reaction);
-    const double *along = speed > 0 ? state->slip_rate + t : state->reaction + t;
-    double length = speed > 0 ? speed : -shear;
-    for (int32_t c = 0; c < 2 && length != 0; c++) d[c] = along[c] / length;
-}
-
-// Across: friction mu r_n against a slip of that speed, which turns with it.
-static void add_across(MovingSet *set, int32_t t, int32_t n, double damper)
-{
-    set->turned[set->turned_count++] = set->count - 1;
-    MovingUnknown *across = add_unknown(set, t + 1);
-    across->normal = n;
-    across->damper = damper;
-}
-
-static void keep_memory(MovingSet *set, const FrictionRates *rates, int32_t i, double pressing,
-                        MovingUnknown *moving)
-{
-    if (rates->states == 1 && rates->rate_state[0][0] <= 0) {
-        moving->memory = -rates->mu_state[0] * rates->rate_speed[0] * pressing;
-        moving->fading = -rates->rate_state[0][0];
-        set->remembers = set->remembers || moving->memory != 0;
-    } else if (rates->states > 0) {
-        moving->node = i;
-        set->remembers = true;
-        set->rates[i] = *rates;
-        for (int32_t k = 0; k < rates->states; k++) set->rates[i].mu_state[k] *= pressing;
-    }
-}
-
+// The tangents of slipping node i, in space along the slip and across it.
 static void add_slipping(MovingSet *set, const State *state, int32_t i)
 {
-    int32_t t = interface_tangent(set->interface, i), n = interface_normal(set->interface, i);
-    double speed = slip_size(set->interface, i, state->slip_rate);
+    const Interface *interface = set->interface;
+    int32_t t = interface_tangent(interface, i), n = interface_normal(interface, i);
+    bool in_space = slip_tangents(interface) > 1;
+    double speed = slip_size(interface, i, state->slip_rate), pressing = state->reaction[n];
     FrictionRates rates;
-    state_friction(state, set->interface, friction_at(set->contact_friction, i), i, &rates);
-    double mu = rates.mu, d[TANGENTS_MAX];
-    MovingUnknown *moving = add_unknown(set, t);
-    find_direction(set, state, i, d);
-    moving->normal = n;
-    double follows = mu;   // friction where pressure grows
-    if (rates.mu_pressure != 0)
-        follows += rates.mu_pressure * state->reaction[n] / set->interface->weight[i];
-    moving->friction = d[0] * follows;
-    if (slip_tangents(set->interface) > 1) {
-        memcpy(set->direction + 2 * (size_t)set->turned_count, d, sizeof d);
-        double pressing = state->reaction[n];
-        double damper = speed > 0 ? mu * pressing / speed : fmax(rates.mu_speed, 0) * pressing;
-        add_across(set, t, n, damper);
-        moving[1].friction = d[1] * follows;
+    state_friction(state, interface, friction_at(set->contact_friction, i), i, &rates);
+
+    // Direction d of the slip; against friction where it has no speed.
+    double d[TANGENTS_MAX] = {status_direction(state->status[i])};
+    if (in_space) {
+        double shear = slip_size(interface, i, state->reaction);
+        const double *along = speed > 0 ? state->slip_rate + t : state->reaction + t;
+        double length = speed > 0 ? speed : -shear;
+        for (int32_t c = 0; c < 2 && length != 0; c++) d[c] = along[c] / length;
     }
+
+    // Along: friction where pressure grows, and where speed does.
+    MovingUnknown *moving = add_unknown(set, t);
+    double follows = rates.mu;
+    if (rates.mu_pressure != 0) follows += rates.mu_pressure * pressing / interface->weight[i];
+    moving->normal = n;
+    moving->friction = d[0] * follows;
     double slope = rates.mu_speed;
-    *(slope > 0 ? &moving->damper : &moving->weakening) = fabs(slope) * state->reaction[n];
-    keep_memory(set, &rates, i, state->reaction[n], moving);
+    *(slope > 0 ? &moving->damper : &moving->weakening) = fabs(slope) * pressing;
     set->weakens = set->weakens || moving->weakening > 0;
+
+    // Across: friction mu r_n against a slip of that speed, which turns with it.
+    if (in_space) {
+        memcpy(set->direction + 2 * (size_t)set->turned_count, d, sizeof d);
+        set->turned[set->turned_count++] = set->count - 1;
+        MovingUnknown *across = add_unknown(set, t + 1);
+        across->normal = n;
+        across->friction = d[1] * follows;
+        across->damper = speed > 0 ? rates.mu * pressing / speed
+                                   : fmax(rates.mu_speed, 0) * pressing;
+    }
+
+    // Memory of the slip in friction: one state that fades, or several.
+    if (rates.states == 1 && rates.rate_state[0][0] <= 0) {
+        moving->memory = -rates.mu_state[0] * rates.rate_speed[0] * pressing;
+        moving->fading = -rates.rate_state[0][0];
+        set->remembers = set->remembers || moving->memory != 0;
+    } else if (rates.states > 0) {
+        moving->node = i;
+        set->remembers = true;
+        set->rates[i] = rates;
+        for (int32_t k = 0; k < rates.states; k++) set->rates[i].mu_state[k] *= pressing;
+    }
 }
 
 void moving_set_find(MovingSet *set, const State *state, bool with_open)
@@ -187,16 +175,6 @@ void moving_set_turn_vector(const MovingSet *set, bool back, double *vector)
     }
 }
 
-// The block of a node's own rows and columns, which has no upper triangle.
-static void turn_lower_block(const double d[2], double *block, int64_t count)
-{
-    double upper = block[1], *second = block + count;
-    turn(d, block, block + 1);
-    turn(d, &upper, second + 1);
-    turn(d, block, &upper);
-    turn(d, block + 1, second + 1);
-}
-
 void moving_set_turn(const MovingSet *set, bool lower, double *matrix)
 {
     int64_t count = set->count;
@@ -210,7 +188,14 @@ void moving_set_turn(const MovingSet *set, bool lower, double *matrix)
     for (int32_t k = 0; k < set->turned_count; k++) {
         int64_t a = set->turned[k];
         double *column = matrix + count * a;
-        if (lower) turn_lower_block(set->direction + 2 * k, column + a, count);
+        if (lower) {   // the block of a node's own rows and columns, which has no upper triangle
+            const double *d = set->direction + 2 * k;
+            double *block = column + a, upper = block[1], *second = block + count;
+            turn(d, block, block + 1);
+            turn(d, &upper, second + 1);
+            turn(d, block, &upper);
+            turn(d, block + 1, second + 1);
+        }
         for (int64_t r = lower ? a + 2 : 0; r < count; r++)
             turn(set->direction + 2 * k, column + r, column + count + r);
     }

@@ -72,37 +72,6 @@ static void add_scaled(double factor, const double *x, int32_t count, double *y)
     for (int32_t k = 0; k < count; k++) y[k] += factor * x[k];
 }
 
-// Size of the local error of u, as stepping/tableau estimates it.
-static double estimate_error(Sdirk *scheme, const State *from, const State *to, double step)
-{
-    const Tableau *tableau = &scheme->tableau;
-    int32_t dofs = scheme->system->dof_count, stages = tableau->stages;
-    double *error = scheme->rhs;
-    for (int32_t k = 0; k < dofs; k++)
-        error[k] = step * (tableau->error[0] * from->velocity[k] +
-                           tableau->error[stages] * to->velocity[k]);
-    for (int32_t i = 0; i + 1 < stages; i++)
-        add_scaled(step * tableau->error[i + 1], scheme->stage_velocity + (int64_t)i * dofs, dofs,
-                   error);
-    return bulk_operator_size(scheme->system, error);
-}
-
-// Largest |M a + C v + K u + sum_k K_k e_k - f - r|, but for M a all computed for it. K u stays:
-// what the steps add up of it must not drift.
-static double end_residual(Sdirk *scheme, State *to)
-{
-    const BulkOperator *system = scheme->system;
-    double *viscous = scheme->viscous, factor = load_factor(scheme->course, to->time);
-    bulk_operator_apply(system, BULK_DAMPING, to->velocity, viscous);
-    bulk_operator_apply(system, BULK_STIFFNESS, to->displacement, to->elastic_force);
-    for (int32_t k = 0; k < to->dof_count; k++)
-        viscous[k] += to->inertia[k] + to->elastic_force[k] - factor * system->load[k];
-    branches_add_force(&scheme->branches, to, viscous);
-    for (int32_t k = 0; k < to->interface_count; k++)
-        viscous[system->interface_dofs[k]] -= to->reaction[k];
-    return dense_max_abs(viscous, to->dof_count);
-}
-
 // Solves stage i of a step with level k: v_i, and what later stages, the ledger and, of the last
 // stage, the end state need of it.
 static bool solve_stage(Sdirk *scheme, int32_t k, int32_t i, const State *from, State *to,
@@ -263,12 +232,34 @@ bool sdirk_step(Sdirk *scheme, int32_t k, const State *from, State *to, StepOutc
         if (!outcome->solved) goto cleanup;
     }
 
-    double step = dt_level_step(scheme->dt_levels, k);
-    outcome->error = estimate_error(scheme, from, to, step);
-    double forgets = friction_states_error(&scheme->memory, &scheme->tableau, step);
+    // Size of the local error of u, as stepping/tableau estimates it, and that of friction's
+    // states.
+    const Tableau *tableau = &scheme->tableau;
+    const BulkOperator *system = scheme->system;
+    double step = dt_level_step(scheme->dt_levels, k), *error = scheme->rhs;
+    int32_t dofs = system->dof_count, stages = tableau->stages;
+    for (int32_t d = 0; d < dofs; d++)
+        error[d] = step * (tableau->error[0] * from->velocity[d] +
+                           tableau->error[stages] * to->velocity[d]);
+    for (int32_t i = 0; i + 1 < stages; i++)
+        add_scaled(step * tableau->error[i + 1], scheme->stage_velocity + (int64_t)i * dofs, dofs,
+                   error);
+    outcome->error = bulk_operator_size(system, error);
+    double forgets = friction_states_error(&scheme->memory, tableau, step);
     if (forgets > outcome->error) outcome->error = forgets;
-    bool audited = scheme->steps++ % AUDIT_EVERY == 0;
-    outcome->residual = audited ? end_residual(scheme, to) : 0;
+
+    // Now and then the largest |M a + C v + K u + sum_k K_k e_k - f - r|, but for M a all computed
+    // for it. K u stays: what the steps add up of it must not drift.
+    if (scheme->steps++ % AUDIT_EVERY != 0) goto cleanup;
+    double *sum = scheme->viscous, factor = load_factor(scheme->course, to->time);
+    bulk_operator_apply(system, BULK_DAMPING, to->velocity, sum);
+    bulk_operator_apply(system, BULK_STIFFNESS, to->displacement, to->elastic_force);
+    for (int32_t d = 0; d < dofs; d++)
+        sum[d] += to->inertia[d] + to->elastic_force[d] - factor * system->load[d];
+    branches_add_force(&scheme->branches, to, sum);
+    for (int32_t m = 0; m < to->interface_count; m++)
+        sum[system->interface_dofs[m]] -= to->reaction[m];
+    outcome->residual = dense_max_abs(sum, dofs);
 cleanup:
     return error_is_clean(err);
 }

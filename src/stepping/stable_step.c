@@ -20,18 +20,7 @@ typedef struct Tridiagonal {
     double diagonal[LANCZOS_STEPS], beside[LANCZOS_STEPS];   // beside[k]: between k and k + 1
 } Tridiagonal;
 
-static bool has_eigenvalue_above(const Tridiagonal *matrix, double x)
-{
-    double pivot = 1;
-    for (int32_t k = 0; k < matrix->size; k++) {
-        double coupling = k > 0 ? matrix->beside[k - 1] : 0;
-        pivot = matrix->diagonal[k] - x - (k > 0 ? coupling * coupling / pivot : 0);
-        if (pivot > 0) return true;
-        if (pivot == 0) pivot = -1e-300;
-    }
-    return false;
-}
-
+// By halving from Gershgorin's bound on, to the last bit.
 static double largest_eigenvalue(const Tridiagonal *matrix)
 {
     double low = 0, high = 0;
@@ -41,9 +30,18 @@ static double largest_eigenvalue(const Tridiagonal *matrix)
         high = fmax(high, matrix->diagonal[k] + fabs(left) + fabs(right));
     }
     for (;;) {
-        double middle = 0.5 * (low + high);
-        if (!(low < middle && middle < high)) return high;   // to the last bit
-        *(has_eigenvalue_above(matrix, middle) ? &low : &high) = middle;
+        double middle = 0.5 * (low + high), pivot = 1;
+        if (!(low < middle && middle < high)) return high;
+        // Sturm: an eigenvalue lies above the middle, if a pivot of the matrix less the middle is
+        // positive.
+        bool above = false;
+        for (int32_t k = 0; k < matrix->size && !above; k++) {
+            double coupling = k > 0 ? matrix->beside[k - 1] : 0;
+            pivot = matrix->diagonal[k] - middle - (k > 0 ? coupling * coupling / pivot : 0);
+            above = pivot > 0;
+            if (pivot == 0) pivot = -1e-300;
+        }
+        *(above ? &low : &high) = middle;
     }
 }
 

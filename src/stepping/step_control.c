@@ -131,32 +131,11 @@ static int32_t wave_level(const StepControl *control)
     return dt_level_find(&control->dt_levels, control->def.wave_step);
 }
 
-static bool step_balances(const StepControl *control, int32_t k, const StepOutcome *outcome)
-{
-    double part = LEDGER_SHARE * control->def.energy_tolerance;
-    if (part == 0 || control->settles || k > wave_level(control)) return true;
-    EnergyLedger after = book_step(control, k, outcome);
-    double missing = fabs(energy_imbalance(&after));
-    return missing <=
-           fmax(part * energy_turnover(&after), fabs(energy_imbalance(&control->ledger)));
-}
-
 void step_control_disturb(StepControl *control)
 {
     int32_t resolving = wave_level(control), last = control->dt_levels.level_count - 1;
     oscillation_record_clear(&control->oscillations);
     if (control->level < resolving) control->level = resolving < last ? resolving : last;
-}
-
-// No oscillation that a disturbance as fast as slip itself starts, at the s of these levels, comes
-// near v_c in half a period.
-static bool oscillations_stay_small(StepControl *control, const State *state, LevelRange range)
-{
-    double fastest = 0;
-    for (int32_t i = 0; i < state->contact_count; i++)
-        fastest = fmax(fastest, slip_size(control->scheme.interface, i, state->slip_rate));
-    double growth = SMALL_OSCILLATION * control->scheme.friction->critical_velocity / fastest;
-    return growth > 1 && parts_ask(parts_of(control), state, PARTS_OSCILLATE_LESS, range, growth);
 }
 
 // May `state` be left or reached by a step of level k, which does not resolve waves? What
@@ -176,8 +155,18 @@ static bool may_skip_waves(StepControl *control, const State *state, int32_t k)
         small = seen && k >= slowest;
     else
         all.first = 0;
-    return (small || oscillations_stay_small(control, state, seen ? unseen : all)) &&
-           parts_ask(parts_of(control), state, PARTS_EXCLUDE_RUNAWAY, all, 0);
+
+    // No oscillation that a disturbance as fast as slip itself starts, at the s of these levels,
+    // comes near v_c in half a period.
+    if (!small) {
+        double fastest = 0;
+        for (int32_t i = 0; i < state->contact_count; i++)
+            fastest = fmax(fastest, slip_size(control->scheme.interface, i, state->slip_rate));
+        double growth = SMALL_OSCILLATION * control->scheme.friction->critical_velocity / fastest;
+        small = growth > 1 && parts_ask(parts_of(control), state, PARTS_OSCILLATE_LESS,
+                                        seen ? unseen : all, growth);
+    }
+    return small && parts_ask(parts_of(control), state, PARTS_EXCLUDE_RUNAWAY, all, 0);
 }
 
 // The cheapest questions come first. *certified and *antisymmetric_decays are of the state that the
@@ -189,9 +178,18 @@ static Verdict judge_step(StepControl *control, int32_t k, const StepOutcome *ou
     *antisymmetric_decays = false;
     if (!outcome->solved || !isfinite(outcome->error)) return STEP_UNSOLVED;
     if (outcome->error > control->def.tolerance) return STEP_INACCURATE;
-    // Where no shorter step is left the run's own ledger decides (run/simulation).
+
+    // The ledger, where the step resolves waves. Where no shorter step is left the run's own ledger
+    // decides (run/simulation).
+    double part = LEDGER_SHARE * control->def.energy_tolerance;
     bool last = k + 1 >= control->dt_levels.level_count;
-    if (!last && !step_balances(control, k, outcome)) return STEP_UNBALANCED;
+    if (!last && part != 0 && !control->settles && k <= wave_level(control)) {
+        EnergyLedger after = book_step(control, k, outcome);
+        double missing = fabs(energy_imbalance(&after));
+        double before = fabs(energy_imbalance(&control->ledger));
+        if (!(missing <= fmax(part * energy_turnover(&after), before))) return STEP_UNBALANCED;
+    }
+
     if (!control->def.use_certificate) return STEP_ACCEPTED;
     double reach = dt_level_reach(&control->dt_levels, k);
     *certified = parts_hold(parts_of(control), &control->next, reach, antisymmetric_decays);
@@ -290,26 +288,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Looks for real growth in `now`, accepted at level k, on the levels that are built: some small
-// factorisations, so only when the slip set is larger than all that were looked at since the last
-// certified state. judge_step has looked at level k where that resolves waves.
-static void scan_growth(StepControl *control, int32_t k)
-{
-    int32_t slipping = 0;
-    for (int32_t i = 0; i < control->now.contact_count; i++)
-        slipping += control->now.status[i] != CONTACT_STICK;
-    if (control->certified) {
-        control->grows = false;
-        control->scanned = 0;
-    }
-    int32_t more = control->scheme.interface->dim > 2 ? control->now.contact_count / SCANNED_PARTS
-                                                      : 0;
-    if (control->certified || slipping <= control->scanned + more) return;
-    control->scanned = slipping;
-    LevelRange known = {k < wave_level(control) ? -1 : k, k + 1};
-    control->grows = !parts_ask(parts_of(control), &control->now, PARTS_FIND_NO_RUNAWAY, known, 0);
-}
-
 // A step that was shortened only to end where the run ends does not choose the next level.
 bool step_control_advance(StepControl *control, double remaining, Error *err)
 {
@@ -386,8 +364,25 @@ bool step_control_advance(StepControl *control, double remaining, Error *err)
     else
         counters->stepped_over_oscillations += !certified;
 
-    // The next step needs to know whether slip runs away, and its level.
-    scan_growth(control, k);
+    // Real growth is looked for in `now` on the levels that are built: some small factorisations,
+    // so only when the slip set is larger than all that were looked at since the last certified
+    // state. judge_step has looked at level k where that resolves waves.
+    if (certified) {
+        control->grows = false;
+        control->scanned = 0;
+    } else {
+        int32_t contacts = control->now.contact_count, slipping = 0;
+        int32_t more = control->scheme.interface->dim > 2 ? contacts / SCANNED_PARTS : 0;
+        for (int32_t i = 0; i < contacts; i++) slipping += control->now.status[i] != CONTACT_STICK;
+        if (slipping > control->scanned + more) {
+            LevelRange known = {k < wave_level(control) ? -1 : k, k + 1};
+            control->scanned = slipping;
+            control->grows =
+                !parts_ask(parts_of(control), &control->now, PARTS_FIND_NO_RUNAWAY, known, 0);
+        }
+    }
+
+    // The level of the next step.
     if (!shortened || retried) control->level = next_level(control, k, outcome.error, retried);
 cleanup:
     return error_is_clean(err);
@@ -403,13 +398,6 @@ void step_control_use_explicit(StepControl *control, const ExplicitReference *sc
     control->level = control->coarsest = 0;
 }
 
-static bool slips_faster(const Interface *interface, const State *state, double rate)
-{
-    for (int32_t i = 0; i < interface->contact_count; i++)
-        if (slip_size(interface, i, state->slip_rate) > rate) return true;
-    return false;
-}
-
 // The contact conditions of the last step stand where those of an implicit stage would. The
 // certificate limits nothing here; it says where l_sc is.
 bool step_control_advance_explicit(StepControl *control, ExplicitReference *scheme, int64_t steps,
@@ -417,10 +405,14 @@ bool step_control_advance_explicit(StepControl *control, ExplicitReference *sche
 {
     int64_t look = (int64_t)fmax(1, fmin(control->def.wave_step / scheme->def.step, (double)steps));
     int64_t end = scheme->steps + steps - scheme->steps % steps;
+    double fastest;   // slip rate of a node
     do {
         int64_t part = end - scheme->steps < look ? end - scheme->steps : look;
         TRY(explicit_reference_advance(scheme, part, &control->now, &control->ledger, err));
-    } while (scheme->steps < end && !slips_faster(scheme->def.interface, &control->now, rate));
+        fastest = 0;
+        for (int32_t i = 0; i < control->now.contact_count; i++)
+            fastest = fmax(fastest, slip_size(scheme->def.interface, i, control->now.slip_rate));
+    } while (scheme->steps < end && !(fastest > rate));
     control->last_step = scheme->def.step;
     control->counters.accepted = control->dt_levels.accepted[0] = scheme->steps;
     control->outcome.residual = scheme->residual;

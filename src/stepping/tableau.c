@@ -11,44 +11,6 @@
 
 enum { VALUES_MAX = TABLEAU_STAGES_MAX + 1 };   // of v: v_n and the stages
 
-// power[k + j rows]: A^k 1 of value j, k < rows. On v' = z v, dt = 1, v_n = 1, value j is the sum
-// over k of z^k times that; b makes of z^k in its stages what the last of them has of z^(k + 1).
-static void stage_powers(const Tableau *tableau, int32_t rows, double *power)
-{
-    for (int32_t i = 0; i <= tableau->stages; i++) {
-        power[i * rows] = 1;
-        for (int32_t k = 1; k < rows; k++) {
-            double sum = 0;
-            for (int32_t j = 1; j <= i; j++) {
-                double earlier = power[k - 1 + j * rows];
-                sum += tableau->a[i - 1][j - 1] * earlier;
-            }
-            power[k + i * rows] = sum;
-        }
-    }
-}
-
-// Row sums to c, and the weights of the error. There are as many stages as the order p: p + 1
-// values of v just suffice for e_0 v_n + e_1 v_1 + ... without powers of z below p, and with
-// 1/(p + 1)! - b A^p 1 of z^p.
-static void complete(Tableau *tableau)
-{
-    double power[VALUES_MAX * (VALUES_MAX + 1)], matrix[VALUES_MAX * VALUES_MAX];
-    int32_t stages = tableau->stages, values = stages + 1, rows = values + 1;
-    int32_t pivots[VALUES_MAX];
-    double factorial = 1;
-    stage_powers(tableau, rows, power);
-    for (int32_t j = 0; j < values; j++) {
-        factorial *= j + 1;
-        tableau->error[j] = 0;
-        for (int32_t k = 0; k < values; k++) matrix[k + j * values] = power[k + j * rows];
-    }
-    for (int32_t i = 0; i < stages; i++) tableau->c[i] = power[1 + (i + 1) * rows];
-    tableau->error[stages] = 1 / factorial - power[values + stages * rows];
-    dense_lu(matrix, values, pivots);   // regular for each tableau below: tested
-    dense_lu_solve(matrix, values, pivots, tableau->error);
-}
-
 Tableau tableau_of(TableauKind kind)
 {
     Tableau tableau = {.stages = 1, .order = 1, .gamma = 1, .a = {{1}}};
@@ -62,6 +24,37 @@ Tableau tableau_of(TableauKind kind)
         tableau = (Tableau){
             .stages = 3, .order = 3, .gamma = g, .a = {{g}, {(1 - g) / 2, g}, {b1, b2, g}}};
     }
-    complete(&tableau);
+
+    // power[k + j rows]: A^k 1 of value j, k < rows. On v' = z v, dt = 1, v_n = 1, value j is the
+    // sum over k of z^k times that; b makes of z^k in its stages what the last of them has of
+    // z^(k + 1). Row sums are c.
+    double power[VALUES_MAX * (VALUES_MAX + 1)];
+    int32_t stages = tableau.stages, values = stages + 1, rows = values + 1;
+    for (int32_t i = 0; i <= stages; i++) {
+        power[i * rows] = 1;
+        for (int32_t k = 1; k < rows; k++) {
+            double sum = 0;
+            for (int32_t j = 1; j <= i; j++) {
+                double earlier = power[k - 1 + j * rows];
+                sum += tableau.a[i - 1][j - 1] * earlier;
+            }
+            power[k + i * rows] = sum;
+        }
+    }
+    for (int32_t i = 0; i < stages; i++) tableau.c[i] = power[1 + (i + 1) * rows];
+
+    // Weights of the error. There are as many stages as the order p: p + 1 values of v just suffice
+    // for e_0 v_n + e_1 v_1 + ... without powers of z below p, and with 1/(p + 1)! - b A^p 1 of
+    // z^p.
+    double matrix[VALUES_MAX * VALUES_MAX], factorial = 1;
+    int32_t pivots[VALUES_MAX];
+    for (int32_t j = 0; j < values; j++) {
+        factorial *= j + 1;
+        tableau.error[j] = 0;
+        for (int32_t k = 0; k < values; k++) matrix[k + j * values] = power[k + j * rows];
+    }
+    tableau.error[stages] = 1 / factorial - power[values + stages * rows];
+    dense_lu(matrix, values, pivots);   // regular for each tableau here: tested
+    dense_lu_solve(matrix, values, pivots, tableau.error);
     return tableau;
 }

@@ -659,8 +659,8 @@ static bool is_nameless_error(const CsvTable *table, int32_t column, CsvUnit *un
     return false;
 }
 
-// Of a quotient, l/L, the error of what stands above, l_error, without a unit: over the same. False
-// where the table has a column of that name by itself.
+// The error of a quotient, l/L, is that of the numerator, l_error, over the same: without a unit.
+// False where the table has a column of that name by itself.
 static bool find_error_above(const CsvTable *table, const char *quotient, int32_t of,
                              int32_t *column, CsvUnit *unit)
 {

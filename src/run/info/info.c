@@ -15,37 +15,12 @@
 #include <string.h>
 #include <sys/stat.h>
 
-// The mesh that the scene names, with its parameters, and where the rod stands.
-static bool info_scene_mesh(const Scene *scene, const InfoOptions *options, FILE *out, Error *err)
-{
-    Mesh mesh = {0};
-    TRY(scene_mesh_read(scene, NULL, &mesh, NULL, err));
-    info_write_mesh(&mesh, out);
-    double middle = 0, width = 0;
-    model_rod_strip(scene, mesh.z_max - mesh.z_min, &middle, &width);
-    double strip[2] = {middle - 0.5 * width, middle + 0.5 * width};
-    const char *unit = scene->units == UNITS_SI ? "m" : "~{L}_{0}";
-    TRY(info_draw_mesh(&mesh, scene->rod.kind == ROD_NONE ? NULL : strip, unit, options, err));
-cleanup:
-    mesh_destroy(&mesh);
-    return error_is_clean(err);
-}
-
-// Writes mu at rest under a table that begins above v = 0.
-static void write_rest(const Scene *scene, FILE *out)
-{
-    const FrictionTable *table = &scene->friction.table;
-    bool given = scene->given[scene_key_index("friction.mu_static")];
-    if (table->first > 0)
-        fprintf(out, "The table begins at v = %.4g; at rest mu is %.6g, %s\n", table->first,
-                table->rest, given ? "friction.mu_static" : "its first value");
-}
-
 // Every key with its value after defaults; `-` where a key without a default was left out, which
 // the scene does not need then.
 static bool info_scene(const char *path, const InfoOptions *options, FILE *out, Error *err)
 {
     Scene *scene = NULL;
+    Mesh mesh = {0};
     int32_t count = 0;
     const SceneKey *keys = scene_keys(&count);
     bool (*read)(const char *, const char *const *, int32_t, Scene **, Error *) =
@@ -67,16 +42,31 @@ static bool info_scene(const char *path, const InfoOptions *options, FILE *out, 
         fprintf(out, "\nThe law's own mu at rest %.6g, lowest mu %.6g, v_c %.4g\n",
                 scene->friction.mu_static, scene->friction.mu_kinetic,
                 scene->friction.critical_velocity);
-    if (scene->friction.kind == FRICTION_TABLE) write_rest(scene, out);
+
+    // mu at rest under a table that begins above v = 0.
+    const FrictionTable *table = &scene->friction.table;
+    bool given = scene->given[scene_key_index("friction.mu_static")];
+    if (scene->friction.kind == FRICTION_TABLE && table->first > 0)
+        fprintf(out, "The table begins at v = %.4g; at rest mu is %.6g, %s\n", table->first,
+                table->rest, given ? "friction.mu_static" : "its first value");
     TRY(info_write_material(scene, out, err));
     fprintf(out, "\nThe mesh file is %s\n", scene->mesh.file);
     if (options->picture && info_picture_is_of(options->picture, "friction"))
         TRY(info_draw_friction(scene, options, err));
     else if (options->picture && info_picture_is_of(options->picture, "material"))
         TRY(info_draw_material(scene, options, err));
-    else if (options->picture)
-        TRY(info_scene_mesh(scene, options, out, err));
+    else if (options->picture) {
+        // The mesh that the scene names, with its parameters, and where the rod stands.
+        TRY(scene_mesh_read(scene, NULL, &mesh, NULL, err));
+        info_write_mesh(&mesh, out);
+        double middle = 0, width = 0;
+        model_rod_strip(scene, mesh.z_max - mesh.z_min, &middle, &width);
+        double strip[2] = {middle - 0.5 * width, middle + 0.5 * width};
+        const char *unit = scene->units == UNITS_SI ? "m" : "~{L}_{0}";
+        TRY(info_draw_mesh(&mesh, scene->rod.kind == ROD_NONE ? NULL : strip, unit, options, err));
+    }
 cleanup:
+    mesh_destroy(&mesh);
     amontons_scene_destroy(scene);
     return error_is_clean(err);
 }

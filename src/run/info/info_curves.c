@@ -219,29 +219,6 @@ static void find_ends(const RelaxationData *data, double ends[2])
     }
 }
 
-static void write_fit(const char *path, const MaterialData *data, const MaterialFit *fit, bool si,
-                      FILE *out)
-{
-    double ends[2], per = data->data.over_time ? 1 : TWO_PI;
-    const char *unit = !si ? "" : data->data.over_time ? " s" : " Hz";
-    find_ends(&data->data, ends);
-    fprintf(out,
-            "\nModuli of %s: %d branches, long-time E %.4g, eta1 %.4g; off by %.2g %% (root mean "
-            "square), %.2g %% at most\n  data from %.3g to %.3g%s; outside of them the fit goes on "
-            "as its branches do\n",
-            path, fit->relaxation.count, fit->young, fit->eta1, 100 * fit->misfit, 100 * fit->worst,
-            ends[0] / per, ends[1] / per, unit);
-    if (!(fit->eta1 > 0) && !data->data.over_time)
-        fprintf(
-            out,
-            "  nothing damps what is faster; eta1 = %.3g beside the file is a tenth of the loss at "
-            "the highest frequency\n",
-            material_fit_viscosity(fit, data));
-    for (int32_t k = 0; k < fit->relaxation.count; k++)
-        fprintf(out, "  time %-10.4g shear %-10.4g bulk %.4g\n", fit->relaxation.branch[k].time,
-                fit->relaxation.branch[k].shear, fit->relaxation.branch[k].bulk);
-}
-
 bool info_write_material(const Scene *scene, FILE *out, Error *err)
 {
     const SceneMaterial *found[FILES_MAX];
@@ -250,10 +227,29 @@ bool info_write_material(const Scene *scene, FILE *out, Error *err)
         MaterialData data;
         MaterialFit fit;
         const char *key = NULL;
-        bool done = scene_material_file(scene, found[k], &data, &fit, &key, err);
-        if (done) write_fit(path_of(scene, found[k]), &data, &fit, scene->units == UNITS_SI, out);
+        if (!scene_material_file(scene, found[k], &data, &fit, &key, err)) {
+            material_data_destroy(&data);
+            return false;
+        }
+        bool over_time = data.data.over_time;
+        double ends[2], per = over_time ? 1 : TWO_PI;
+        const char *unit = scene->units != UNITS_SI ? "" : over_time ? " s" : " Hz";
+        find_ends(&data.data, ends);
+        fprintf(out,
+                "\nModuli of %s: %d branches, long-time E %.4g, eta1 %.4g; off by %.2g %% (root "
+                "mean square), %.2g %% at most\n  data from %.3g to %.3g%s; outside of them the "
+                "fit goes on as its branches do\n",
+                path_of(scene, found[k]), fit.relaxation.count, fit.young, fit.eta1,
+                100 * fit.misfit, 100 * fit.worst, ends[0] / per, ends[1] / per, unit);
+        if (!(fit.eta1 > 0) && !over_time)
+            fprintf(out,
+                    "  nothing damps what is faster; eta1 = %.3g beside the file is a tenth of the "
+                    "loss at the highest frequency\n",
+                    material_fit_viscosity(&fit, &data));
+        for (int32_t b = 0; b < fit.relaxation.count; b++)
+            fprintf(out, "  time %-10.4g shear %-10.4g bulk %.4g\n", fit.relaxation.branch[b].time,
+                    fit.relaxation.branch[b].shear, fit.relaxation.branch[b].bulk);
         material_data_destroy(&data);
-        if (!done) return false;
     }
     return true;
 }

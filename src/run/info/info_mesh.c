@@ -12,63 +12,44 @@
 #include <math.h>
 #include <string.h>
 
-static const char *dimension_name(int32_t dimension)
-{
-    static const char *const names[] = {"point", "curve", "surface"};
-    return dimension >= 0 && dimension <= 2 ? names[dimension] : "volume";
-}
-
 static const char *size_name(const Mesh *mesh)
 {
     return mesh->dim == 2 ? "area" : "volume";
 }
 
-// Between its end nodes: the arc of a curved edge is not followed.
-static double edge_length(const Mesh *mesh, const MeshGroup *group, int32_t edge)
-{
-    const int32_t *nodes = group->face_nodes + (int64_t)edge * group->nodes_per_face;
-    return mesh_distance(mesh, nodes[0], nodes[1]);
-}
-
-// How long the curve is, and its cells; of a surface its nodes.
-static void write_boundary(const Mesh *mesh, const MeshGroup *group, FILE *out)
-{
-    if (mesh->dim > 2) {
-        fprintf(out, "%6d faces %6d nodes", group->face_count, group->node_count);
-        return;
-    }
-    double length = 0, shortest = INFINITY, longest = 0;
-    for (int32_t i = 0; i < group->face_count; i++) {
-        double edge = edge_length(mesh, group, i);
-        length += edge;
-        shortest = fmin(shortest, edge);
-        longest = fmax(longest, edge);
-    }
-    fprintf(out, "%6d edges %6d nodes   length %.6g, edges %.4g to %.4g", group->face_count,
-            group->node_count, length, group->face_count ? shortest : 0, longest);
-}
-
-// Cells and area or volume: what `materials` of a scene may name.
-static void write_region(const Mesh *mesh, const MeshGroup *group, FILE *out)
-{
-    double area = 0;
-    for (int32_t k = 0; k < group->element_count; k++)
-        area += mesh_element_area(mesh, group->elements[k]);
-    fprintf(out, "%6d cells                %s %.6g", group->element_count, size_name(mesh), area);
-}
-
+// Cells and area or volume of a region, which `materials` of a scene may name; how long a curve of
+// the boundary is, and its edges; faces and nodes of a surface.
 static void write_groups(const Mesh *mesh, FILE *out)
 {
+    static const char *const dimensions[] = {"point", "curve", "surface", "volume"};
     fprintf(out, "  groups\n");
     for (int32_t g = 0; g < mesh->group_count; g++) {
         const MeshGroup *group = &mesh->groups[g];
-        fprintf(out, "    %-16s %-7s", group->name, dimension_name(group->dimension));
-        if (group->dimension == mesh->dim)
-            write_region(mesh, group, out);
-        else if (group->dimension == mesh->dim - 1)
-            write_boundary(mesh, group, out);
-        else
+        int32_t dimension = group->dimension;
+        double size = 0, shortest = INFINITY, longest = 0;
+        fprintf(out, "    %-16s %-7s", group->name,
+                dimensions[dimension >= 0 && dimension <= 2 ? dimension : 3]);
+        if (dimension == mesh->dim) {
+            for (int32_t k = 0; k < group->element_count; k++)
+                size += mesh_element_area(mesh, group->elements[k]);
+            fprintf(out, "%6d cells                %s %.6g", group->element_count, size_name(mesh),
+                    size);
+        } else if (dimension == mesh->dim - 1 && mesh->dim > 2) {
+            fprintf(out, "%6d faces %6d nodes", group->face_count, group->node_count);
+        } else if (dimension == mesh->dim - 1) {
+            // Between end nodes: the arc of a curved edge is not followed.
+            for (int32_t k = 0; k < group->face_count; k++) {
+                const int32_t *nodes = group->face_nodes + (int64_t)k * group->nodes_per_face;
+                double edge = mesh_distance(mesh, nodes[0], nodes[1]);
+                size += edge;
+                shortest = fmin(shortest, edge);
+                longest = fmax(longest, edge);
+            }
+            fprintf(out, "%6d edges %6d nodes   length %.6g, edges %.4g to %.4g", group->face_count,
+                    group->node_count, size, group->face_count ? shortest : 0, longest);
+        } else {
             fprintf(out, "%6d nodes", group->node_count);
+        }
         fprintf(out, "\n");
     }
 }
@@ -92,27 +73,6 @@ void info_write_mesh(const Mesh *mesh, FILE *out)
     if (*mesh_move_text(mesh, moved)) fprintf(out, "  %s\n", moved);
     write_groups(mesh, out);
     if (mesh->warning[0]) fprintf(out, "  gmsh made it, but says: %s\n", mesh->warning);
-}
-
-// Which regions each part has, and which of them to name.
-static void write_parts(const Mesh *mesh, const MeshParts *parts, FILE *out)
-{
-    char text[PART_TEXT_SIZE];
-    fprintf(out, "  %d parts that share no node, none of them a base with a group `floor`\n",
-            parts->count);
-    for (int32_t k = 0; k < parts->count; k++)
-        fprintf(out, "    %s\n", mesh_part_text(mesh, parts, k, text));
-    fprintf(out, "    %s\n", mesh_parts_advice(mesh, parts, text));
-}
-
-// The mesh stands as in a scene that says nothing else; one without a contact as it is drawn.
-static bool stand(Mesh *mesh, Error *err)
-{
-    for (int32_t g = 0; g < mesh->group_count; g++)
-        if (mesh->groups[g].dimension == mesh->dim - 1 && mesh->groups[g].face_count > 0 &&
-            mesh_is_contact_name(mesh->groups[g].name))
-            return mesh_stand_on_floor(NULL, 0, mesh, err);
-    return true;
 }
 
 // "n=4" as a parameter of a .geo: what reads as a number is one.
@@ -143,12 +103,28 @@ bool info_mesh(const char *path, const InfoOptions *options, FILE *out, Error *e
     TRY(mesh_file_read(path, parameters, options->override_count, options->trust, NULL, &file,
                        err));
     TRY(mesh_build_parts(&file, path, "floor", &mesh, &parts, err));
-    if (parts.count == 1 || mesh.is_base) TRY(stand(&mesh, err));
+
+    // The mesh stands as in a scene that says nothing else; one without a contact as it is drawn.
+    bool has_contact = false;
+    for (int32_t g = 0; g < mesh.group_count; g++)
+        has_contact = has_contact ||
+                      (mesh.groups[g].dimension == mesh.dim - 1 && mesh.groups[g].face_count > 0 &&
+                       mesh_is_contact_name(mesh.groups[g].name));
+    if (has_contact && (parts.count == 1 || mesh.is_base))
+        TRY(mesh_stand_on_floor(NULL, 0, &mesh, err));
     info_write_mesh(&mesh, out);
-    if (mesh.is_base)
+
+    // Which regions each part has, and which of them to name.
+    if (mesh.is_base) {
         fprintf(out, "  block on a base that deforms: `floor` is the base's upper side\n");
-    else if (parts.count > 1)
-        write_parts(&mesh, &parts, out);
+    } else if (parts.count > 1) {
+        char text[PART_TEXT_SIZE];
+        fprintf(out, "  %d parts that share no node, none of them a base with a group `floor`\n",
+                parts.count);
+        for (int32_t k = 0; k < parts.count; k++)
+            fprintf(out, "    %s\n", mesh_part_text(&mesh, &parts, k, text));
+        fprintf(out, "    %s\n", mesh_parts_advice(&mesh, &parts, text));
+    }
     if (options->picture) TRY(info_draw_mesh(&mesh, NULL, NULL, options, err));
 cleanup:
     mesh_file_destroy(&file);

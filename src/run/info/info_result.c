@@ -45,38 +45,6 @@ static const struct {
     {"errors.moment", "moment error"},
 };
 
-// A number, to six digits where it is not whole, or a text; null: none.
-static void write_value(const char *text, const char *path, FILE *out)
-{
-    char words[ERROR_MESSAGE_SIZE];
-    double number = NAN;
-    if (json_find_text(text, path, words, sizeof words))
-        fputs(words, out);
-    else if (!json_find_number(text, path, &number) || isnan(number))
-        fputs("none", out);
-    else
-        fprintf(out, fabs(number) < 1e15 && number == floor(number) ? "%.0f" : "%.6g", number);
-}
-
-// A result of which run.json tells how far it is known; false: another.
-static bool write_estimate(const char *text, const char *path, FILE *out)
-{
-    char beside[PATH_SIZE], words[ESTIMATE_SIZE];
-    double value = NAN, known_to = NAN, error = NAN;
-    snprintf(beside, sizeof beside, "%s_known_to", path);
-    if (!json_find_number(text, beside, &known_to)) return false;
-    snprintf(beside, sizeof beside, "%s_error", path);
-    json_find_number(text, beside, &error);
-    json_find_number(text, path, &value);
-    bool has_bar = error == known_to;
-    text_estimate(value, has_bar ? error : (double)NAN, known_to, words);
-    fputs(words, out);
-    if (has_bar || isnan(value)) return true;
-    text_known_to(value, known_to, words);
-    fprintf(out, ", %s (on this mesh %.6g)", words, value);
-    return true;
-}
-
 // Entries that are missing in run.json (a failed run has no mu_M) are left out. The file may be
 // long: each event is in it, and no tree is made of it.
 static bool write_run(const char *folder, FILE *out, Error *err)
@@ -99,8 +67,30 @@ static bool write_run(const char *folder, FILE *out, Error *err)
     }
     for (size_t k = 0; k < sizeof entries / sizeof entries[0]; k++) {
         if (!json_may_hold(text, entries[k].path)) continue;
+        const char *entry = entries[k].path;
+        char beside[PATH_SIZE], words[ERROR_MESSAGE_SIZE];
+        double value = NAN, known_to = NAN, error = NAN;
         fprintf(out, "  %-18s ", entries[k].label);
-        if (!write_estimate(text, entries[k].path, out)) write_value(text, entries[k].path, out);
+        snprintf(beside, sizeof beside, "%s_known_to", entry);
+        if (json_find_number(text, beside, &known_to)) {
+            // A result of which run.json tells how far it is known.
+            snprintf(beside, sizeof beside, "%s_error", entry);
+            json_find_number(text, beside, &error);
+            json_find_number(text, entry, &value);
+            bool has_bar = error == known_to;
+            text_estimate(value, has_bar ? error : (double)NAN, known_to, words);
+            fputs(words, out);
+            if (!has_bar && !isnan(value)) {
+                text_known_to(value, known_to, words);
+                fprintf(out, ", %s (on this mesh %.6g)", words, value);
+            }
+        } else if (json_find_text(text, entry, words, sizeof words)) {
+            fputs(words, out);
+        } else if (!json_find_number(text, entry, &value) || isnan(value)) {
+            fputs("none", out);
+        } else {   // to six digits where it is not whole
+            fprintf(out, fabs(value) < 1e15 && value == floor(value) ? "%.0f" : "%.6g", value);
+        }
         fputc('\n', out);
     }
 cleanup:
@@ -109,17 +99,6 @@ cleanup:
 }
 
 enum { KIND, U_START, U_STOP, REACH, PEAK_RATE, EVENT_COLUMNS };
-
-static void write_events(double *const column[EVENT_COLUMNS], int32_t count, FILE *out)
-{
-    if (count == 0) return;
-    fprintf(out, "\n  %-14s %12s %12s %12s %14s\n", "event", "U start", "U stop", "reach",
-            "peak slip rate");
-    for (int32_t i = 0; i < count && i < EVENTS_SHOWN_MAX; i++)
-        fprintf(out, "  %-14s %12.6g %12.6g %12.6g %14.4g\n", event_words(column[KIND][i]),
-                column[U_START][i], column[U_STOP][i], column[REACH][i], column[PEAK_RATE][i]);
-    if (count > EVENTS_SHOWN_MAX) fprintf(out, "  ... and %d more\n", count - EVENTS_SHOWN_MAX);
-}
 
 // Reads history.h5, or history.h5.part where the run was killed: io/hdf5/result_file opens
 // whichever is there.
@@ -146,7 +125,13 @@ static bool write_history(const char *folder, FILE *out, Error *err)
     if (rows > 0) fprintf(out, ", U from %.6g to %.6g", rod[0], rod[rows - 1]);
     if (mu_rows > 0) fprintf(out, ", largest mu %.6g", mu_max);
     fprintf(out, "\n");
-    write_events(column, events, out);
+    if (events > 0)
+        fprintf(out, "\n  %-14s %12s %12s %12s %14s\n", "event", "U start", "U stop", "reach",
+                "peak slip rate");
+    for (int32_t i = 0; i < events && i < EVENTS_SHOWN_MAX; i++)
+        fprintf(out, "  %-14s %12.6g %12.6g %12.6g %14.4g\n", event_words(column[KIND][i]),
+                column[U_START][i], column[U_STOP][i], column[REACH][i], column[PEAK_RATE][i]);
+    if (events > EVENTS_SHOWN_MAX) fprintf(out, "  ... and %d more\n", events - EVENTS_SHOWN_MAX);
 cleanup:
     if (file) array_file_close(file, err);
     memory_free_all(rod, mu, x);

@@ -56,23 +56,13 @@ static bool is_field(const char *name)
     return false;
 }
 
-// `name` without what an unfinished file has behind it.
-static void strip_ending(const char *name, char bare[NAME_MAX + 1])
-{
-    static const char *const endings[] = {".part", ".part", ".journal"};
-    snprintf(bare, NAME_MAX + 1, "%s", name);
-    for (size_t k = 0; k < sizeof endings / sizeof *endings; k++) {
-        size_t length = strlen(bare), end = strlen(endings[k]);
-        if (length > end && strcmp(bare + length - end, endings[k]) == 0) bare[length - end] = 0;
-    }
-}
-
 bool own_file_visit(const char *folder, OwnFileFound found, void *context, Error *err)
 {
     static const struct {
         const char *name;
         bool (*is_own)(const char *);
     } rooms[] = {{"", is_proof}, {"/fields", is_field}, {"/figures", is_figure}};
+    static const char *const endings[] = {".part", ".part", ".journal"};
     char path[PATH_SIZE], bare[NAME_MAX + 1];
     bool whole = true;
     for (size_t k = 0; k < sizeof rooms / sizeof *rooms && whole; k++) {
@@ -80,7 +70,13 @@ bool own_file_visit(const char *folder, OwnFileFound found, void *context, Error
         DIR *directory = opendir(path);
         if (!directory) continue;   // what cannot be looked at shows when it is written to
         for (const struct dirent *entry; whole && (entry = readdir(directory));) {
-            strip_ending(entry->d_name, bare);
+            // Its name without what an unfinished file has behind it.
+            snprintf(bare, sizeof bare, "%s", entry->d_name);
+            for (size_t e = 0; e < sizeof endings / sizeof *endings; e++) {
+                size_t length = strlen(bare), end = strlen(endings[e]);
+                if (length > end && strcmp(bare + length - end, endings[e]) == 0)
+                    bare[length - end] = 0;
+            }
             snprintf(path, sizeof path, "%s%s/%s", folder, rooms[k].name, bare);
             whole = !rooms[k].is_own(bare) || found(path, context, err);
         }

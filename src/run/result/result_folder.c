@@ -32,15 +32,6 @@ static const char ASIDE[] = "amontons.aside", EARLIER[] = "amontons.earlier",
 static const char *const ENDINGS[] = {"", ".part", ".part.part"};
 enum { ENDING_COUNT = sizeof ENDINGS / sizeof *ENDINGS };
 
-// A folder that cannot be written to is told at once.
-static bool make_folder(const char *folder, Error *err)
-{
-    if (!folder_make(folder, err)) return false;
-    if (access(folder, W_OK | X_OK) != 0)
-        return FAULT(err, ERROR_FILE, "cannot write into %s: %s", folder, strerror(errno));
-    return true;
-}
-
 // `to` empty: it is removed. What is not there is no failure.
 static bool move_file(const char *from, const char *to, Error *err)
 {
@@ -208,7 +199,9 @@ bool result_folder_claim(const char *path, bool overwrite, ResultFolder *folder,
     char found[PATH_SIZE];
     *folder = (ResultFolder){0};
     if (!path) return true;
-    TRY(make_folder(path, err));
+    TRY(folder_make(path, err));
+    if (access(path, W_OK | X_OK) != 0)   // told at once
+        FAIL(err, ERROR_FILE, "cannot write into %s: %s", path, strerror(errno));
     if (strlen(path) >= sizeof folder->path)
         FAIL(err, ERROR_INPUT, "the path of the result folder is too long");
     memcpy(folder->path, path, strlen(path) + 1);

@@ -20,33 +20,11 @@
 #include <math.h>
 #include <string.h>
 
-// [dofs] and [interface->count] arrays, owned by *solution.
-static bool make_room(const Model *model, StaticSolution *solution, Error *err)
-{
-    int32_t dofs = model->bulk.dof_count;
-    const Interface *interface = &model->interface;
-    solution->displacement = NEW_ARRAY(double, dofs, err);
-    solution->load = NEW_ARRAY(double, dofs, err);
-    solution->reaction = NEW_ARRAY(double, dofs, err);
-    solution->work = NEW_ARRAY(double, dofs, err);
-    solution->contact_displacement = NEW_ARRAY(double, interface->count, err);
-    solution->contact_reaction = NEW_ARRAY(double, interface->count, err);
-    solution->status = NEW_ARRAY(uint8_t, interface->contact_count, err);
-    solution->rod_touches = NEW_ARRAY(uint8_t, interface->rod_count, err);
-    return error_is_clean(err);
-}
-
-static void static_solution_destroy(StaticSolution *solution)
-{
-    memory_free_all(solution->displacement, solution->load, solution->reaction, solution->work);
-    rod_destroy(&solution->rod);
-    memory_free_all(solution->contact_displacement, solution->contact_reaction, solution->status,
-                    solution->friction_nodes, solution->rod_touches);
-    *solution = (StaticSolution){0};
-}
-
-// Where the nodes may go: as far as the rod, and down to the substrate (bound [count]).
-static void fill_bounds(const Model *model, const StaticSolution *solution, double *bound)
+// Bounds say where the nodes may go: as far as the rod, and down to the substrate. They lie in
+// [interface_count] `bound`, borrowed, like rod and law of the solution; S and g are the caller's
+// to add. rod_reach 1: at a soft node r_x = (bound - u)/softness, as nothing moves.
+static ContactProblem contact_problem(const Model *model, const StaticSolution *solution,
+                                      double *bound)
 {
     const Interface *interface = &model->interface;
     memset(bound, 0, (size_t)interface->count * sizeof(double));
@@ -54,14 +32,6 @@ static void fill_bounds(const Model *model, const StaticSolution *solution, doub
         bound[interface_normal(interface, i)] = -interface_gap(interface, i);
     for (int32_t j = 0; j < interface->rod_count; j++)
         bound[interface_rod(interface, j)] = solution->rod_way;
-}
-
-// Bounds in [interface_count] `bound`, borrowed, like rod and law of the solution; S and g are the
-// caller's to add. rod_reach 1: at a soft node r_x = (bound - u)/softness, as nothing moves.
-static ContactProblem contact_problem(const Model *model, const StaticSolution *solution,
-                                      double *bound)
-{
-    fill_bounds(model, solution, bound);
     return (ContactProblem){.interface = &model->interface,
                             .friction = &solution->friction,
                             .rod_kind = solution->rod.kind,
@@ -137,8 +107,15 @@ static bool static_solve(Model *model, StaticSolution *solution, Error *err)
     BulkOperator system = {0};
     double *g = NEW_ARRAY(double, interface->count, err);
     double *bound = NEW_ARRAY(double, interface->count, err);
-    if (!g || !bound) goto cleanup;
-    TRY(make_room(model, solution, err));
+    solution->displacement = NEW_ARRAY(double, bulk->dof_count, err);
+    solution->load = NEW_ARRAY(double, bulk->dof_count, err);
+    solution->reaction = NEW_ARRAY(double, bulk->dof_count, err);
+    solution->work = NEW_ARRAY(double, bulk->dof_count, err);
+    solution->contact_displacement = NEW_ARRAY(double, interface->count, err);
+    solution->contact_reaction = NEW_ARRAY(double, interface->count, err);
+    solution->status = NEW_ARRAY(uint8_t, interface->contact_count, err);
+    solution->rod_touches = NEW_ARRAY(uint8_t, interface->rod_count, err);
+    if (!error_is_clean(err)) goto cleanup;
     const Scene *scene = model->scene;
     RodKind kind = scene->rod.kind == ROD_BONDED ? ROD_IS_BONDED : ROD_PUSHES;
     TRY(model_build_rod(model, kind, &solution->rod, err));
@@ -181,71 +158,39 @@ cleanup:
 
 // --- sums and balances --------------------------------------------------------------------------
 
-// Sums of what the plane does to the block, in its sense: upwards is positive. The rod's resultant
-// height is NaN without a force.
-static void sum_contact(const Model *model, const StaticSolution *solution, StaticSummary *summary)
-{
-    const Interface *interface = &model->interface;
-    for (int32_t i = 0; i < interface->contact_count; i++) {
-        double normal = solution->reaction[interface->dofs[interface_normal(interface, i)]];
-        summary->shear_force +=
-            solution->reaction[interface->dofs[interface_tangent(interface, i)]];
-        summary->normal_force += normal;
-        summary->pressure_moment += interface->x[i] * normal;
-        summary->open += solution->status[i] == CONTACT_OPEN;
-        summary->sticking += solution->status[i] == CONTACT_STICK;
-        summary->slipping += status_slips(solution->status[i]);
-    }
-    double moment = 0;
-    for (int32_t j = 0; j < interface->rod_count; j++) {
-        double force = solution->contact_reaction[interface_rod(interface, j)];
-        summary->rod_force += force;
-        moment += interface->rod_z[j] * force;
-    }
-    summary->rod_height = summary->rod_force != 0 ? moment / summary->rod_force : NAN;
-}
-
-// The largest nodal force that nothing gives, and that the interface gives otherwise than it says.
-static double find_residual(const Model *model, const StaticSolution *solution,
-                            double *interface_force)
-{
-    const Interface *interface = &model->interface;
-    const uint8_t *held = model->bulk.held;
-    int32_t dofs = model->bulk.dof_count;
-    memset(interface_force, 0, (size_t)dofs * sizeof(double));
-    for (int32_t k = 0; k < interface->count; k++)
-        interface_force[interface->dofs[k]] = solution->contact_reaction[k];
-    floor_scatter(&model->mesh, interface_force);
-    double worst = 0;
-    for (int32_t dof = 0; dof < dofs; dof++)
-        if (!held[dof]) worst = fmax(worst, fabs(solution->reaction[dof] - interface_force[dof]));
-    return worst;
-}
-
-static double contact_violation(const Model *model, const StaticSolution *solution, double *bound)
-{
-    const Interface *interface = &model->interface;
-    ContactProblem problem = contact_problem(model, solution, bound);
-    double force = dense_max_abs(solution->contact_reaction, interface->count);
-    double length = dense_max_abs(solution->displacement, model->bulk.dof_count);
-    ContactResidual residual = contact_residual(&problem, solution->contact_displacement,
-                                                solution->contact_reaction, force > 0 ? force : 1,
-                                                length > 0 ? length : 1);
-    return contact_residual_max(&residual);
-}
-
+// Sums over the contact, balances of the whole block, and how far the solution is off. Forces are
+// those on the block: upwards is positive. The rod's resultant height is NaN without a force.
 static StaticSummary static_summarise(const Model *model, StaticSolution *solution)
 {
     const Mesh *mesh = &model->mesh;
-    int32_t dofs = model->bulk.dof_count;
+    const Interface *interface = &model->interface;
+    int32_t dofs = model->bulk.dof_count, up = mesh->dim - 1;
     StaticSummary summary = {.dim = mesh->dim,
                              .nodes = mesh->node_count,
-                             .contact_nodes = model->interface.contact_count,
-                             .rod_nodes = model->interface.rod_count,
+                             .contact_nodes = interface->contact_count,
+                             .rod_nodes = interface->rod_count,
                              .iterations = solution->iterations};
-    sum_contact(model, solution, &summary);
+
+    // Forces of plane and rod on the block.
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        double normal = solution->reaction[interface->dofs[interface_normal(interface, i)]];
+        summary.shear_force += solution->reaction[interface->dofs[interface_tangent(interface, i)]];
+        summary.normal_force += normal;
+        summary.pressure_moment += interface->x[i] * normal;
+        summary.open += solution->status[i] == CONTACT_OPEN;
+        summary.sticking += solution->status[i] == CONTACT_STICK;
+        summary.slipping += status_slips(solution->status[i]);
+    }
+    double rod_moment = 0;
+    for (int32_t j = 0; j < interface->rod_count; j++) {
+        double force = solution->contact_reaction[interface_rod(interface, j)];
+        summary.rod_force += force;
+        rod_moment += interface->rod_z[j] * force;
+    }
+    summary.rod_height = summary.rod_force != 0 ? rod_moment / summary.rod_force : NAN;
+
+    // Balances of forces, moments and energy.
     MeshPlace force = {0};
-    int32_t up = mesh->dim - 1;
     double moment = 0, moved = 0, internal_work = 0, reaction_work = 0, size = 0;
     for (int32_t node = 0; node < mesh->node_count; node++) {
         int32_t first = node_dof(mesh->dim, node, 0);
@@ -261,19 +206,36 @@ static StaticSummary static_summarise(const Model *model, StaticSolution *soluti
         }
         moment += at[0] * (load[up] + r[up]) - at[up] * (load[0] + r[0]);
     }
+    double scale = moved > 0 ? moved : 1, applied = summary.load_work;
+    for (int32_t k = 0; k < interface->count; k++)
+        applied += solution->contact_reaction[k] * solution->contact_displacement[k];
     summary.elastic_energy = 0.5 * internal_work;
-    double scale = moved > 0 ? moved : 1;
-    double largest =
-        fmax(dense_max_abs(solution->reaction, dofs), dense_max_abs(solution->load, dofs));
-    summary.residual = find_residual(model, solution, solution->work) / (largest > 0 ? largest : 1);
     summary.force_balance = dense_max_abs(force, mesh->dim) / scale;
     summary.moment_balance = fabs(moment) / (scale * (size > 0 ? size : 1));
-    double applied = summary.load_work;
-    for (int32_t k = 0; k < model->interface.count; k++)
-        applied += solution->contact_reaction[k] * solution->contact_displacement[k];
     summary.energy_balance = fabs(internal_work - applied) /
                              fmax(fabs(internal_work), fabs(reaction_work) + 1e-300);
-    summary.complementarity = contact_violation(model, solution, solution->work);
+
+    // The largest nodal force that nothing gives, and that the interface gives otherwise than it
+    // says.
+    double *given = solution->work, worst = 0;
+    memset(given, 0, (size_t)dofs * sizeof(double));
+    for (int32_t k = 0; k < interface->count; k++)
+        given[interface->dofs[k]] = solution->contact_reaction[k];
+    floor_scatter(mesh, given);
+    for (int32_t dof = 0; dof < dofs; dof++)
+        if (!model->bulk.held[dof]) worst = fmax(worst, fabs(solution->reaction[dof] - given[dof]));
+    double largest =
+        fmax(dense_max_abs(solution->reaction, dofs), dense_max_abs(solution->load, dofs));
+    summary.residual = worst / (largest > 0 ? largest : 1);
+
+    // Conditions of the contact.
+    ContactProblem problem = contact_problem(model, solution, solution->work);
+    double contact_force = dense_max_abs(solution->contact_reaction, interface->count);
+    double length = dense_max_abs(solution->displacement, dofs);
+    ContactResidual residual =
+        contact_residual(&problem, solution->contact_displacement, solution->contact_reaction,
+                         contact_force > 0 ? contact_force : 1, length > 0 ? length : 1);
+    summary.complementarity = contact_residual_max(&residual);
     return summary;
 }
 
@@ -301,7 +263,10 @@ bool amontons_static(const Scene *scene, const char *folder, bool overwrite, Sta
     if (folder) TRY(static_report_write(folder, &model, &solution, summary, err));
     TRY(result_folder_settle(&place, err));
 cleanup:
-    static_solution_destroy(&solution);
+    memory_free_all(solution.displacement, solution.load, solution.reaction, solution.work);
+    rod_destroy(&solution.rod);
+    memory_free_all(solution.contact_displacement, solution.contact_reaction, solution.status,
+                    solution.friction_nodes, solution.rod_touches);
     model_destroy(&model);
     result_folder_release(&place);
     return error_is_clean(err);

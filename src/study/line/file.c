@@ -26,51 +26,6 @@ enum { PROFILE_POINTS = 201 };
     X(front_seen, "points/front_seen", "length", "simulated front at the same U; nan: slid")       \
     X(mu_seen, "points/mu_seen", "1", "simulated F_T/F_N at the same U; nan: slid")
 
-// The constants of equation 1 in the scene's units, to solve it by other means.
-static void write_model(JsonWriter *json, const Model1dSimulation *simulation)
-{
-    const Model1d *model = &simulation->model;
-    json_begin_object(json, "model");
-    json_numbers_of(
-        json, {"alpha", model->alpha}, {"length", model->length}, {"height", model->height},
-        {"drive_height", model->drive}, {"E_1", model->elastic_x}, {"E_2", model->elastic_shear},
-        {"eta_t", model->viscous_x}, {"eta_s", model->viscous_shear}, {"modes", MODEL1D_MODES});
-    if (!simulation->options->theory_only) json_integer(json, "nodes", simulation->options->nodes);
-    json_end(json);
-}
-
-// Plain names: the paper's formula (couplings neglected). *_full: all terms. *_at_V: at the scene's
-// velocity. null: not up to L.
-static void write_theory(JsonWriter *json, const Model1dSummary *summary)
-{
-    json_object_of(json, "theory", {"range_over_L", summary->range}, {"l_sc_over_L", summary->l_sc},
-                   {"l_c_over_L", summary->l_c}, {"l_c_small_over_L", summary->l_c_small},
-                   {"mu_M", summary->mu_c}, {"l_sc_full_over_L", summary->l_sc_full},
-                   {"l_c_full_over_L", summary->l_c_full},
-                   {"l_c_at_V_full_over_L", summary->l_rod_full}, {"mu_M_full", summary->mu_c_full},
-                   {"mu_M_at_V_full", summary->mu_rod_full});
-}
-
-// first_*: the first peak, which starts from u_0; the others are means over the periodic regime.
-static void write_simulation(JsonWriter *json, const Model1dSimulation *simulation,
-                             const Model1dSummary *summary)
-{
-    json_begin_object(json, "simulation");
-    json_numbers_of(
-        json, {"first_mu", summary->first_mu}, {"first_l_sc_over_L", summary->first_l_sc},
-        {"first_l_c_over_L", summary->first_l_c}, {"mu_M", summary->mu_M},
-        {"mu_M_spread", summary->mu_M_spread}, {"period", summary->period},
-        {"l_sc_over_L", summary->l_sc_seen}, {"l_c_over_L", summary->l_c_seen},
-        {"bounded", summary->bounded}, {"leading", summary->leading},
-        {"quasi_static_error", summary->quasi_static_error},
-        {"energy_error", summary->energy_error}, {"complementarity_error", summary->contact_error});
-    json_integer(json, "accepted", summary->accepted);
-    json_integer(json, "rejected", summary->rejected);
-    Answers answers = answers_of(&simulation->drops);
-    answers_write_peaks(&answers, &simulation->drops, simulation->model.length, json);
-    json_end(json);
-}
-
 static bool write_numbers(const Model1dSimulation *simulation, const Model1dSummary *summary,
                           Error *err)
 {
@@ -82,9 +37,46 @@ static bool write_numbers(const Model1dSimulation *simulation, const Model1dSumm
     json_text(json, "status", "done");
     json_text(json, "version", AMONTONS_VERSION);
     scene_write_json(simulation->scene, json, "scene", simulation->options->folder);
-    write_model(json, simulation);
-    write_theory(json, summary);
-    if (summary->simulated) write_simulation(json, simulation, summary);
+
+    // The constants of equation 1 in the scene's units, to solve it by other means.
+    const Model1d *model = &simulation->model;
+    json_begin_object(json, "model");
+    json_numbers_of(
+        json, {"alpha", model->alpha}, {"length", model->length}, {"height", model->height},
+        {"drive_height", model->drive}, {"E_1", model->elastic_x}, {"E_2", model->elastic_shear},
+        {"eta_t", model->viscous_x}, {"eta_s", model->viscous_shear}, {"modes", MODEL1D_MODES});
+    if (!simulation->options->theory_only) json_integer(json, "nodes", simulation->options->nodes);
+    json_end(json);
+
+    // Plain names: the paper's formula (couplings neglected). *_full: all terms. *_at_V: at the
+    // scene's velocity. null: not up to L.
+    json_object_of(json, "theory", {"range_over_L", summary->range}, {"l_sc_over_L", summary->l_sc},
+                   {"l_c_over_L", summary->l_c}, {"l_c_small_over_L", summary->l_c_small},
+                   {"mu_M", summary->mu_c}, {"l_sc_full_over_L", summary->l_sc_full},
+                   {"l_c_full_over_L", summary->l_c_full},
+                   {"l_c_at_V_full_over_L", summary->l_rod_full}, {"mu_M_full", summary->mu_c_full},
+                   {"mu_M_at_V_full", summary->mu_rod_full});
+
+    if (summary->simulated) {
+        // first_*: the first peak, which starts from u_0; the others are means over the periodic
+        // regime.
+        json_begin_object(json, "simulation");
+        json_numbers_of(json, {"first_mu", summary->first_mu},
+                        {"first_l_sc_over_L", summary->first_l_sc},
+                        {"first_l_c_over_L", summary->first_l_c}, {"mu_M", summary->mu_M},
+                        {"mu_M_spread", summary->mu_M_spread}, {"period", summary->period},
+                        {"l_sc_over_L", summary->l_sc_seen}, {"l_c_over_L", summary->l_c_seen},
+                        {"bounded", summary->bounded}, {"leading", summary->leading},
+                        {"quasi_static_error", summary->quasi_static_error},
+                        {"energy_error", summary->energy_error},
+                        {"complementarity_error", summary->contact_error});
+        json_integer(json, "accepted", summary->accepted);
+        json_integer(json, "rejected", summary->rejected);
+        Answers answers = answers_of(&simulation->drops);
+        answers_write_peaks(&answers, &simulation->drops, simulation->model.length, json);
+        json_end(json);
+    }
+
     json_number(json, "seconds", summary->seconds);
     json_end(json);
     return json_finish(json, err);

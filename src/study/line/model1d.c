@@ -257,17 +257,6 @@ static void summarise_steps(Model1dSimulation *simulation, Model1dSummary *summa
                         steps->rejected_uncertified + steps->unsolved;
 }
 
-static void simulation_destroy(Model1dSimulation *simulation)
-{
-    history_destroy(&simulation->history);
-    contact_arrays_destroy(&simulation->contact);
-    drops_destroy(&simulation->drops);
-    events_destroy(&simulation->events);
-    step_control_destroy(&simulation->control);
-    chain_destroy(&simulation->chain);
-    memory_free(simulation->points);
-}
-
 // Theory always, steps unless options say otherwise; results last, so that a failed simulation
 // leaves none.
 bool amontons_model1d(const Scene *scene, const Model1dOptions *options, Model1dSummary *summary,
@@ -305,7 +294,13 @@ bool amontons_model1d(const Scene *scene, const Model1dOptions *options, Model1d
     for (int32_t k = 0; options->on_point && k < simulation.point_count; k++)
         options->on_point(&simulation.points[k], options->context);
 cleanup:
-    simulation_destroy(&simulation);
+    history_destroy(&simulation.history);
+    contact_arrays_destroy(&simulation.contact);
+    drops_destroy(&simulation.drops);
+    events_destroy(&simulation.events);
+    step_control_destroy(&simulation.control);
+    chain_destroy(&simulation.chain);
+    memory_free(simulation.points);
     result_folder_release(&folder);
     return error_is_clean(err);
 }

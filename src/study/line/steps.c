@@ -105,13 +105,6 @@ static void compare_step(Model1dSimulation *simulation, const Observation *seen)
     }
 }
 
-static void report_step(const Model1dSimulation *simulation, const Observation *seen)
-{
-    const Model1dOptions *options = simulation->options;
-    StepView view = step_view(seen, &simulation->events, &simulation->contact, simulation->t_end);
-    if (options->on_step) options->on_step(&view, options->context);
-}
-
 // Each accepted step, the start's state included. ERROR_COMPUTE: the energy ledger does not close.
 static bool record_step(Model1dSimulation *simulation, Error *err)
 {
@@ -121,7 +114,9 @@ static bool record_step(Model1dSimulation *simulation, Error *err)
     if (!contact_arrays_record(&simulation->contact, &seen, err)) return false;
     if (simulation->history.file && !history_record(&simulation->history, &seen, err)) return false;
     compare_step(simulation, &seen);
-    report_step(simulation, &seen);
+    const Model1dOptions *options = simulation->options;
+    StepView view = step_view(&seen, &simulation->events, &simulation->contact, simulation->t_end);
+    if (options->on_step) options->on_step(&view, options->context);
     simulation->last = seen;
     simulation->energy_error = fmax(simulation->energy_error, seen.energy_error);
     simulation->contact_error = fmax(simulation->contact_error, seen.contact_error);

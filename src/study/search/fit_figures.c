@@ -248,23 +248,7 @@ static bool is_on_curve(const Datum *datum, const Datum *first, bool under_same)
            (!under_same || datum->condition == first->condition);
 }
 
-// The first datum of each curve of the same two series, one a condition, in first [*count]: at most
-// CURVES_MAX of them. Nothing was measured along a series: *count is 0.
-static void find_curves(const Fit *fit, int32_t first[CURVES_MAX], int32_t *count)
-{
-    const Measurements *measured = &fit->measured;
-    *count = 0;
-    for (int32_t k = 0; k < measured->count && *count < CURVES_MAX; k++) {
-        const Datum *one = &measured->list[k];
-        bool is_new = strncmp(one->along, SERIES, strlen(SERIES)) == 0 &&
-                      (*count == 0 || is_on_curve(one, &measured->list[first[0]], false));
-        for (int32_t i = 0; i < *count && is_new; i++)
-            is_new = !is_on_curve(one, &measured->list[first[i]], true);
-        if (is_new) first[(*count)++] = k;
-    }
-}
-
-// What was measured on the curve of datum `first`: place, value, error. Returns how many.
+// Measurements on the curve of datum `first`: place, value, error. Returns how many.
 static int32_t fill_data(const Fit *fit, const Datum *first, double *x, double *y, double *error)
 {
     int32_t count = 0;
@@ -305,7 +289,20 @@ static bool draw_fitted(const Fit *fit, Error *err)
     double *x[CURVES_MAX] = {0}, *y[CURVES_MAX] = {0}, *room = NULL;
     Curve curves[2 * CURVES_MAX];
     char history[POINT_PATH_SIZE + 16];
-    find_curves(fit, first, &count);
+
+    // The first datum of each curve of the same two series, one a condition, in first [count]: at
+    // most CURVES_MAX of them. Nothing was measured along a series: count is 0.
+    const Measurements *measured = &fit->measured;
+    count = 0;
+    for (int32_t k = 0; k < measured->count && count < CURVES_MAX; k++) {
+        const Datum *one = &measured->list[k];
+        bool is_new = strncmp(one->along, SERIES, strlen(SERIES)) == 0 &&
+                      (count == 0 || is_on_curve(one, &measured->list[first[0]], false));
+        for (int32_t i = 0; i < count && is_new; i++)
+            is_new = !is_on_curve(one, &measured->list[first[i]], true);
+        if (is_new) first[count++] = k;
+    }
+
     if (count == 0 || best < 0) return true;
     TRY(room = NEW_ARRAY(double, 3 * data, err));
     double *at = room, *value = room + data, *error = room + 2 * data;

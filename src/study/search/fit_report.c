@@ -41,14 +41,6 @@ static void print_product(const Fit *fit, const double *powers, FILE *out)
     }
 }
 
-static void print_known(double error, FILE *out)
-{
-    if (error < HARDLY)
-        fprintf(out, "to %.2g %%", 100 * error);
-    else
-        fprintf(out, error < 10 ? "to a factor of %.2g" : "not at all", exp(error));
-}
-
 // Products of powers of the keys, by how well they are known: eigenvectors of the curvature in
 // logarithms.
 static void print_combinations(const Fit *fit, FILE *out)
@@ -73,23 +65,16 @@ static void print_combinations(const Fit *fit, FILE *out)
         fprintf(out, k == n - 1 ? "  the data know " : k > 0 ? ", " : " and ");
         print_product(fit, vector, out);
         fprintf(out, " ");
-        print_known(error, out);
+        if (error < HARDLY)
+            fprintf(out, "to %.2g %%", 100 * error);
+        else
+            fprintf(out, error < 10 ? "to a factor of %.2g" : "not at all", exp(error));
         if (k == 0 && error >= HARDLY) fprintf(out, ": they do not tell these apart");
     }
     fprintf(out, "\n");
 }
 
 // --- words --------------------------------------------------------------------------------------
-
-static void print_datum(const Fit *fit, int32_t k, FILE *out)
-{
-    const Datum *datum = &fit->measured.list[k];
-    const char *condition = fit->measured.conditions[datum->condition];
-    fprintf(out, "    %s%s%s", condition, *condition ? ": " : "", datum->name);
-    if (*datum->along) fprintf(out, " at %s = %.4g", datum->along, datum->at);
-    fprintf(out, " measured %.4g +- %.2g, found %.4g: off by %.1f errors\n", datum->value,
-            datum->error, response_at(&fit->response, k, fit->best), fabs(fit_errors_off(fit, k)));
-}
 
 // The worst first.
 static void print_worst(const Fit *fit, FILE *out)
@@ -109,7 +94,13 @@ static void print_worst(const Fit *fit, FILE *out)
                 worst = k;
         }
         if (worst < 0) break;
-        print_datum(fit, worst, out);
+        const Datum *datum = &fit->measured.list[worst];
+        const char *condition = fit->measured.conditions[datum->condition];
+        fprintf(out, "    %s%s%s", condition, *condition ? ": " : "", datum->name);
+        if (*datum->along) fprintf(out, " at %s = %.4g", datum->along, datum->at);
+        fprintf(out, " measured %.4g +- %.2g, found %.4g: off by %.1f errors\n", datum->value,
+                datum->error, response_at(&fit->response, worst, fit->best),
+                fabs(fit_errors_off(fit, worst)));
         before = fabs(fit_errors_off(fit, worst));
         count++;
     }

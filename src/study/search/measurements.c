@@ -178,19 +178,6 @@ static bool read_columns(Table *table, Error *err)
 
 // --- rows ---------------------------------------------------------------------------------------
 
-// A key with its value as a scene has it: "load.pressure: 3 kPa".
-static void write_condition(const Table *table, int32_t row, int32_t k, FILE *out)
-{
-    const Column *column = &table->columns[k];
-    double value = csv_value(&table->csv, row, k);
-    fprintf(out, "%s%s: ", ftell(out) > 0 ? ", " : "", column->name);
-    if (table->csv.decimal_comma && isfinite(value))
-        fprintf(out, "%.17g", value);
-    else
-        fputs(csv_cell(&table->csv, row, k), out);
-    fprintf(out, "%s%s", *column->unit ? " " : "", column->unit);
-}
-
 // One plain value: a cell with more in it would set other keys of the scene, too.
 static bool check_condition(const Table *table, int32_t row, Error *err)
 {
@@ -231,8 +218,20 @@ static bool find_condition(Measurements *measured, const Table *table, int32_t r
     size_t size = 0;
     FILE *out = open_memstream(&text, &size);
     if (!out) FAIL(err, ERROR_MEMORY, "no memory for %s", table->path);
-    for (int32_t k = 0; k < table->csv.columns; k++)
-        if (table->columns[k].kind == COLUMN_CONDITION) write_condition(table, row, k, out);
+    for (int32_t k = 0; k < table->csv.columns; k++) {
+        if (table->columns[k].kind == COLUMN_CONDITION) {
+            // A key with its value as a scene has it: "load.pressure: 3 kPa".
+            const Column *column = &table->columns[k];
+            double value = csv_value(&table->csv, row, k);
+            fprintf(out, "%s%s: ", ftell(out) > 0 ? ", " : "", column->name);
+            if (table->csv.decimal_comma && isfinite(value))
+                fprintf(out, "%.17g", value);
+            else
+                fputs(csv_cell(&table->csv, row, k), out);
+            fprintf(out, "%s%s", *column->unit ? " " : "", column->unit);
+        }
+    }
+
     if (fclose(out) != 0) FAIL(err, ERROR_MEMORY, "no memory for %s", table->path);
     for (*found = 0; *found < measured->condition_count; ++*found)
         if (strcmp(measured->conditions[*found], text) == 0) goto cleanup;
@@ -246,15 +245,6 @@ static bool find_condition(Measurements *measured, const Table *table, int32_t r
 cleanup:
     free(text);
     return error_is_clean(err);
-}
-
-static bool add_datum(Measurements *measured, const Datum *datum, Error *err)
-{
-    if (!memory_grow(&measured->list, measured->count, &measured->room, sizeof *measured->list,
-                     err))
-        return false;
-    measured->list[measured->count++] = *datum;
-    return true;
 }
 
 static bool read_number(const Table *table, int32_t row, int32_t column, double *value, Error *err)
@@ -293,21 +283,12 @@ static bool read_row(Measurements *measured, const Table *table, int32_t row, Er
             return csv_refuse(&table->csv, row, table->columns[k].error, err,
                               "%g beside %s = %g: nothing is measured to so many digits",
                               datum.error, name, datum.value);
-        if (!add_datum(measured, &datum, err)) return false;
+        if (!memory_grow(&measured->list, measured->count, &measured->room, sizeof *measured->list,
+                         err))
+            return false;
+        measured->list[measured->count++] = datum;
     }
     return true;
-}
-
-static bool read_table(Measurements *measured, const char *path, Error *err)
-{
-    Table table = {.path = path};
-    TRY(csv_read(path, &table.csv, err));
-    TRY(read_columns(&table, err));
-    for (int32_t row = 0; row < table.csv.rows; row++) TRY(read_row(measured, &table, row, err));
-cleanup:
-    memory_free(table.columns);
-    csv_destroy(&table.csv);
-    return error_is_clean(err);
 }
 
 static bool read_named(const Study *study, YamlNode node, Measurements *measured, Error *err)
@@ -317,7 +298,14 @@ static bool read_named(const Study *study, YamlNode node, Measurements *measured
     if (yaml_kind(study->file, node) != YAML_SCALAR || !*given || strlen(given) >= SCENE_TEXT_SIZE)
         return yaml_refuse(study->file, node, "measured", "a table's path, or a list of them", err);
     folder_beside(study->path, given, path, sizeof path);   // there is room
-    return read_table(measured, path, err);
+    Table table = {.path = path};
+    TRY(csv_read(path, &table.csv, err));
+    TRY(read_columns(&table, err));
+    for (int32_t row = 0; row < table.csv.rows; row++) TRY(read_row(measured, &table, row, err));
+cleanup:
+    memory_free(table.columns);
+    csv_destroy(&table.csv);
+    return error_is_clean(err);
 }
 
 // Both name one file, by whatever path.

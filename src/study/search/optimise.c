@@ -49,26 +49,22 @@ static void judge_design(Search *search, int32_t d)
 
 // --- sections -----------------------------------------------------------------------------------
 
-// Along key `k` through the best design, the others as in it.
-static bool add_section(Search *search, int32_t best, int32_t k, Error *err)
-{
-    const SearchKey *key = &search->study->search.keys[k];
-    double least = search_scaled(key, key->least), most = search_scaled(key, key->most);
-    for (int32_t i = 0; i < SECTION_POINTS; i++) {
-        double x[STUDY_SEARCH_MAX];
-        int32_t added = -1;
-        memcpy(x, search->designs.list[best].x, sizeof x);
-        x[k] = search_unscaled(key, least + (most - least) * i / (SECTION_POINTS - 1));
-        if (!search_add(search, x, &added, err)) return false;
-    }
-    return true;
-}
-
 static bool compute_sections(Search *search, int32_t best, Error *err)
 {
     int32_t first = search->designs.count;
-    for (int32_t k = 0; k < search->study->search.key_count; k++)
-        if (!add_section(search, best, k, err)) return false;
+    for (int32_t k = 0; k < search->study->search.key_count; k++) {
+        // Along key `k` through the best design, the others as in it.
+        const SearchKey *key = &search->study->search.keys[k];
+        double least = search_scaled(key, key->least), most = search_scaled(key, key->most);
+        for (int32_t i = 0; i < SECTION_POINTS; i++) {
+            double x[STUDY_SEARCH_MAX];
+            int32_t added = -1;
+            memcpy(x, search->designs.list[best].x, sizeof x);
+            x[k] = search_unscaled(key, least + (most - least) * i / (SECTION_POINTS - 1));
+            if (!search_add(search, x, &added, err)) return false;
+        }
+    }
+
     return search_compute_from(search, first, err);
 }
 

@@ -77,21 +77,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Variables begin at the best design, and are as long as designs that count lie about it.
-static void scale_keys(const ResponseDef *def, const double *weights, int32_t best, Response *r)
-{
-    for (int32_t k = 0; k < r->keys; k++) {
-        double sum = 0, square = 0;
-        r->origin[k] = def->list[best].place[k];
-        for (int32_t d = 0; d < def->designs; d++) {
-            double apart = def->list[d].place[k] - r->origin[k];
-            sum += weights[d];
-            square += weights[d] * apart * apart;
-        }
-        r->scale[k] = square > 0 ? sqrt(square / sum) : 1;
-    }
-}
-
 // Coefficients of one result; the factor of the normal equations is the same for all.
 static void solve_datum(const ResponseDef *def, const double *weights, const double *rows,
                         const double *factor, Response *r, int32_t datum)
@@ -159,7 +144,19 @@ bool response_make(const ResponseDef *def, Response *r, Error *err)
     TRY(r->coefficients = NEW_ARRAY(double, (int64_t)r->data * r->terms, err));
     TRY(r->own = NEW_ARRAY(double, r->data, err));
     TRY(weigh(def, weights, &best, err));
-    scale_keys(def, weights, best, r);
+
+    // Variables begin at the best design, and are as long as designs that count lie about it.
+    for (int32_t k = 0; k < r->keys; k++) {
+        double sum = 0, square = 0;
+        r->origin[k] = def->list[best].place[k];
+        for (int32_t d = 0; d < def->designs; d++) {
+            double apart = def->list[d].place[k] - r->origin[k];
+            sum += weights[d];
+            square += weights[d] * apart * apart;
+        }
+        r->scale[k] = square > 0 ? sqrt(square / sum) : 1;
+    }
+
     TRY(solve(def, weights, r, err));
 cleanup:
     memory_free(weights);

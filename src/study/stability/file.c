@@ -10,9 +10,20 @@
 
 #include <stdio.h>
 
-// Where things are lost first. *_at_V and mu_M: at the scene's velocity; the others for V -> 0.
-static void write_results(JsonWriter *json, const StabilitySummary *summary)
+// stability.json. ERROR_FILE: the folder cannot be written to.
+static bool write_numbers(const StabilityPath *path, const StabilitySummary *summary, Error *err)
 {
+    char file[AMONTONS_PATH_SIZE + 32];
+    snprintf(file, sizeof file, "%s/stability.json", path->options->folder);
+    JsonWriter *json = json_create(file, err);
+    if (!json) return false;
+    json_begin_object(json, NULL);
+    json_text(json, "status", "done");
+    json_text(json, "version", AMONTONS_VERSION);
+    scene_write_json(path->model->scene, json, "scene", path->options->folder);
+    json_integer(json, "slidings_before", path->options->slidings);
+
+    // Where things are lost first. *_at_V and mu_M: at the scene's velocity; the others for V -> 0.
     json_begin_object(json, "results");
     json_numbers_of(json, {"l_sc_certificate_over_L", summary->l_sc_certificate},
                     {"l_sc_over_L", summary->l_sc}, {"l_sc_frequency", summary->frequency},
@@ -31,30 +42,8 @@ static void write_results(JsonWriter *json, const StabilitySummary *summary)
     for (int32_t k = 0; k < summary->why_count; k++) json_text(json, NULL, summary->why[k]);
     json_end(json);
     json_end(json);
-}
 
-// The path's table: one entry per front position, rates in 1/time.
-static void write_points(JsonWriter *json, const StabilityPath *path)
-{
-    double length = path->model->length;
-    json_begin_list(json, "points");
-    for (int32_t k = 0; k < path->count; k++) {
-        const StabilityPoint *point = &path->points[k];
-        json_begin_object(json, NULL);
-        json_numbers_of(json, {"l_over_L", point->front / length}, {"slipping", point->slipping},
-                        {"slipping_over_A", point->area}, {"U", point->U}, {"mu", point->mu},
-                        {"mu_at_V", point->mu_at_V}, {"rate_re", point->rate_re},
-                        {"rate_im", point->rate_im}, {"real_rate", point->real_rate},
-                        {"load", point->load});
-        json_boolean(json, "certified", point->certified);
-        json_end(json);
-    }
-    json_end(json);
-}
-
-// Writes the results of pad_growth.c; `mode` is relative to the pad that takes part most.
-static void write_pads(JsonWriter *json, const StabilitySummary *summary)
-{
+    // Writes the results of pad_growth.c; `mode` is relative to the pad that takes part most.
     json_begin_list(json, "pads");
     for (int32_t p = 0; p < summary->pad_count; p++) {
         const StabilityPad *pad = &summary->pads[p];
@@ -69,23 +58,23 @@ static void write_pads(JsonWriter *json, const StabilitySummary *summary)
         json_end(json);
     }
     json_end(json);
-}
 
-// stability.json. ERROR_FILE: the folder cannot be written to.
-static bool write_numbers(const StabilityPath *path, const StabilitySummary *summary, Error *err)
-{
-    char file[AMONTONS_PATH_SIZE + 32];
-    snprintf(file, sizeof file, "%s/stability.json", path->options->folder);
-    JsonWriter *json = json_create(file, err);
-    if (!json) return false;
-    json_begin_object(json, NULL);
-    json_text(json, "status", "done");
-    json_text(json, "version", AMONTONS_VERSION);
-    scene_write_json(path->model->scene, json, "scene", path->options->folder);
-    json_integer(json, "slidings_before", path->options->slidings);
-    write_results(json, summary);
-    write_pads(json, summary);
-    write_points(json, path);
+    // The path's table: one entry per front position, rates in 1/time.
+    double length = path->model->length;
+    json_begin_list(json, "points");
+    for (int32_t k = 0; k < path->count; k++) {
+        const StabilityPoint *point = &path->points[k];
+        json_begin_object(json, NULL);
+        json_numbers_of(json, {"l_over_L", point->front / length}, {"slipping", point->slipping},
+                        {"slipping_over_A", point->area}, {"U", point->U}, {"mu", point->mu},
+                        {"mu_at_V", point->mu_at_V}, {"rate_re", point->rate_re},
+                        {"rate_im", point->rate_im}, {"real_rate", point->real_rate},
+                        {"load", point->load});
+        json_boolean(json, "certified", point->certified);
+        json_end(json);
+    }
+    json_end(json);
+
     json_object_of(json, "timing_s", {"before", summary->seconds_before},
                    {"path", summary->seconds_path}, {"growth", summary->seconds_growth});
     json_integer(json, "path_steps", summary->path_steps);

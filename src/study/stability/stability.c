@@ -343,18 +343,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Zeroed and half-built paths too.
-static void path_destroy(StabilityPath *path)
-{
-    growth_destroy(path->growth);
-    step_control_destroy(&path->control);
-    state_destroy(&path->last);
-    state_destroy(&path->runaway);
-    rod_destroy(&path->rod);
-    amontons_simulation_destroy(path->simulation);
-    memory_free_all(path->nodes, path->points, path->modes, path->critical_mode);
-}
-
 // Four stages: a run up to rest after the wanted slidings, the quasi-static path with a point per
 // front position, where things are lost, results.
 bool amontons_stability(const Scene *scene, const StabilityOptions *options,
@@ -391,7 +379,15 @@ bool amontons_stability(const Scene *scene, const StabilityOptions *options,
     }
     TRY(result_folder_settle(&folder, err));
 cleanup:
-    path_destroy(&path);
+    // Zeroed and half-built paths too.
+    growth_destroy(path.growth);
+    step_control_destroy(&path.control);
+    state_destroy(&path.last);
+    state_destroy(&path.runaway);
+    rod_destroy(&path.rod);
+    amontons_simulation_destroy(path.simulation);
+    memory_free_all(path.nodes, path.points, path.modes, path.critical_mode);
+
     result_folder_release(&folder);
     return error_is_clean(err);
 }

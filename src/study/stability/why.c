@@ -26,18 +26,6 @@ static const char *name_of(const StabilitySummary *summary, int32_t pad)
     return summary->pad_count > 1 ? summary->pads[pad].name : "the contact";
 }
 
-// Names of all that take part in the mode but the one that decides: "contact_1, contact_3".
-static void name_others(const StabilitySummary *summary, char *names, size_t size)
-{
-    size_t used = 0;
-    *names = 0;
-    for (int32_t p = 0; p < summary->pad_count && used < size; p++) {
-        if (p == summary->pad || summary->pads[p].mode < TAKES_PART) continue;
-        used += (size_t)snprintf(names + used, size - used, "%s%s", used > 0 ? ", " : "",
-                                 summary->pads[p].name);
-    }
-}
-
 static void say_what_decides(const StabilityPath *path, StabilitySummary *summary)
 {
     const StabilityPad *pad = &summary->pads[summary->pad];
@@ -79,7 +67,16 @@ static void say_whether_alone(StabilitySummary *summary)
 {
     const StabilityPad *pad = &summary->pads[summary->pad];
     char others[160];
-    name_others(summary, others, sizeof others);
+
+    // Names of all that take part in the mode but the one that decides: "contact_1, contact_3".
+    size_t used = 0;
+    *others = 0;
+    for (int32_t p = 0; p < summary->pad_count && used < sizeof others; p++) {
+        if (p == summary->pad || summary->pads[p].mode < TAKES_PART) continue;
+        used += (size_t)snprintf(others + used, sizeof others - used, "%s%s", used > 0 ? ", " : "",
+                                 summary->pads[p].name);
+    }
+
     if (pad->load >= 1)
         say_what_would_hold(summary);
     else if (*others)

@@ -14,17 +14,6 @@
 
 static const double SMALLER = 0.9;   // of the error before: a round was of use
 
-// Half the error bar that was asked for or, where that is smaller, of the one that came out,
-// relative; two digits read well in a table. Not below the limit; 0: the point is there already.
-static double next_accuracy(double asked, const RankRow *row, double limit)
-{
-    double came_out = row->error / fabs(row->value);
-    char digits[20];
-    if (came_out < asked) asked = came_out;
-    snprintf(digits, sizeof digits, "%.2g", asked / 2);
-    return asked > limit ? fmax(strtod(digits, NULL), limit) : 0;
-}
-
 // Looks for what an earlier sweep left. *chosen: there is a next accuracy.
 static bool choose(Sweep *sweep, const RankRow *row, bool *chosen, Error *err)
 {
@@ -33,7 +22,18 @@ static bool choose(Sweep *sweep, const RankRow *row, bool *chosen, Error *err)
     char *report = NULL;
     const Scene *scene = point_scene(sweep, k, err);
     TRY(scene);
-    double accuracy = next_accuracy(scene->accuracy.mu, row, sweep->study.rank.refine);
+
+    // Half the error bar that was asked for or, where that is smaller, of the one that came out,
+    // relative; two digits read well in a table. Not below the limit; 0: the point is there
+    // already.
+    double asked = scene->accuracy.mu;
+    double came_out = row->error / fabs(row->value);
+    char digits[20];
+    if (came_out < asked) asked = came_out;
+    snprintf(digits, sizeof digits, "%.2g", asked / 2);
+    double accuracy =
+        asked > sweep->study.rank.refine ? fmax(strtod(digits, NULL), sweep->study.rank.refine) : 0;
+
     TRY((*chosen = accuracy > 0));
     point->accuracy = accuracy;
     TRY(point_scene(sweep, k, err));   // with it
@@ -54,19 +54,6 @@ static bool is_open(const Sweep *sweep, const RankRow *row)
            !sweep->points[row->point].settled;
 }
 
-static bool choose_all(Sweep *sweep, const Ranking *ranking, int32_t *count, Error *err)
-{
-    sweep->mesh = (PointMesh){0};
-    *count = 0;
-    for (int32_t k = 0; k < ranking->ranked; k++) {
-        bool chosen = false;
-        if (!is_open(sweep, &ranking->rows[k])) continue;
-        if (!choose(sweep, &ranking->rows[k], &chosen, err)) return false;
-        *count += chosen;
-    }
-    return true;
-}
-
 bool refine_begin(Sweep *sweep, SweepPoint **before, int32_t *count, Error *err)
 {
     SweepTable table = {0};
@@ -76,7 +63,14 @@ bool refine_begin(Sweep *sweep, SweepPoint **before, int32_t *count, Error *err)
     memcpy(*before, sweep->points, (size_t)points * sizeof **before);
     TRY(table_write(sweep, &table, err));
     TRY(ranking_make(sweep, &table, &ranking, err));
-    TRY(choose_all(sweep, &ranking, count, err));
+    sweep->mesh = (PointMesh){0};
+    *count = 0;
+    for (int32_t k = 0; k < ranking.ranked; k++) {
+        bool chosen = false;
+        if (!is_open(sweep, &ranking.rows[k])) continue;
+        TRY(choose(sweep, &ranking.rows[k], &chosen, err));
+        *count += chosen;
+    }
     TRY(points_find_same(sweep, err));   // those of an earlier round count
     for (int32_t k = 0; k < points; k++) sweep->planned += sweep_is_waiting(sweep, k);
 cleanup:

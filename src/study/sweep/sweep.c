@@ -65,33 +65,6 @@ static bool take_lock(Sweep *sweep, Error *err)
     return FAULT(err, ERROR_FILE, "cannot write into %s: %s", sweep->folder, strerror(errno));
 }
 
-// The system removes the lock when the process ends, however it ends.
-static bool take_folder(Sweep *sweep, Error *err)
-{
-    char path[POINT_PATH_SIZE];
-    if (snprintf(sweep->folder, sizeof sweep->folder, "%s", sweep->options->folder) >=
-        (int)sizeof sweep->folder)
-        return REFUSE(err, "the path of the sweep's folder is too long");
-    if (!folder_make(sweep->folder, err) || !take_lock(sweep, err) || !refuse_taken(sweep, err) ||
-        !own_list_check(sweep->folder, err) || !own_list_make(sweep->folder, err))
-        return false;
-    snprintf(path, sizeof path, "%s/points", sweep->folder);
-    return sweep->study.keep_table || folder_make(path, err);
-}
-
-// Refuses what `keep: table` cannot do, because it keeps nothing but numbers.
-static bool check_table(const Sweep *sweep, const Scene *scene, Error *err)
-{
-    if (scene->output.history || scene->output.fields || scene->output.figures.count > 0)
-        return REFUSE(err,
-                      "%s: keep: with `table` points have no folder for a history, fields or "
-                      "figures: say `keep: points`",
-                      sweep->study.path);
-    if (sweep->study.rank.refine > 0)
-        return REFUSE(err, "%s: keep: `table` does not go with `refine`", sweep->study.path);
-    return true;
-}
-
 static bool open_reports(Sweep *sweep, Error *err)
 {
     char path[POINT_PATH_SIZE];
@@ -131,7 +104,18 @@ static bool plan_point(Sweep *sweep, int32_t k, Error *err)
 {
     const Scene *scene = point_scene(sweep, k, err);
     if (!scene || !point_hash(sweep, scene, sweep->points[k].hash, err)) return false;
-    if (sweep->study.keep_table && !check_table(sweep, scene, err)) return false;
+
+    if (sweep->study.keep_table) {
+        // Refuses what `keep: table` cannot do, because it keeps nothing but numbers.
+        if (scene->output.history || scene->output.fields || scene->output.figures.count > 0)
+            return REFUSE(err,
+                          "%s: keep: with `table` points have no folder for a history, fields or "
+                          "figures: say `keep: points`",
+                          sweep->study.path);
+        if (sweep->study.rank.refine > 0)
+            return REFUSE(err, "%s: keep: `table` does not go with `refine`", sweep->study.path);
+    }
+
     if (sweep->study.rank.refine > 0 && !(scene->accuracy.mu > 0))
         return REFUSE(err,
                       "%s: rank: `refine` halves accuracy.mu, which must be given to begin with, "
@@ -237,7 +221,18 @@ bool sweep_plan(Sweep *sweep, Error *err)
     int32_t first = sweep->point_count;
     if (!plan_points(sweep, err)) return false;
     if (!sweep->folder[0]) {
-        if (!take_folder(sweep, err)) return false;
+        // The system removes the lock when the process ends, however it ends.
+        char path[POINT_PATH_SIZE];
+        if (snprintf(sweep->folder, sizeof sweep->folder, "%s", sweep->options->folder) >=
+            (int)sizeof sweep->folder)
+            return REFUSE(err, "the path of the sweep's folder is too long");
+        if (!folder_make(sweep->folder, err) || !take_lock(sweep, err) ||
+            !refuse_taken(sweep, err) || !own_list_check(sweep->folder, err) ||
+            !own_list_make(sweep->folder, err))
+            return false;
+        snprintf(path, sizeof path, "%s/points", sweep->folder);
+        if (!(sweep->study.keep_table || folder_make(path, err))) return false;
+
         if (!slurm_end_leftovers(sweep, err)) return false;
         if (!open_reports(sweep, err)) return false;
     }

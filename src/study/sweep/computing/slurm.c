@@ -260,18 +260,6 @@ static bool mean_time(const Sweep *sweep, int32_t *tried, double *mean, Error *e
     return error_is_clean(err);
 }
 
-// Shares of some minutes; as many as may run at a time (-j) there are in any case.
-static bool count_shares(const SlurmRun *run, int32_t *shares, Error *err)
-{
-    double mean = 0;
-    int32_t tried = 0;
-    if (!mean_time(run->sweep, &tried, &mean, err)) return false;
-    *shares = (int32_t)ceil(run->waiting_count * fmin(mean / SHARE_SECONDS, 1));
-    if (*shares < run->sweep->options->jobs) *shares = run->sweep->options->jobs;
-    if (*shares > run->waiting_count) *shares = run->waiting_count;
-    return true;
-}
-
 static bool list_elements(SlurmRun *run, Error *err)
 {
     const Sweep *sweep = run->sweep;
@@ -281,7 +269,17 @@ static bool list_elements(SlurmRun *run, Error *err)
         if (sweep_is_waiting(sweep, k)) run->waiting[run->waiting_count++] = k;
     run->count = run->waiting_count;
     if (run->count == 0) return true;
-    if (sweep->study.keep_table && !count_shares(run, &run->count, err)) return false;
+
+    if (sweep->study.keep_table) {
+        // Shares of some minutes; as many as may run at a time (-j) there are in any case.
+        double mean = 0;
+        int32_t tried = 0;
+        if (!mean_time(sweep, &tried, &mean, err)) return false;
+        run->count = (int32_t)ceil(run->waiting_count * fmin(mean / SHARE_SECONDS, 1));
+        if (run->count < sweep->options->jobs) run->count = sweep->options->jobs;
+        if (run->count > run->waiting_count) run->count = run->waiting_count;
+    }
+
     if (!slurm_array_limit(&run->jobs, &limit, err)) return false;
     if (run->count > limit) run->count = limit;
     run->left = run->count;

@@ -9,17 +9,6 @@
 #include <math.h>
 #include <string.h>
 
-// Reads the quantity that the study ranks by, or mu_M, from the report of a finished point.
-static void read_quantity(const Study *study, const char *report, SweepView *view)
-{
-    const StudyRecord *ranked = study->rank.wanted ? &study->records[study->rank.record] : NULL;
-    PointValue found = point_value(report, ranked ? ranked->path : "results.mu_M");
-    view->quantity = ranked ? ranked->name : "mu_M";
-    view->value = found.value;
-    view->bar = found.bar;
-    view->known_to = found.known_to;
-}
-
 // Reports to the caller that point `k` has ended and left `report` (NULL: none).
 static void report_point(Sweep *sweep, int32_t k, const char *report)
 {
@@ -47,7 +36,16 @@ static void report_point(Sweep *sweep, int32_t k, const char *report)
                       .failed = sweep->failed,
                       .points = sweep->planned,
                       .reused = point->reused};
-    read_quantity(&sweep->study, report, &view);
+
+    // Reads the quantity that the study ranks by, or mu_M, from the report of a finished point.
+    const Study *study = &sweep->study;
+    const StudyRecord *ranked = study->rank.wanted ? &study->records[study->rank.record] : NULL;
+    PointValue found = point_value(report, ranked ? ranked->path : "results.mu_M");
+    view.quantity = ranked ? ranked->name : "mu_M";
+    view.value = found.value;
+    view.bar = found.bar;
+    view.known_to = found.known_to;
+
     if (report) {
         json_find_number(report, "results.mu_M", &view.mu_M);
         json_find_number(report, "results.mu_M_error", &view.mu_M_error);

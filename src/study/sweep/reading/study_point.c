@@ -78,19 +78,6 @@ static bool add_map(PointSettings *settings, const YamlDocument *document, YamlN
     return true;
 }
 
-// A formula of `set` that --set replaces is not worked out.
-static void drop_replaced(const Study *study, PointSettings *settings)
-{
-    int32_t kept = 0;
-    for (int32_t k = 0; k < settings->formula_count; k++) {
-        bool replaced = false;
-        for (int32_t i = 0; i < study->override_count; i++)
-            replaced = replaced || strcmp(study->override_keys[i], settings->formulas[k].key) == 0;
-        if (!replaced) settings->formulas[kept++] = settings->formulas[k];
-    }
-    settings->formula_count = kept;
-}
-
 // Later settings win: a sweep's standards, `set`, --set, the case, what varies, `changes`.
 static bool gather(const Study *study, const PointChoice *choice, PointSettings *settings,
                    Error *err)
@@ -102,7 +89,17 @@ static bool gather(const Study *study, const PointChoice *choice, PointSettings 
     }
     if (!add_map(settings, study->standard, YAML_ROOT, err)) return false;
     if (!add_map(settings, study->file, study->set, err)) return false;
-    drop_replaced(study, settings);
+
+    // A formula of `set` that --set replaces is not worked out.
+    int32_t kept = 0;
+    for (int32_t k = 0; k < settings->formula_count; k++) {
+        bool replaced = false;
+        for (int32_t i = 0; i < study->override_count; i++)
+            replaced = replaced || strcmp(study->override_keys[i], settings->formulas[k].key) == 0;
+        if (!replaced) settings->formulas[kept++] = settings->formulas[k];
+    }
+    settings->formula_count = kept;
+
     for (int32_t k = 0; k < study->override_count; k++)
         if (!add(settings, &study->overrides[k], err)) return false;
     const StudyCase *one = choice->trial      ? choice->trial

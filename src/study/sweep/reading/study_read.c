@@ -12,16 +12,6 @@
 #include <stdio.h>
 #include <string.h>
 
-// A mistyped key would silently change the study.
-static bool check_keys(const Study *study, Error *err)
-{
-    WantedKey keys[] = {{.name = "title"}, {.name = "scene"},  {.name = "set"},   {.name = "cases"},
-                        {.name = "vary"},  {.name = "record"}, {.name = "keep"},  {.name = "rank"},
-                        {.name = "plot"},  {.name = "search"}, {.name = "where"}, {.name = "best"},
-                        {.name = "fit"}};
-    return wanted_find(study->file, YAML_ROOT, "study", keys, sizeof keys / sizeof *keys, err);
-}
-
 // text stays as it is where the key is missing.
 static bool read_text(const Study *study, const char *key, char text[SCENE_TEXT_SIZE], Error *err)
 {
@@ -70,7 +60,15 @@ bool study_read(const char *path, const char *const *overrides, int32_t override
     if (yaml_kind(study->file, YAML_ROOT) != YAML_MAP)
         return yaml_error(study->file, YAML_ROOT, err,
                           "not a study: a study is a map of keys, as in `scene: fig1.yaml`");
-    if (!check_keys(study, err)) return false;
+
+    // A mistyped key would silently change the study.
+    WantedKey keys[] = {{.name = "title"}, {.name = "scene"},  {.name = "set"},   {.name = "cases"},
+                        {.name = "vary"},  {.name = "record"}, {.name = "keep"},  {.name = "rank"},
+                        {.name = "plot"},  {.name = "search"}, {.name = "where"}, {.name = "best"},
+                        {.name = "fit"}};
+    if (!wanted_find(study->file, YAML_ROOT, "study", keys, sizeof keys / sizeof *keys, err))
+        return false;
+
     if (!yaml_parse("what a sweep sets", STUDY_STANDARD, 0, &study->made[0], err)) return false;
     study->standard = study->made[study->made_count++];
     return read_text(study, "title", study->title, err) && read_scene_path(study, err) &&

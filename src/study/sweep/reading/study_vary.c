@@ -101,20 +101,6 @@ static bool read_set(Study *study, Error *err)
     return error_is_clean(err);
 }
 
-static bool add_case(Study *study, const YamlDocument *document, YamlNode map, Error *err)
-{
-    int32_t count = study->case_list ? study->case_count : 0;   // without cases there is one point
-    if (!memory_grow(&study->case_list, count, &study->case_room, sizeof *study->case_list, err))
-        return false;
-    study->case_list[count] = (StudyCase){document, map};
-    study->case_count = count + 1;
-    YAML_EACH (item, document, map) {
-        if (!study_check_key(document, item, err)) return false;
-        if (!add_columns(study, yaml_key(document, item), document, item, false, err)) return false;
-    }
-    return error_is_clean(err);
-}
-
 // Every key of any case is a column; a case without it has the base scene's value there.
 static bool read_cases(Study *study, const YamlDocument *document, YamlNode cases, Error *err)
 {
@@ -123,7 +109,19 @@ static bool read_cases(Study *study, const YamlDocument *document, YamlNode case
     YAML_EACH (one, document, cases) {
         if (yaml_kind(document, one) != YAML_MAP)
             return yaml_refuse(document, one, "cases", "a map of the scene's keys", err);
-        if (!add_case(study, document, one, err)) return false;
+        int32_t count = study->case_list ? study->case_count
+                                         : 0;   // without cases there is one point
+        if (!memory_grow(&study->case_list, count, &study->case_room, sizeof *study->case_list,
+                         err))
+            return false;
+        study->case_list[count] = (StudyCase){document, one};
+        study->case_count = count + 1;
+        YAML_EACH (item, document, one) {
+            if (!study_check_key(document, item, err)) return false;
+            if (!add_columns(study, yaml_key(document, item), document, item, false, err))
+                return false;
+        }
+        if (!error_is_clean(err)) return false;
     }
     return error_is_clean(err);
 }

@@ -90,16 +90,6 @@ bool values_hold(const Values *values, int32_t which, int32_t point)
     return !values->key || values->key->values[point] == values->value[which];
 }
 
-// "~{L} / ~{L}_{0} = 0.25", in SI "~{L} = 0.25 m"; without a symbol the last word of the key.
-static void number_label(const QuantityLabel *key, const char *word, double value,
-                         char label[GROUP_LABEL_SIZE])
-{
-    const char *mark = strstr(key->words, "~{");
-    if (mark && !strstr(mark, "(of")) word = mark;
-    snprintf(label, GROUP_LABEL_SIZE, "%.60s = %.4g%s%s", word, value, key->unit ? " " : "",
-             key->unit ? key->unit : "");
-}
-
 void values_label(const Values *values, int32_t which, const char *name,
                   char label[GROUP_LABEL_SIZE])
 {
@@ -109,8 +99,15 @@ void values_label(const Values *values, int32_t which, const char *name,
     if (values->key->words.count > 0)
         snprintf(label, GROUP_LABEL_SIZE, "%.40s = %.40s", word,
                  values->key->words.words[(int32_t)values->value[which]]);
-    else
-        number_label(&values->key->label, word, values->value[which], label);
+    else {
+        // "~{L} / ~{L}_{0} = 0.25", in SI "~{L} = 0.25 m"; without a symbol the last word of the
+        // key.
+        const QuantityLabel *key = &values->key->label;
+        const char *mark = strstr(key->words, "~{");
+        if (mark && !strstr(mark, "(of")) word = mark;
+        snprintf(label, GROUP_LABEL_SIZE, "%.60s = %.4g%s%s", word, values->value[which],
+                 key->unit ? " " : "", key->unit ? key->unit : "");
+    }
 }
 
 // --- scale --------------------------------------------------------------------------------------

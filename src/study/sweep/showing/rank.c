@@ -88,16 +88,6 @@ static bool find_places(Ranking *ranking, Error *err)
     return error_is_clean(err);
 }
 
-static void look_at_refined(const Sweep *sweep, Ranking *ranking)
-{
-    for (int32_t k = 0; k < ranking->count; k++) {
-        const SweepPoint *point = &sweep->points[k];
-        if (!point->refined || point->same_as != k) continue;
-        ranking->refined++;
-        ranking->moved = fmax(ranking->moved, point->moved);
-    }
-}
-
 // How far each is known, beside those that were refined.
 static RankRow row_of(const Sweep *sweep, const SweepTable *table, const Ranking *ranking,
                       int32_t point)
@@ -134,7 +124,12 @@ bool ranking_make(const Sweep *sweep, const SweepTable *table, Ranking *ranking,
     *ranking =
         (Ranking){.count = study->point_count, .has_error = table->error[study->rank.record] >= 0};
     if (!(ranking->rows = NEW_ARRAY(RankRow, study->point_count, err))) return false;
-    look_at_refined(sweep, ranking);
+    for (int32_t k = 0; k < ranking->count; k++) {
+        const SweepPoint *point = &sweep->points[k];
+        if (!point->refined || point->same_as != k) continue;
+        ranking->refined++;
+        ranking->moved = fmax(ranking->moved, point->moved);
+    }
     for (int32_t k = 0; k < ranking->count; k++) {
         ranking->rows[k] = row_of(sweep, table, ranking, k);
         ranking->rows[k].value *= sign;
@@ -239,31 +234,6 @@ static char *add_cell(PrintedRow *row, int32_t *count)
     return row->cells[(*count)++];
 }
 
-// "+8.1 +- 0.4 %"; without an error bar to the digits that are known, "+8 %". NaN: `?`.
-static void add_gain(PrintedRow *row, int32_t *count, const RankRow *from)
-{
-    char *cell = add_cell(row, count);
-    bool has_bar = !isnan(from->bar) && !isnan(from->gain_error);
-    double gain = 100 * from->gain, error = 100 * from->gain_error;
-    if (isnan(gain))
-        snprintf(cell, CELL_SIZE, "?");
-    else if (has_bar)
-        snprintf(cell, CELL_SIZE, "%+.1f +- %.1f %%", gain, error);
-    else
-        snprintf(cell, CELL_SIZE, "%+.*f %%", error > 0.1 ? 0 : 1, gain);
-}
-
-// Row 0 is the head. *count: cells in a row.
-static void print_head(const Study *study, PrintedRow *row, int32_t *count)
-{
-    *count = 0;
-    snprintf(add_cell(row, count), CELL_SIZE, "rank");
-    for (int32_t k = 0; k < study->column_count; k++)
-        if (study->chosen[k]) snprintf(add_cell(row, count), CELL_SIZE, "%.79s", study->columns[k]);
-    snprintf(add_cell(row, count), CELL_SIZE, "%.79s", ranked_by(study)->name);
-    snprintf(add_cell(row, count), CELL_SIZE, "gain");
-}
-
 // Key columns that follow from formulas are left out: they tell no point from another.
 static bool print_row(const Sweep *sweep, const Ranking *ranking, int32_t k, PrintedRow *row,
                       Error *err)
@@ -280,7 +250,18 @@ static bool print_row(const Sweep *sweep, const Ranking *ranking, int32_t k, Pri
             study_scene_value(scene, study->columns[c], add_cell(row, &count), CELL_SIZE, &ignored);
     text_estimate(from->value, from->bar, ranking->has_error ? from->error : 0,
                   add_cell(row, &count));
-    add_gain(row, &count, from);
+
+    // "+8.1 +- 0.4 %"; without an error bar to the digits that are known, "+8 %". NaN: `?`.
+    char *cell = add_cell(row, &count);
+    bool has_bar = !isnan(from->bar) && !isnan(from->gain_error);
+    double gain = 100 * from->gain, error = 100 * from->gain_error;
+    if (isnan(gain))
+        snprintf(cell, CELL_SIZE, "?");
+    else if (has_bar)
+        snprintf(cell, CELL_SIZE, "%+.1f +- %.1f %%", gain, error);
+    else
+        snprintf(cell, CELL_SIZE, "%+.*f %%", error > 0.1 ? 0 : 1, gain);
+
     TRY(rank_notes(sweep, ranking, from, row->note, err));
 cleanup:
     return error_is_clean(err);
@@ -322,20 +303,6 @@ static void print_refined(const Ranking *ranking, FILE *out)
     fprintf(out, "\n");
 }
 
-// Ends of a key's values; *distinct: how many there are, at most three.
-static void ends_of(const double *values, int32_t count, double ends[2], int32_t *distinct)
-{
-    double third = NAN;
-    ends[0] = ends[1] = values[0];
-    for (int32_t k = 1; k < count; k++) {
-        ends[0] = fmin(ends[0], values[k]);
-        ends[1] = fmax(ends[1], values[k]);
-    }
-    for (int32_t k = 0; k < count; k++)
-        if (values[k] > ends[0] && values[k] < ends[1]) third = values[k];
-    *distinct = isnan(third) ? 1 + (ends[1] > ends[0]) : 3;
-}
-
 // Keys of which the best point has the least or the largest of three values or more.
 static void print_edges(const Sweep *sweep, const SweepTable *table, const Ranking *ranking,
                         FILE *out)
@@ -347,7 +314,18 @@ static void print_edges(const Sweep *sweep, const SweepTable *table, const Ranki
         double ends[2], best = values[ranking->rows[0].point];
         int32_t distinct;
         if (!study->chosen[c] || table->columns[c].words.count > 0) continue;
-        ends_of(values, study->point_count, ends, &distinct);
+
+        // Ends of a key's values; distinct: how many there are, at most three.
+        double third = NAN;
+        ends[0] = ends[1] = values[0];
+        for (int32_t k = 1; k < study->point_count; k++) {
+            ends[0] = fmin(ends[0], values[k]);
+            ends[1] = fmax(ends[1], values[k]);
+        }
+        for (int32_t k = 0; k < study->point_count; k++)
+            if (values[k] > ends[0] && values[k] < ends[1]) third = values[k];
+        distinct = isnan(third) ? 1 + (ends[1] > ends[0]) : 3;
+
         if (distinct < 3 || (best > ends[0] && best < ends[1])) continue;
         fprintf(out, "%s%s = %.6g",
                 found ? ", " : "  The best is at the edge of what was varied: ", study->columns[c],
@@ -382,7 +360,18 @@ bool ranking_print(const Sweep *sweep, const SweepTable *table, const Ranking *r
     if (!out) return true;
     if (shown > sweep->study.rank.top) shown = sweep->study.rank.top;
     TRY((rows = NEW_ARRAY(PrintedRow, shown + 1, err)));
-    print_head(&sweep->study, &rows[0], &cells);
+
+    // Row 0 is the head; `cells` in a row.
+    const Study *study = &sweep->study;
+    PrintedRow *row = &rows[0];
+    cells = 0;
+    snprintf(add_cell(row, &cells), CELL_SIZE, "rank");
+    for (int32_t k = 0; k < study->column_count; k++)
+        if (study->chosen[k])
+            snprintf(add_cell(row, &cells), CELL_SIZE, "%.79s", study->columns[k]);
+    snprintf(add_cell(row, &cells), CELL_SIZE, "%.79s", ranked_by(study)->name);
+    snprintf(add_cell(row, &cells), CELL_SIZE, "gain");
+
     for (int32_t k = 0; k < shown; k++) TRY(print_row(sweep, ranking, k, &rows[k + 1], err));
     TRY(print_title(sweep, ranking->has_error, out, err));
     print_rows(rows, shown, cells, out);

@@ -146,22 +146,6 @@ double table_known_to(const SweepTable *table, int32_t record, int32_t point)
 
 // --- sweep.csv ----------------------------------------------------------------------------------
 
-// Names as the study has them: `record` may rename a path.
-static void write_head(TableWriter *writer)
-{
-    csv_text(writer->csv, "point");
-    for (const TableColumn *column = writer->table->columns; column < writer->table->status;
-         column++)
-        csv_text(writer->csv, column->name);
-    csv_text(writer->csv, "status");
-    csv_text(writer->csv, "message");
-    csv_text(writer->csv, "warnings");
-    csv_text(writer->csv, "run");
-    csv_end_row(writer->csv);
-}
-
-// --- rows ---------------------------------------------------------------------------------------
-
 // Into a row of the CSV file and a row of the arrays at once.
 static bool write_keys(TableWriter *writer, int32_t point, const Scene *scene, Error *err)
 {
@@ -177,21 +161,6 @@ static bool write_keys(TableWriter *writer, int32_t point, const Scene *scene, E
 }
 
 static const char STEADY[] = "steady sliding";   // results.mu_M_is of a block that only creeps
-
-// "no mu_M: the block as a whole did not slide in this run": as run.json says it of mu_M; what else
-// a run has not it has not for the same reason.
-static void why_missing(const StudyRecord *record, const char *report, char text[RUN_WARNING_SIZE])
-{
-    char why[RUN_WARNING_SIZE];
-    const char *reason = why;
-    if (!json_find_text(report, "results.mu_M_is", why, sizeof why)) *why = 0;
-    if (strncmp(why, "none: ", 6) == 0)
-        reason = why + 6;
-    else
-        reason = strcmp(why, STEADY) == 0 ? "the block slides steadily, no sliding was fast"
-                                          : "this run has none";
-    snprintf(text, RUN_WARNING_SIZE, "no %s: %.300s", record->name, reason);
-}
 
 static bool is_steady(const char *path, const char *report)
 {
@@ -239,7 +208,18 @@ static void note_missing(TableWriter *writer, int32_t point, const char *report)
         no_bar |= lacks_bar(table, k, point);
         if (!report || !record->is_shown) continue;
         if (!isfinite(table_value(table, k, point))) {
-            why_missing(record, report, text);
+            // "no mu_M: the block as a whole did not slide in this run": as run.json says it of
+            // mu_M; what else a run has not it has not for the same reason.
+            char why[RUN_WARNING_SIZE];
+            const char *reason = why;
+            if (!json_find_text(report, "results.mu_M_is", why, sizeof why)) *why = 0;
+            if (strncmp(why, "none: ", 6) == 0)
+                reason = why + 6;
+            else
+                reason = strcmp(why, STEADY) == 0 ? "the block slides steadily, no sliding was fast"
+                                                  : "this run has none";
+            snprintf(text, RUN_WARNING_SIZE, "no %s: %.300s", record->name, reason);
+
             warned_add(&table->warned, point, text);
         } else if (is_steady(record->path, report))
             warned_add(
@@ -322,29 +302,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Names of all columns but errors, warnings and status, as plots take them.
-static bool write_names(const SweepTable *table, ArrayFile *file, Error *err)
-{
-    char names[(STUDY_COLUMNS_MAX + STUDY_RECORDS_MAX) * (STUDY_NAME_SIZE + 1)] = "";
-    size_t used = 0;
-    for (const TableColumn *column = table->columns; column < table->status; column++)
-        if (column->of < 0)
-            used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", used ? "|" : "",
-                                     column->name);
-    return array_file_set_text(file, "columns", names, err);
-}
-
-// Groups scene/ and result/, a column each, [points].
-static bool write_arrays(const Study *study, const SweepTable *table, ArrayFile *file, Error *err)
-{
-    if (!array_file_set_text(file, "title", study->title, err)) return false;
-    if (!array_file_set_text(file, "units", table->is_si ? "si" : "normalised", err)) return false;
-    if (!write_names(table, file, err)) return false;
-    for (int32_t c = 0; c < table->count; c++)
-        if (!write_column(file, &table->columns[c], study->point_count, err)) return false;
-    return true;
-}
-
 // Written after sweep.csv: the arrays are filled by its rows.
 static bool write_h5(const Sweep *sweep, const SweepTable *table, Error *err)
 {
@@ -352,7 +309,22 @@ static bool write_h5(const Sweep *sweep, const SweepTable *table, Error *err)
     snprintf(path, sizeof path, "%s/sweep.h5", sweep->folder);
     ArrayFile *file = array_file_create(path, err);
     TRY(file);
-    TRY(write_arrays(&sweep->study, table, file, err));
+
+    // Groups scene/ and result/, a column each, [points].
+    TRY(array_file_set_text(file, "title", sweep->study.title, err));
+    TRY(array_file_set_text(file, "units", table->is_si ? "si" : "normalised", err));
+
+    // Names of all columns but errors, warnings and status, as plots take them.
+    char names[(STUDY_COLUMNS_MAX + STUDY_RECORDS_MAX) * (STUDY_NAME_SIZE + 1)] = "";
+    size_t used = 0;
+    for (const TableColumn *column = table->columns; column < table->status; column++)
+        if (column->of < 0)
+            used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", used ? "|" : "",
+                                     column->name);
+    TRY(array_file_set_text(file, "columns", names, err));
+
+    for (int32_t c = 0; c < table->count; c++)
+        TRY(write_column(file, &table->columns[c], sweep->study.point_count, err));
 cleanup:
     if (error_is_clean(err)) return array_file_close(file, err);
     array_file_abandon(file);
@@ -369,7 +341,17 @@ bool table_write(const Sweep *sweep, SweepTable *table, Error *err)
     TRY((writer.cell = NEW_ARRAY(char, CELL_SIZE, err)));
     snprintf(path, sizeof path, "%s/sweep.csv", sweep->folder);
     TRY((writer.csv = csv_create(path, err)));
-    write_head(&writer);
+
+    // Names as the study has them: `record` may rename a path.
+    csv_text(writer.csv, "point");
+    for (const TableColumn *column = table->columns; column < table->status; column++)
+        csv_text(writer.csv, column->name);
+    csv_text(writer.csv, "status");
+    csv_text(writer.csv, "message");
+    csv_text(writer.csv, "warnings");
+    csv_text(writer.csv, "run");
+    csv_end_row(writer.csv);
+
     for (int32_t k = 0; k < sweep->study.point_count; k++) TRY(write_row(&writer, k, err));
     TRY(warned_bits(&table->warned, &table->kinds->words, table->kinds->values, err));
 cleanup:
