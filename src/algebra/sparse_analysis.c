@@ -4,12 +4,13 @@
 #include "algebra/sparse_analysis.h"
 
 #include "base/memory.h"
+#include "base/system.h"
 
 #include <pthread.h>
 #include <string.h>
 
-// METIS draws from the process's rand(), which it seeds anew for each order: one thread at a time,
-// or an order would depend on what others do.
+// METIS draws from the process's rand(), which it seeds anew for each order: from a state of its own,
+// and one thread at a time, or an order would depend on what others do.
 static pthread_mutex_t dissection_lock = PTHREAD_MUTEX_INITIALIZER;
 
 #define NO_MEMORY "no memory for a sparse matrix of %d unknowns"
@@ -109,8 +110,11 @@ static bool dissect(SparseAnalysis *analysis, const int32_t *member, const int32
     common->method[0].ordering = CHOLMOD_METIS;
     common->supernodal = CHOLMOD_SIMPLICIAL;
     common->postorder = true;
+    SystemRandom random;
     pthread_mutex_lock(&dissection_lock);
+    system_random_take(&random);
     factor = cholmod_analyze(&interior, common);
+    system_random_give_back(&random);
     pthread_mutex_unlock(&dissection_lock);
     const int32_t *permutation = factor ? factor->Perm : NULL;
     for (int32_t j = 0; factor && j < inside; j++) order[j] = inner[permutation[j]];

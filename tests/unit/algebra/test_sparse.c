@@ -503,3 +503,21 @@ TEST(test_dissection_in_threads)
     free(alone);
     point_block_destroy(&block);
 }
+
+// METIS seeds rand(), which is the host's.
+TEST(test_dissection_leaves_the_hosts_numbers)
+{
+    int plain[3], met[3];
+    PointBlock block;
+    double *schur = hand_matrix(LAYER, LAYER);
+    srand(7);
+    for (int32_t k = 0; k < 3; k++) plain[k] = rand();
+    point_block_build(&block);
+    srand(7);
+    met[0] = rand();
+    point_block_solve(&block, SPARSE_DISSECTION, schur, NULL);
+    for (int32_t k = 1; k < 3; k++) met[k] = rand();
+    assert_memory_equal(met, plain, sizeof plain);
+    free(schur);
+    point_block_destroy(&block);
+}
