@@ -97,8 +97,8 @@ void draw_outline(Canvas *canvas, const Stroke *stroke, const Box *box)
     cairo_stroke(cairo);
 }
 
-// Lines at 45 degrees that begin left of the box, as far as it is high; the clip cuts them off. A box
-// beyond the page, as a damaged file may have one, is hatched on the page alone.
+// Lines at 45 degrees that begin left of the box, as far as it is high; the clip cuts them off. A
+// box beyond the page, as a damaged file may have one, is hatched on the page alone.
 void draw_hatch(Canvas *canvas, const Stroke *stroke, const Box *box, double spacing)
 {
     const Box seen = {fmax(box->left, 0), fmax(box->top, 0), fmin(box->right, canvas_width(canvas)),

@@ -9,8 +9,8 @@
 #include <pthread.h>
 #include <string.h>
 
-// METIS draws from the process's rand(), which it seeds anew for each order: from a state of its own,
-// and one thread at a time, or an order would depend on what others do.
+// METIS draws from the process's rand(), which it seeds anew for each order: from a state of its
+// own, and one thread at a time, or an order would depend on what others do.
 static pthread_mutex_t dissection_lock = PTHREAD_MUTEX_INITIALIZER;
 
 #define NO_MEMORY "no memory for a sparse matrix of %d unknowns"

@@ -207,8 +207,10 @@ hid_t hdf5_disk_open(const char *path, Error *err)
     struct stat status;
     if (!open_check(path, err)) return -1;
     if (stat(path, &status) == 0 && status.st_size == 0) {
-        error_set(err, ERROR_FILE, __FILE__, __LINE__,
-                  "%s is empty: the run is about to begin, or ended before anything was on the disk", path);
+        error_set(
+            err, ERROR_FILE, __FILE__, __LINE__,
+            "%s is empty: the run is about to begin, or ended before anything was on the disk",
+            path);
         return -1;
     }
     start();
