@@ -42,18 +42,10 @@ void sparse_apply(const SparsePattern *pattern, const double *values, const doub
 void sparse_apply_many(const SparsePattern *pattern, const double *values, const double *x,
                        int64_t columns, double *y);
 
-// Fill-reducing orders: minimum degree is found faster; nested dissection of a mesh in space leaves
-// half of the operations of a factor.
-typedef enum SparseOrder {
-    SPARSE_MINIMUM_DEGREE,
-    SPARSE_DISSECTION   // if it is better
-} SparseOrder;
-
-// The fill-reducing order, border [border_count] last, and symbolic factor of one pattern, which
-// must outlive it. ERROR_MEMORY, ERROR_LIBRARY.
+// The fill-reducing order and symbolic factor of one pattern, which must outlive it.
 typedef struct SparseAnalysis SparseAnalysis;
 SparseAnalysis *sparse_analyse(const SparsePattern *pattern, const int32_t *border,
-                               int32_t border_count, SparseOrder order, Error *err);
+                               int32_t border_count, Error *err);
 // Another one, for another thread.
 SparseAnalysis *sparse_analysis_copy(const SparseAnalysis *from, Error *err);
 void sparse_analysis_destroy(SparseAnalysis *analysis);   // NULL is fine

@@ -1,17 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// CAMD orders the border last. In space nested dissection (Karypis and Kumar, SIAM J. Sci. Comput.
-// 20, 1998) takes half of the operations.
+// CAMD orders the border last.
 #include "algebra/sparse_analysis.h"
 
 #include "base/memory.h"
-#include "base/system.h"
 
-#include <pthread.h>
 #include <string.h>
-
-// METIS draws from the process's rand(), which it seeds anew for each order: from a state of its
-// own, and one thread at a time, or an order would depend on what others do.
-static pthread_mutex_t dissection_lock = PTHREAD_MUTEX_INITIALIZER;
 
 #define NO_MEMORY "no memory for a sparse matrix of %d unknowns"
 
@@ -76,65 +69,22 @@ static bool analyse_in_order(SparseAnalysis *analysis, int32_t *order, bool post
     return true;
 }
 
-// The interior's own order by nested dissection (METIS), then the border. false: CHOLMOD was built
-// without it, or an error.
-static bool dissect(SparseAnalysis *analysis, const int32_t *member, const int32_t *border,
-                    int32_t *order, Error *err)
+// The order that keeps the border last, checked. Postordering makes larger supernodes and keeps the
+// border where it is when the interior is connected, as in a mesh; where it is not, CAMD's own
+// order is taken as it is.
+static bool analyse_with_border(SparseAnalysis *analysis, const int32_t *border, Error *err)
 {
     cholmod_common *common = &analysis->common;
-    const int32_t *start = analysis->pattern.p, *index = analysis->pattern.i;
-    int32_t size = analysis->size, count = analysis->border_count, inside = 0, entries = 0;
-    int32_t *place = NEW_ARRAY(int32_t, size, err), *inner = NEW_ARRAY(int32_t, size, err);
-    int32_t *inner_start = NEW_ARRAY(int32_t, size + 1, err);
-    int32_t *inner_index = NEW_ARRAY(int32_t, start[size], err);
-    cholmod_factor *factor = NULL;
-    if (!error_is_clean(err)) goto cleanup;
-
-    // The pattern without the border.
-    for (int32_t j = 0; j < size; j++) {
-        place[j] = inside;
-        if (!member[j]) inner[inside++] = j;
-    }
-    for (int32_t j = 0; j < inside; j++) {
-        for (int32_t k = start[inner[j]]; k < start[inner[j] + 1]; k++)
-            if (!member[index[k]]) inner_index[entries++] = place[index[k]];
-        inner_start[j + 1] = entries;
-    }
-    cholmod_sparse interior = analysis->pattern;
-    interior.nrow = interior.ncol = (size_t)inside;
-    interior.nzmax = (size_t)entries;
-    interior.p = inner_start;
-    interior.i = inner_index;
-
-    common->nmethods = 1;
-    common->method[0].ordering = CHOLMOD_METIS;
-    common->supernodal = CHOLMOD_SIMPLICIAL;
-    common->postorder = true;
-    SystemRandom random;
-    pthread_mutex_lock(&dissection_lock);
-    system_random_take(&random);
-    factor = cholmod_analyze(&interior, common);
-    system_random_give_back(&random);
-    pthread_mutex_unlock(&dissection_lock);
-    const int32_t *permutation = factor ? factor->Perm : NULL;
-    for (int32_t j = 0; factor && j < inside; j++) order[j] = inner[permutation[j]];
+    int32_t size = analysis->size, count = analysis->border_count;
+    int32_t *member = NEW_ARRAY(int32_t, size, err);
+    int32_t *order = NEW_ARRAY(int32_t, size, err);
+    if (!member || !order) goto cleanup;
+    for (int32_t j = 0; j < count; j++) member[border[j]] = 1;
+    if (!cholmod_camd(&analysis->pattern, NULL, 0, member, order, common))
+        FAIL(err, error_code_of(common), "CHOLMOD: the fill-reducing order failed (status %d)",
+             common->status);
+    // S is full, in whatever order.
     memcpy(order + size - count, border, (size_t)count * sizeof *border);
-    if (!factor && error_code_of(common) == ERROR_MEMORY)
-        FAIL(err, ERROR_MEMORY, NO_MEMORY, analysis->size);
-cleanup:;
-    bool found = factor != NULL;
-    cholmod_free_factor(&factor, common);
-    memory_free_all(place, inner, inner_start, inner_index);
-    return found;
-}
-
-// Symbolic factorisation in an order that ends with the border, checked. Postordering makes larger
-// supernodes and keeps the border where it is when the interior is connected, as in a mesh; where
-// it is not, the order is taken as it is.
-static bool analyse_with_border(SparseAnalysis *analysis, const int32_t *border, int32_t *order,
-                                Error *err)
-{
-    cholmod_common *common = &analysis->common;
     common->nmethods = 1;
     common->method[0].ordering = CHOLMOD_GIVEN;
     common->supernodal = CHOLMOD_SUPERNODAL;
@@ -144,33 +94,7 @@ static bool analyse_with_border(SparseAnalysis *analysis, const int32_t *border,
     if (!border_is_last(analysis, border))
         FAIL(err, ERROR_LIBRARY, "CHOLMOD did not keep the interface last in its order");
 cleanup:
-    return error_is_clean(err);
-}
-
-// By minimum degree; in space by nested dissection, too, if that has fewer operations.
-static bool analyse(SparseAnalysis *analysis, const int32_t *border, SparseOrder by, Error *err)
-{
-    cholmod_common *common = &analysis->common;
-    int32_t size = analysis->size, count = analysis->border_count;
-    int32_t *member = NEW_ARRAY(int32_t, size, err);
-    int32_t *order = NEW_ARRAY(int32_t, size, err), *dissected = NEW_ARRAY(int32_t, size, err);
-    if (!error_is_clean(err)) goto cleanup;
-    for (int32_t j = 0; j < count; j++) member[border[j]] = 1;
-    if (!cholmod_camd(&analysis->pattern, NULL, 0, member, order, common))
-        FAIL(err, error_code_of(common), "CHOLMOD: the fill-reducing order failed (status %d)",
-             common->status);
-    // S is full, in whatever order.
-    memcpy(order + size - count, border, (size_t)count * sizeof *border);
-    TRY(analyse_with_border(analysis, border, order, err));
-    double operations = common->fl;
-    bool found = by == SPARSE_DISSECTION && size > count &&
-                 dissect(analysis, member, border, dissected, err);
-    TRY(error_is_clean(err));
-    if (!found) goto cleanup;
-    TRY(analyse_with_border(analysis, border, dissected, err));
-    if (common->fl > operations) TRY(analyse_with_border(analysis, border, order, err));
-cleanup:
-    memory_free_all(member, order, dissected);
+    memory_free_all(member, order);
     return error_is_clean(err);
 }
 
@@ -195,11 +119,11 @@ cleanup:
 }
 
 SparseAnalysis *sparse_analyse(const SparsePattern *pattern, const int32_t *border,
-                               int32_t border_count, SparseOrder order, Error *err)
+                               int32_t border_count, Error *err)
 {
     cholmod_sparse view = pattern_view(pattern);
     SparseAnalysis *analysis = begin_analysis(&view, border_count, err);
-    if (!analysis || analyse(analysis, border, order, err)) return analysis;
+    if (!analysis || analyse_with_border(analysis, border, err)) return analysis;
     sparse_analysis_destroy(analysis);
     return NULL;
 }

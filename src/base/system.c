@@ -197,17 +197,3 @@ void system_sort(void *items, size_t count, size_t size,
     qsort_r(items, count, size, compare, context);   // musl: since 1.2.3
 #endif
 }
-
-void system_random_take(SystemRandom *random)
-{
-#ifdef __GLIBC__
-    random->host = initstate(1, random->own, sizeof random->own);
-#else
-    random->host = NULL;
-#endif
-}
-
-void system_random_give_back(SystemRandom *random)
-{
-    if (random->host) setstate(random->host);
-}

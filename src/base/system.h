@@ -61,17 +61,6 @@ typedef ssize_t (*SystemWrite)(void *context, const char *bytes, size_t count);
 FILE *system_stream(void *context,
                     SystemWrite write);   // whose bytes go to `write`; NULL: no memory
 
-// --- random numbers ------------------------------------------------------------------------------
-
-// Where rand() has its state while a library draws from it, so that the host's numbers go on as if
-// nothing had been drawn. In glibc, where random() and rand() share one state; elsewhere nothing.
-typedef struct SystemRandom {
-    char own[128];
-    char *host;   // of the C library
-} SystemRandom;
-void system_random_take(SystemRandom *random);
-void system_random_give_back(SystemRandom *random);
-
 // --- order ---------------------------------------------------------------------------------------
 
 // qsort with a context that comes third, and no state outside the call.

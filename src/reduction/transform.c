@@ -286,8 +286,7 @@ cleanup:
 
 bool bulk_transform(const Bulk *from, const Transform *by, Bulk *to, Error *err)
 {
-    *to = (Bulk){.dim = from->dim,   // of the mesh: unknowns belong to no node
-                 .dof_count = by->count,
+    *to = (Bulk){.dof_count = by->count,
                  .mass = NEW_ARRAY(double, by->count, err),
                  .load = NEW_ARRAY(double, by->count, err),
                  .held = NEW_ARRAY(uint8_t, by->count, err)};

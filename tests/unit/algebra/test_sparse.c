@@ -8,7 +8,6 @@
 #include "near.h"
 #include "random_numbers.h"
 
-#include <pthread.h>
 #include <SuiteSparse_config.h>
 #include <dlfcn.h>
 
@@ -161,9 +160,7 @@ TEST(test_random_matrices)
         int32_t border_count = random_index(&random, size + 1);
         if (trial < 20) border_count = trial % 4 == 0 ? 0 : (trial % 4 == 1 ? 1 : size);
         make_case(&random, size, border_count, &made);
-        SparseOrder order = trial % 3 == 0 ? SPARSE_DISSECTION : SPARSE_MINIMUM_DEGREE;
-        SparseAnalysis *analysis =
-            sparse_analyse(&made.pattern, made.border, border_count, order, &err);
+        SparseAnalysis *analysis = sparse_analyse(&made.pattern, made.border, border_count, &err);
         if (!analysis) fail_msg("size %d, border %d: %s", size, border_count, err.message);
         SparseFactor *factor = sparse_factorise(analysis, made.values, &err);
         if (!factor) fail_msg("size %d, border %d: %s", size, border_count, err.message);
@@ -184,8 +181,7 @@ TEST(test_two_factors_without_allocation)
     Random random = {.state = 4};
     Case made;
     make_case(&random, 50, 12, &made);
-    SparseAnalysis *analysis =
-        sparse_analyse(&made.pattern, made.border, 12, SPARSE_MINIMUM_DEGREE, &err);
+    SparseAnalysis *analysis = sparse_analyse(&made.pattern, made.border, 12, &err);
     SparseFactor *first = sparse_factorise(analysis, made.values, &err);
     int32_t entries = made.pattern.start[made.size];
     for (int32_t k = 0; k < entries; k++) made.values[k] *= 2;
@@ -287,8 +283,7 @@ TEST(test_not_definite)
         make_case(&random, 30, 8, &made);
         for (int32_t k = made.pattern.start[spoilt]; k < made.pattern.start[spoilt + 1]; k++)
             if (made.pattern.index[k] == spoilt) made.values[k] = -1;
-        SparseAnalysis *analysis =
-            sparse_analyse(&made.pattern, made.border, 8, SPARSE_MINIMUM_DEGREE, &err);
+        SparseAnalysis *analysis = sparse_analyse(&made.pattern, made.border, 8, &err);
         assert_null(sparse_factorise(analysis, made.values, &err));
         assert_int_equal(err.code, ERROR_COMPUTE);
         assert_non_null(strstr(err.message, "not positive definite"));
@@ -309,8 +304,7 @@ TEST(test_memory_faults)
     for (int32_t k = 0; !done; k++) {
         Error err = {0};
         memory_fail_after(k);
-        SparseAnalysis *analysis =
-            sparse_analyse(&made.pattern, made.border, 5, SPARSE_DISSECTION, &err);
+        SparseAnalysis *analysis = sparse_analyse(&made.pattern, made.border, 5, &err);
         SparseFactor *factor = analysis ? sparse_factorise(analysis, made.values, &err) : NULL;
         memory_fail_after(-1);
         done = factor != NULL;
@@ -373,8 +367,7 @@ TEST(test_memory_of_the_library)
     for (; !done; failed++) {
         Error err = {0};
         library_left = failed;
-        SparseAnalysis *analysis =
-            sparse_analyse(&made.pattern, made.border, 5, SPARSE_DISSECTION, &err);
+        SparseAnalysis *analysis = sparse_analyse(&made.pattern, made.border, 5, &err);
         SparseFactor *factor = analysis ? sparse_factorise(analysis, made.values, &err) : NULL;
         bool answered = factor && sparse_expand_many(factor, motions, 3, x, &err);
         done = library_left >= 0;   // not one of so many failed
@@ -391,133 +384,4 @@ TEST(test_memory_of_the_library)
     assert_true(failed > 20);
     use_memory(malloc, calloc, free);
     free_case(&made);
-}
-
-enum { SIDE = 14, LAYER = SIDE * SIDE, BLOCK = SIDE * LAYER };
-
-// A block of SIDE^3 points, each joined to the 26 around it, its lowest layer the border.
-typedef struct PointBlock {
-    SparsePattern pattern;
-    double *values;
-    int32_t border[LAYER];
-} PointBlock;
-
-static void point_block_build(PointBlock *block)
-{
-    int32_t entries = 0;
-    block->pattern = (SparsePattern){.size = BLOCK,
-                                     .start = calloc(BLOCK + 1, sizeof(int32_t)),
-                                     .index = calloc(27 * BLOCK, sizeof(int32_t))};
-    block->values = calloc(27 * BLOCK, sizeof(double));
-    for (int32_t j = 0; j < BLOCK; j++) {
-        for (int32_t k = 0; k < BLOCK; k++) {
-            bool beside = abs(k / LAYER - j / LAYER) < 2 &&
-                          abs(k / SIDE % SIDE - j / SIDE % SIDE) < 2 &&
-                          abs(k % SIDE - j % SIDE) < 2;
-            if (!beside) continue;
-            block->values[entries] = k == j ? 30 : -1;
-            block->pattern.index[entries++] = k;
-        }
-        block->pattern.start[j + 1] = entries;
-    }
-    for (int32_t k = 0; k < LAYER; k++) block->border[k] = LAYER - 1 - k;
-}
-
-static void point_block_destroy(PointBlock *block)
-{
-    free(block->pattern.start), free(block->pattern.index), free(block->values);
-}
-
-// schur [LAYER^2], x [BLOCK] with sines on the border.
-static void point_block_solve(const PointBlock *block, SparseOrder by, double *schur, double *x)
-{
-    Error err = {0};
-    double given[LAYER];
-    for (int32_t k = 0; k < LAYER; k++) given[k] = sin(k);
-    SparseAnalysis *analysis = sparse_analyse(&block->pattern, block->border, LAYER, by, &err);
-    SparseFactor *factor = analysis ? sparse_factorise(analysis, block->values, &err) : NULL;
-    if (!factor) fail_msg("%s", err.message);
-    sparse_schur(factor, schur);
-    if (x) assert_true(sparse_expand_many(factor, given, 1, x, &err));
-    sparse_factor_destroy(factor);
-    sparse_analysis_destroy(analysis);
-}
-
-// An order by nested dissection is another one (S has other roundings), and answers as that by
-// minimum degree does.
-TEST(test_dissection)
-{
-    dense_use_one_thread();
-    PointBlock block;
-    double *schur[2], *x[2];
-    point_block_build(&block);
-    for (SparseOrder by = SPARSE_MINIMUM_DEGREE; by <= SPARSE_DISSECTION; by++) {
-        schur[by] = hand_matrix(LAYER, LAYER);
-        x[by] = hand_matrix(BLOCK, 1);
-        point_block_solve(&block, by, schur[by], x[by]);
-    }
-    assert_all_near("S", schur[1], schur[0], LAYER * LAYER, 1e-12);
-    assert_all_near("x", x[1], x[0], BLOCK, 1e-12);
-    assert_true(memcmp(schur[1], schur[0], LAYER * LAYER * sizeof(double)) != 0);
-    for (int32_t k = 0; k < 2; k++) free(schur[k]), free(x[k]);
-    point_block_destroy(&block);
-}
-
-enum { THREADS = 4, ORDERS = 6 };
-
-typedef struct OrderingThread {
-    const PointBlock *block;
-    double *schur[ORDERS];   // [LAYER^2]
-} OrderingThread;
-
-static void *order_often(void *self)
-{
-    OrderingThread *thread = self;
-    for (int32_t k = 0; k < ORDERS; k++)
-        point_block_solve(thread->block, SPARSE_DISSECTION, thread->schur[k], NULL);
-    return NULL;
-}
-
-// The same bits, whatever other threads order at the same time.
-TEST(test_dissection_in_threads)
-{
-    dense_use_one_thread();
-    PointBlock block;
-    pthread_t handle[THREADS];
-    OrderingThread thread[THREADS];
-    double *alone = hand_matrix(LAYER, LAYER);
-    point_block_build(&block);
-    point_block_solve(&block, SPARSE_DISSECTION, alone, NULL);
-    for (int32_t t = 0; t < THREADS; t++) {
-        thread[t].block = &block;
-        for (int32_t k = 0; k < ORDERS; k++) thread[t].schur[k] = hand_matrix(LAYER, LAYER);
-        assert_int_equal(pthread_create(&handle[t], NULL, order_often, &thread[t]), 0);
-    }
-    for (int32_t t = 0; t < THREADS; t++) {
-        pthread_join(handle[t], NULL);
-        for (int32_t k = 0; k < ORDERS; k++) {
-            assert_memory_equal(thread[t].schur[k], alone, LAYER * LAYER * sizeof(double));
-            free(thread[t].schur[k]);
-        }
-    }
-    free(alone);
-    point_block_destroy(&block);
-}
-
-// METIS seeds rand(), which is the host's.
-TEST(test_dissection_leaves_the_hosts_numbers)
-{
-    int plain[3], met[3];
-    PointBlock block;
-    double *schur = hand_matrix(LAYER, LAYER);
-    srand(7);
-    for (int32_t k = 0; k < 3; k++) plain[k] = rand();
-    point_block_build(&block);
-    srand(7);
-    met[0] = rand();
-    point_block_solve(&block, SPARSE_DISSECTION, schur, NULL);
-    for (int32_t k = 1; k < 3; k++) met[k] = rand();
-    assert_memory_equal(met, plain, sizeof plain);
-    free(schur);
-    point_block_destroy(&block);
 }
