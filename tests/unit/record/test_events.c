@@ -327,8 +327,8 @@ TEST_BETWEEN(test_after_slip, setup, teardown)
     assert_int_equal(events.kinds[EVENT_BOUNDED], 1);
 }
 
-// What begins sooner behind a precursor than that took, and stays ten times slower, rings, from
-// wherever it comes; later, or faster, it is a precursor of its own.
+// Slip that begins sooner behind a precursor than that took, and stays ten times slower, rings,
+// from wherever it comes; later, or faster, it is a precursor of its own.
 TEST_BETWEEN(test_ringing, setup, teardown)
 {
     see(0, 99, 99, 99, 0, 0);

@@ -79,7 +79,7 @@ TEST(test_begins_anew)
     events_destroy(&slide.run.events);
 }
 
-// What is remembered falls to 0.2 %, the range, over ln(500) = 6.2 times the slip over which it
+// A remembered state falls to 0.2 %, the range, over ln(500) = 6.2 times the slip over which it
 // falls to 1/e: with 0.2 that is a way of 1.24, 13 steps after the first. Where mu swings it is not
 // steady where it turns.
 TEST(test_memory_fades)

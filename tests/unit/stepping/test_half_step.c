@@ -297,10 +297,9 @@ static int32_t disturb_event(double way, bool whole, int32_t steps, double *rate
     return steps;
 }
 
-// What passes for rounding and is amplified thirty times in an event, as a run that is solved whole
-// shows: it is followed, and above 1e-9 the run leaves its half for good. A tenth of it, which
-// is 300 times as large as what rounding adds, is followed by the same factors and is dropped where
-// it decays.
+// A disturbance that passes for rounding is amplified in an event, as a run that is solved whole
+// shows: it is followed, and above 1e-9 the run leaves its half for good. A tenth of it, some 500
+// times what rounding adds, is followed by the same factors and is dropped where it decays.
 TEST(test_symmetry_breaks)
 {
     enum { STEPS = 60, AFTER = 10 };
