@@ -39,6 +39,11 @@ WORDS = {0: "done", 1: "failed", 2: "refused"}
 COLUMNS = ["group", "try", "ended", "wrong", "seconds", "said"]
 
 
+def key_of(attempt):
+    """(group, try) as tries.csv has them: in one line."""
+    return attempt.group, attempt.name.encode("unicode_escape").decode()
+
+
 class Stock:
     """What tries start from: an undisturbed run with its result and its cache."""
     def __init__(self, folder):
@@ -144,7 +149,7 @@ def attempt_once(attempt, number, stock):
     word = ("signal" if attempt.signal and status is not None else "no end" if status is None else
             WORDS.get(status, "failed" if status == 127 else "crash"))
     shutil.rmtree(folder, ignore_errors=True)
-    return dict(zip(COLUMNS, (attempt.group, attempt.name, word, "; ".join(found), f"{seconds:.2f}",
+    return dict(zip(COLUMNS, (*key_of(attempt), word, "; ".join(found), f"{seconds:.2f}",
                               " ".join(said.split())[-300:])))
 
 
@@ -220,10 +225,10 @@ def main():
         if options.every > 1:
             listed = [attempt for attempt in listed if not attempt.slow][::options.every]
         started = time.monotonic()
-        todo = [attempt for attempt in listed if (attempt.group, attempt.name) not in before]
+        todo = [attempt for attempt in listed if key_of(attempt) not in before]
         done = attempt_all(todo, stock, options.j, options.output / "tries.csv")
     found = before | {(row["group"], row["try"]): row for row in done}
-    rows = [found[attempt.group, attempt.name] for attempt in listed]
+    rows = [found[key_of(attempt)] for attempt in listed]
     text = table(rows)
     (options.output / "tries.md").write_text(text + "\n")
     for row in rows:
