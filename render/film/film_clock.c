@@ -141,6 +141,20 @@ static bool course_even(const Course *course, double power, int64_t count, Cours
     return true;
 }
 
+// Speed, 1 without slow motion, grows by no more than `slope` a unit of the run's time, before and
+// behind rapid slip: its logarithm then changes evenly in the film's time. It can only fall, so
+// that nothing rapid is shown faster than without.
+static void course_ease(Course *even, double power, double slope)
+{
+    double *log_fast = even->log_fast;
+    for (int32_t back = 0; back < 2; ++back)
+        for (int64_t i = 1; i < even->count; ++i) {
+            int64_t k = back ? even->count - 1 - i : i, from = back ? k + 1 : k - 1;
+            double most = exp(-power * log_fast[from]) + slope * fabs(even->t[k] - even->t[from]);
+            if (exp(-power * log_fast[k]) > most) log_fast[k] = -log(most) / power;
+        }
+}
+
 // The slope with which the way from the slowest to the fastest takes `ease` seconds.
 static double ease_slope(const FilmClockDef *def, const Course *even, double power)
 {
@@ -180,21 +194,7 @@ bool film_clock_create(const FilmClockDef *def, FilmClock *clock, Error *err)
     TRY(course_create(def, &course, err));
     double power = choose_power(&course);
     TRY(course_even(&course, power, places, &even, err));
-
-    if (def->ease > 0) {
-        // Speed, 1 without slow motion, grows by no more than `slope` a unit of the run's time,
-        // before and behind rapid slip: its logarithm then changes evenly in the film's time. It
-        // can only fall, so that nothing rapid is shown faster than without.
-        double *log_fast = even.log_fast;
-        for (int32_t back = 0; back < 2; ++back)
-            for (int64_t i = 1; i < even.count; ++i) {
-                int64_t k = back ? even.count - 1 - i : i, from = back ? k + 1 : k - 1;
-                double most = exp(-power * log_fast[from]) +
-                              ease_slope(def, &even, power) * fabs(even.t[k] - even.t[from]);
-                if (exp(-power * log_fast[k]) > most) log_fast[k] = -log(most) / power;
-            }
-    }
-
+    if (def->ease > 0) course_ease(&even, power, ease_slope(def, &even, power));
     TRY(frames_place(def, &even, power, clock, err));
 cleanup:
     course_destroy(&course);
