@@ -71,10 +71,10 @@ def run(attempt, folder):
         words = ["sh", "-c", attempt.shell, "sh", *words]
     env = os.environ | {"AMONTONS_CACHE": ""} | attempt.env
     started = time.monotonic()
-    # Its words go into a file, not a pipe: a child that lives on would hold that open.
-    with tempfile.TemporaryFile() as said:
-        process = subprocess.Popen(words, cwd=folder, env=env, stdin=subprocess.DEVNULL, stdout=said,
-                                   stderr=subprocess.STDOUT, start_new_session=True)
+    process = subprocess.Popen(words, cwd=folder, env=env, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                               stderr=subprocess.STDOUT, start_new_session=True)
+    with ThreadPoolExecutor(1) as reader:
+        said = reader.submit(process.stdout.read)
         try:
             if attempt.signal:
                 time.sleep(attempt.seconds)
@@ -83,12 +83,11 @@ def run(attempt, folder):
         except subprocess.TimeoutExpired:
             return None, PATIENCE, ""
         finally:
+            seconds = time.monotonic() - started
             with contextlib.suppress(ProcessLookupError):
-                os.killpg(process.pid, signal.SIGKILL)      # it and what it began
+                os.killpg(process.pid, signal.SIGKILL)      # it and what it began, which would hold the pipe open
             process.wait()
-        seconds = time.monotonic() - started
-        said.seek(0)
-        return process.returncode, seconds, said.read().decode(errors="replace")
+        return process.returncode, seconds, said.result().decode(errors="replace")
 
 
 def faults(attempt, status, said, folder, stock):
