@@ -292,8 +292,7 @@ void axes_draw_left(const Page *page, const Axes *axes)
         .size = axes_number_size(axes) * page->point, .color = INK, .across = 1, .up = 0.5};
     double edge = axes->box.left - (TICK_LENGTH + NUMBER_GAP) * page->point;
     if (axes->y.names) {
-        // Draws names at y = 1, 2, ... in the place of numbers; there are no minor ticks between
-        // names.
+        // Names at y = 1, 2, ... in the place of numbers, without minor ticks between them.
         for (int32_t k = 0; k < axes->y.name_count; ++k) {
             Point foot = axes_place(axes, axes->x.low, k + 1);
             tick_mark(page, axes, foot, false, TICK_LENGTH);

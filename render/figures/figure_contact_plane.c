@@ -302,7 +302,7 @@ static bool draw_page(Page *page, const FigureInput *input, Maps *maps, Error *e
         def.height = height / width;
     }
 
-    // Writes the note that says what the words above the maps count.
+    // A note says what the words above the maps count.
     const ResultView *view = maps->view;
     int64_t row = maps->moments.first;
     Axis U = figure_length_axis(view, "U", view->U[row], view->U[row]);

@@ -276,8 +276,8 @@ bool figure_force(const Page *whole, ResultView *view, Error *err)
     slidings_draw(&page, view, &axes);
     measured_draw(&page, &measured, &axes);
     if (enlarged) {
-        // Frames the part that the inset shows, with lines from it to below the inset's numbers:
-        // all in one colour.
+        // A frame around the part that the inset shows, with lines from it to below the inset's
+        // numbers: all in one colour.
         Stroke stroke = {.color = ZOOM_FORCE, .width = 0.5 * page.point};
         Point from = axes_place(&axes, inset.x.low, inset.y.high);
         Point to = axes_place(&axes, inset.x.high, inset.y.low);

@@ -54,7 +54,7 @@ bool sparse_pattern_of_groups(const PointGroups *groups, int32_t width, SparsePa
     return done;
 }
 
-// Bisection: the columns of a row are ascending. The entry must exist.
+// Bisection: the columns of a row are ascending.
 int32_t sparse_entry(const SparsePattern *pattern, int32_t row, int32_t column)
 {
     int32_t low = pattern->start[row], high = pattern->start[row + 1] - 1;

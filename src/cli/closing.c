@@ -360,7 +360,7 @@ void closing_print(const char *title, const RunSummary *summary)
     if (summary->field_files > 0) print_file(summary->folder, "fields.pvd", fields);
 
     if (summary->figures > 0) {
-        // Lists the folder, not what was asked for: a picture that could not be drawn is not named.
+        // Those in the folder, not those asked for: one that could not be drawn is not named.
         char figures[AMONTONS_PATH_SIZE + 16];
         struct dirent **entries = NULL;
         snprintf(figures, sizeof figures, "%s/figures", summary->folder);

@@ -280,7 +280,7 @@ bool model_obtain(const Scene *scene, const StageNotice *notice, Model *model, E
     TRY(model_lay_laws(model, err));
     TRY(model_lay_gaps(model, err));
 
-    // Sets the scales that velocities and times are measured with.
+    // Scales by which velocities and times are measured.
     const Material *material = &model->materials.mean;
     double length = model->length;
     model->scales.length = length;

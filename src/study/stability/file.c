@@ -43,7 +43,7 @@ static bool write_numbers(const StabilityPath *path, const StabilitySummary *sum
     json_end(json);
     json_end(json);
 
-    // Writes the results of pad_growth.c; `mode` is relative to the pad that takes part most.
+    // Results of pad_growth.c; `mode` is relative to the pad that takes part most.
     json_begin_list(json, "pads");
     for (int32_t p = 0; p < summary->pad_count; p++) {
         const StabilityPad *pad = &summary->pads[p];

@@ -379,7 +379,6 @@ bool amontons_stability(const Scene *scene, const StabilityOptions *options,
     }
     TRY(result_folder_settle(&folder, err));
 cleanup:
-    // Zeroed and half-built paths too.
     growth_destroy(path.growth);
     step_control_destroy(&path.control);
     state_destroy(&path.last);

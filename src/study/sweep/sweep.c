@@ -106,7 +106,7 @@ static bool plan_point(Sweep *sweep, int32_t k, Error *err)
     if (!scene || !point_hash(sweep, scene, sweep->points[k].hash, err)) return false;
 
     if (sweep->study.keep_table) {
-        // Refuses what `keep: table` cannot do, because it keeps nothing but numbers.
+        // `keep: table` keeps nothing but numbers, and cannot do what needs more.
         if (scene->output.history || scene->output.fields || scene->output.figures.count > 0)
             return REFUSE(err,
                           "%s: keep: with `table` points have no folder for a history, fields or "

@@ -37,7 +37,7 @@ static void report_point(Sweep *sweep, int32_t k, const char *report)
                       .points = sweep->planned,
                       .reused = point->reused};
 
-    // Reads the quantity that the study ranks by, or mu_M, from the report of a finished point.
+    // The quantity that the study ranks by, or mu_M, of a finished point.
     const Study *study = &sweep->study;
     const StudyRecord *ranked = study->rank.wanted ? &study->records[study->rank.record] : NULL;
     PointValue found = point_value(report, ranked ? ranked->path : "results.mu_M");
