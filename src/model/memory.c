@@ -17,12 +17,15 @@ static const double BYTES_FACTORS = 9000, BYTES_PRODUCTS = 36;
 
 // Bytes of a run in space on a few cells: the program and its libraries.
 static const double SPACE_LEAST = 6e7;
+// Bytes for each unknown of the mesh: mesh, matrices and those of its parts.
+static const double SPACE_MESH = 4500;
 // Numbers in space that are kept at once: matrices of m x m (one for each step size, their copies,
-// factors, certificate), entries of a factor, and in a reduction columns of responses over those of
-// a part's border. Contact that is its own mirror image takes fewer matrices while it is solved on
-// one side and more when it is not any more, which nobody knows before.
-static const double SPACE_SQUARES = 30, SPACE_ENTRIES = 39, SPACE_COLUMNS = 12;
-static const double SPACE_TOGETHER = 1.2;   // two parts side by side over one: 0.9 to 1.16
+// factors, certificate), entries of a factor, and in a reduction those of the factors of a part and
+// columns of responses over those of its border. Contact that is its own mirror image is solved on
+// one side, and takes 58 where its symmetry breaks, which nobody knows before.
+static const double SPACE_SQUARES = 30, SPACE_SQUARES_ONE_SIDE = 20, SPACE_ENTRIES = 39;
+static const double SPACE_PART_ENTRIES = 58, SPACE_COLUMNS = 5;
+static const double SPACE_TOGETHER = 1.43;   // two parts side by side over one
 static const double SPACE_FACTORS = 11;   // step sizes of a run with a sliding, each with a factor
 
 double memory_there(void)
@@ -42,10 +45,11 @@ double memory_expected(const MemorySizes *sizes, bool reduced)
         return reduced ? BYTES_FACTORS * of_part +
                              BYTES_PRODUCTS * border * far_patches_left(of_part, border)
                        : 0;
-    double squares = SPACE_SQUARES * m * m;
+    double squares = (sizes->one_side ? SPACE_SQUARES_ONE_SIDE : SPACE_SQUARES) * m * m;
     double factor = SPACE_ENTRIES * pow(n, 4.0 / 3);
-    double responses = SPACE_ENTRIES * pow(of_part, 4.0 / 3) + SPACE_COLUMNS * of_part * border;
-    if (parts > 1) responses *= SPACE_TOGETHER;
+    double responses = SPACE_PART_ENTRIES * pow(of_part, 4.0 / 3) +
+                       SPACE_COLUMNS * of_part * border;
+    if (parts > 1 && !sizes->one_by_one) responses *= SPACE_TOGETHER;
     double numbers = reduced ? fmax(squares, responses) : squares + SPACE_FACTORS * factor;
-    return SPACE_LEAST + sizeof(double) * numbers;
+    return SPACE_LEAST + SPACE_MESH * n + sizeof(double) * numbers;
 }

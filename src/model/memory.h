@@ -10,7 +10,9 @@ typedef struct MemorySizes {
     bool space;   // in three dimensions: else in two
     double unknowns;   // of the mesh
     double interface;   // of those on floor and rod
+    bool one_side;   // contact is its own mirror image (contact/contact_half)
     double parts;   // that the block is reduced in (reduction/mirror)
+    bool one_by_one;   // they are built one after another
 } MemorySizes;
 
 double memory_there(void);   // of this computer, or what a limit leaves of it, bytes

@@ -59,6 +59,7 @@ typedef struct Model {
     bool is_reduced;   // else the whole mesh is stepped
     bool from_cache;   // the basis was: nothing of the full mesh was factored
     double memory;   // that a run takes at most, about, bytes; 0: not known
+    bool one_by_one;   // parts of its reduction are built so, for memory
     char not_reduced[NOT_REDUCED_SIZE];   // why a reduction that was tried failed; empty: none was
     char cache_note[CACHE_NOTE_SIZE];   // why what is cached was not used or kept; empty: nothing
     double seconds_mesh, seconds_reduce;   // wall time to read the mesh; for all the rest, s

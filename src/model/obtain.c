@@ -6,6 +6,7 @@
 #include "base/clock.h"
 #include "base/computation.h"
 #include "base/system.h"
+#include "contact/contact_half.h"
 #include "fem/floor.h"
 #include "reduction/mirror.h"
 #include "reduction/symmetry_reduction.h"
@@ -82,6 +83,7 @@ static bool build_basis(Model *model, const ReductionBlock *block, const char *n
                         .materials = block->materials,
                         .modes = wants_modes(scene),
                         .no_patches = model->mesh.dim > 2,
+                        .one_by_one = model->one_by_one,
                         .node_image = block->image,
                         .position = block->position,
                         .goes_on = notice ? notice->goes_on : NULL,
@@ -152,6 +154,9 @@ static bool check_rod(const Model *model, Error *err)
     return true;
 }
 
+// Part of the computer's memory from which on parts of a reduction are built one after another.
+static const double ONE_BY_ONE_FROM = 0.3;
+
 // Said before anything is factored; in space, where it goes up with the fourth power of the cells
 // along a side.
 static bool check_memory(Model *model, int32_t parts, Error *err)
@@ -160,19 +165,27 @@ static bool check_memory(Model *model, int32_t parts, Error *err)
                          .unknowns = model->bulk.dof_count,
                          .interface = model->interface.count,
                          .parts = parts};
+    ContactHalf half = {0};
+    TRY(contact_half_find(&model->interface, &half, err));
+    sizes.one_side = half.interface.contact_count > 0;
     double have = memory_there(), whole = memory_expected(&sizes, false);
     model->memory = memory_expected(&sizes, model->is_reduced);
+    if (model->memory > ONE_BY_ONE_FROM * have) {
+        sizes.one_by_one = model->one_by_one = true;
+        model->memory = memory_expected(&sizes, model->is_reduced);
+    }
     if (model->scene->time.scheme == SCHEME_EXPLICIT) model->memory = 0;
     if (model->memory > have)
-        return REFUSE(err,
-                      "%s: %d contact nodes are too many for this computer: a run takes some %.0f "
-                      "GB of memory, and there are %.1f; coarser cells at the contact are needed%s",
-                      model->scene->path, model->interface.contact_count, model->memory / 1e9,
-                      have / 1e9,
-                      model->is_reduced && whole < have
-                          ? ", or reduction.use: never, which takes less memory and longer"
-                          : "");
-    return true;
+        FAIL(err, ERROR_INPUT,
+             "%s: %d contact nodes are too many for this computer: a run takes some %.0f "
+             "GB of memory, and there are %.1f; coarser cells at the contact are needed%s",
+             model->scene->path, model->interface.contact_count, model->memory / 1e9, have / 1e9,
+             model->is_reduced && whole < have
+                 ? ", or reduction.use: never, which takes less memory and longer"
+                 : "");
+cleanup:
+    contact_half_destroy(&half);
+    return error_is_clean(err);
 }
 
 // Fills the block that would be reduced, with its matrices where the cache does not have its basis.

@@ -79,8 +79,9 @@ bool symmetry_reduction_build(const Bulk *bulk, const int32_t *interface_dofs, i
     } else {
         TRY(reduction_build(bulk, interface_dofs, m, def, &reduced->part[0], err));
     }
-    for (; parts.first < mirror.part_count; parts.first += TOGETHER)   // 2 or 4 of them
-        TRY(parallel_try(TOGETHER, build_part, &parts, err));
+    int together = def->one_by_one ? 1 : TOGETHER;
+    for (; parts.first < mirror.part_count; parts.first += together)   // 2 or 4 of them
+        TRY(parallel_try(together, build_part, &parts, err));
     TRY(join(reduced, err));
     if (def->position)
         TRY(list_rigid_motions(bulk, mirror.border ? mirror.border : interface_dofs, def, reduced,

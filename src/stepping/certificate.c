@@ -28,7 +28,7 @@ static bool create_work(const Block *block, Certificate *certificate, Error *err
     *certificate = (Certificate){0};
     int64_t count = block->interface->count;
     if (!moving_set_create(block, &certificate->moving, err)) return false;
-    certificate->matrix = NEW_ARRAY(double, count *count, err);
+    certificate->matrix = memory_bytes(8 * count * count, err);   // taken up as it is used
     certificate->vector = NEW_ARRAY(double, count, err);
     certificate->pivots = NEW_ARRAY(int32_t, count, err);
     return error_is_clean(err);

@@ -265,13 +265,18 @@ NOT_A_CHOICE = {
         "FLOOR_PART": "of the contact: as mean widths are exact for upright layers and pads, any above a half",
         "standard_middle": "the rod's default place", "standard_width": "the rod's default"},
     "model/obtain.c": {
-        "REDUCTION_TOLERANCES": "draft and fine: as standard"},
+        "REDUCTION_TOLERANCES": "draft and fine: as standard",
+        "ONE_BY_ONE_FROM": "of the memory; below, two parts side by side are faster on two cores"},
     "model/memory.c": {
         "BYTES_FACTORS": "counted", "BYTES_PRODUCTS": "counted",
-        "SPACE_SQUARES": "numbers, by the memory of six runs in space",
-        "SPACE_SQUARES_ONE_SIDE": "the same, by 40 x 40 x 20 cells",
+        "SPACE_LEAST": "bytes, by the memory of a run on 6 x 6 x 6 cells",
+        "SPACE_MESH": "bytes, by heaptrack of a reduction of 24 x 24 x 24 cells",
+        "SPACE_SQUARES": "numbers, by the memory of runs on cubes of 10, 14, 20 and 28 cells and on 40 x 40 x 20: 25 to 36, and 58 where contact "
+                         "came to be solved as a whole",
+        "SPACE_SQUARES_ONE_SIDE": "18 to 19 by 40 x 40 x 20, 24 x 24 x 11 and 28 x 28 x 13 cells",
         "SPACE_ENTRIES": "the same",
-        "SPACE_COLUMNS": "counted", "SPACE_TOGETHER": "measured: 20^3, 20 x 30 x 12, 40 x 40 x 20",
+        "SPACE_PART_ENTRIES": "by the memory of reductions of 16^3, 24^3, 20 x 40 x 20, 28 x 56 x 13 and 40 x 80 x 19 cells",
+        "SPACE_COLUMNS": "the same", "SPACE_TOGETHER": "the first three of them either way",
         "SPACE_FACTORS": "counted"},
     "model/contact_laws.c": {"SAMPLES": "a jump of `friction.along` to a part in 32 of a cell; exact where it is straight"},
     "study/stability/stability.c": {"MEMORY_PART": "of a rate; slower ones matter to no answer", "POINTS_BEYOND": "shown"},

@@ -96,6 +96,32 @@ TEST(test_response)
     }
 }
 
+// Parts that are built one after another, as where memory is short, are those built side by side.
+TEST(test_one_by_one)
+{
+    Error err = {0};
+    ReducedBlock side_by_side, one_by_one;
+    build(&SHAPES[0], &side_by_side);
+    build(&SHAPES[0], &one_by_one);
+    reduced_bulk_destroy(&one_by_one.reduced);
+    int32_t *image = node_images(&one_by_one);
+    one_by_one.def.one_by_one = true;
+    if (!reduce(&one_by_one, image, &err)) fail_msg("%s", err.message);
+    memory_free(image);
+    assert_int_equal(one_by_one.reduced.part_count, 2);
+    for (int p = 0; p < 2; p++) {
+        const ReducedPart *one = &side_by_side.reduced.part[p],
+                          *other = &one_by_one.reduced.part[p];
+        assert_int_equal(one->count, other->count);
+        assert_memory_equal(one->damping, other->damping,
+                            (size_t)one->count * (size_t)one->count * sizeof(double));
+        assert_memory_equal(one->masses, other->masses,
+                            (size_t)(one->count - one->border_count) * sizeof(double));
+    }
+    reduced_block_destroy(&side_by_side);
+    reduced_block_destroy(&one_by_one);
+}
+
 TEST(test_operator)
 {
     for (int32_t s = 0; s < SHAPE_COUNT; s++) {
