@@ -3,10 +3,10 @@
 """The blocks of Iwashita, Matsukawa & Otsuki (2023, corrected 2024; grooves 2024) in space: mu_M against pressure, length, breadth, the
 area that slips before and grooves, with error bars.
 
-    validation/space/papers.py [--seconds S] [--only STUDY ...] [--page] [-o FOLDER]
+    validation/space/papers.py [--seconds S] [--cells N] [--only STUDY [--points KEY ...]] [--page] [-o FOLDER]
 
-Each point is run on meshes of 8, 10, 12, 14 and 16 cells to the height, as long as one may be expected to take S seconds of processor
-time (default 40; it goes up with the sixth power). A line of FOLDER/papers.jsonl (default validation/space) is one run, and a call
+Each point is run on meshes of 8 to 40 cells to the height, as long as one may be expected to take S seconds of processor time (default
+40; it goes up with the sixth power). From 20 on rows get higher towards the top; the last study shows what that changes. A line of FOLDER/papers.jsonl (default validation/space) is one run, and a call
 that was stopped goes on behind the last one. Bars are those of the program's rule (src/answers/error_bars.c) on these meshes: of blocks
 in space 98 of 100 held (priors.md). Writes papers.md and its two figures beside it."""
 import argparse
@@ -24,14 +24,18 @@ sys.dont_write_bytecode = True
 from measured_run import PROGRAM, markdown_table   # noqa: E402
 from priors import Constants, bar_of   # noqa: E402
 
-MESHES = (8, 10, 12, 14, 16)      # cells to the height
+# Cells to the height. From GRADED_FROM on cells of that length stand at the contact, and rows get higher towards the top, GRADE times the
+# lowest: 1/2.16 of the rows.
+MESHES, GRADED_FROM, GRADE = (8, 10, 12, 14, 16, 20, 28, 40), 20, 4
+EVEN = (20, 28, 40)               # of these, with rows of one height, to see what grading does
 PRESSURES, BREADTHS = (0.002, 0.003, 0.006, 0.012), (0.5, 1, 2)
 
 
-def block(length=1.0, breadth=1.0, pressure=0.006, **more):
+def block(length=1.0, breadth=1.0, pressure=0.006, graded=True, **more):
     def settings(cells):
         along, across = max(round(cells * length), 2), max(round(cells * breadth), 2)
-        return {"mesh.set": f"{{length: {length:g}, breadth: {breadth:g}, height: 1, nx: {along}, ny: {across}, nz: {cells}}}",
+        rows = f"nz: {math.ceil(cells * math.log(GRADE) / (GRADE - 1))}, grade_z: {GRADE}" if graded and cells >= GRADED_FROM else f"nz: {cells}"
+        return {"mesh.set": f"{{length: {length:g}, breadth: {breadth:g}, height: 1, nx: {along}, ny: {across}, {rows}}}",
                 "load.pressure": pressure, "time.until.U": 20 * pressure * max(length, 1), **more}
     return length / breadth, settings
 
@@ -46,7 +50,7 @@ def grooved(direction, width, depth=0.2, pressure=0.006):
     return 1.0, settings
 
 
-# study: what it is, then key: (length over breadth, settings of a mesh)
+# study: what it is, then key: (length over breadth, settings of a mesh). Of the last, meshes of EVEN cells.
 STUDIES = {
     "breadth": ("W/H and P/E, at L/H = 1",
                 {f"{breadth:g}, P {pressure:g}": block(1, breadth, pressure) for pressure in PRESSURES for breadth in BREADTHS}),
@@ -58,6 +62,7 @@ STUDIES = {
              for breadth in (0.5, 2)}),
     "grooves": ("two grooves 0.2 H deep, along or across and how wide over H, at L/H = W/H = 1 and P/E = 0.006",
                 {f"{direction} {width}": grooved(direction, width) for width in (0.1, 0.2) for direction in ("along", "across")}),
+    "even rows": ("W/H with rows of one height, at L/H = 1 and P/E = 0.006", {f"{breadth:g}": block(1, breadth, graded=False) for breadth in BREADTHS}),
 }
 ANSWERS = ("mu_M", "mu_hold", "A_c_over_A", "l_c_over_L", "slip_cells")
 
@@ -86,9 +91,11 @@ def compute(words):
     for row in map(json.loads, path.read_text().splitlines()) if path.exists() else ():
         rows.setdefault((row["study"], row["key"]), []).append(row)
     for study in () if words.page else words.only or STUDIES:
-        for key in STUDIES[study][1]:
+        for key in words.points or STUDIES[study][1]:
             have = rows.setdefault((study, key), [])
-            for cells in MESHES[len(have):]:
+            for cells in (EVEN if study == "even rows" else MESHES)[len(have):]:
+                if cells > words.cells:
+                    break
                 if have and have[-1]["cpu_s"] * (cells / have[-1]["cells"])**6 > words.seconds:
                     break
                 have.append(run(study, key, cells, words.output))
@@ -133,12 +140,32 @@ def table_of(study, rows):
     return markdown_table([study, "mu_M", "mu_hold", "mu_M mesh by mesh", "A_c/A", "l_c/L", "cells that slip", "finest: cells to H", "s"], lines)
 
 
+def graded_or_not(rows):
+    """What grading changes, mesh by mesh."""
+    lines, ratios = [], []
+    for (study, key), have in sorted(rows.items()):
+        for even in have if study == "even rows" else ():
+            graded = [row for row in rows.get(("breadth", f"{key}, P 0.006"), []) if row["cells"] == even["cells"]]
+            if graded and "error" not in even | graded[0]:
+                ratios.append(graded[0]["mu_M"] / even["mu_M"] - 1)
+                lines.append([key, str(even["cells"]), number(even, "mu_M", 4), number(graded[0], "mu_M", 4), f"{100 * ratios[-1]:+.1f} %",
+                              f"{even['cpu_s']:.0f}", f"{graded[0]['cpu_s']:.0f}"])
+    if not lines:
+        return "Not computed."
+    mean = sum(ratios) / len(ratios)
+    spread = math.sqrt(sum((ratio - mean) ** 2 for ratio in ratios) / max(len(ratios) - 1, 1))
+    return (markdown_table(["W/H", "cells to H at the contact", "even", "graded", "change", "s, even", "s, graded"], lines)
+            + f"\n\n- graded over even: {100 * mean:+.2f} % in the mean of {len(ratios)}, scattered by {100 * spread:.2f} %.")
+
+
 def verdicts(study, rows):
     def between(first, last, what):
         return change(rows, (study, first), (study, last), what)
     if study == "breadth":
         lines = [between(f"{BREADTHS[0]:g}, P {p:g}", f"{BREADTHS[-1]:g}, P {p:g}", f"W/H from {BREADTHS[0]} to {BREADTHS[-1]} at P/E = {p:g}") for p in PRESSURES]
         lines += [between(f"{w:g}, P {PRESSURES[0]:g}", f"{w:g}, P {PRESSURES[-1]:g}", f"P/E from {PRESSURES[0]} to {PRESSURES[-1]} at W/H = {w:g}") for w in BREADTHS]
+    elif study == "even rows":
+        return graded_or_not(rows)
     elif study == "grooves":
         lines = [change(rows, ("length", "1"), (study, key), f"{key}, beside none") for key in STUDIES[study][1]]
     elif study == "rod":
@@ -152,6 +179,8 @@ def verdicts(study, rows):
 def points(rows):
     """(A_c/A of the finest mesh, mu_M, bar, study, key)"""
     for (study, key), have in rows.items():
+        if study == "even rows":
+            continue
         found, good = with_bar(have, "mu_M"), [row for row in have if row.get("A_c_over_A") is not None]
         if found and good:
             yield good[-1]["A_c_over_A"], *found, study, key
@@ -186,13 +215,15 @@ def draw(rows, folder):
 def page(rows, words):
     parts = [f"""# The papers of 2023 and 2024, in space
 
-`validation/space/papers.py --seconds {words.seconds:g}` ([script](papers.py), [scene](papers.yaml), [every run](papers.jsonl)). Parameters as corrected in 2024;
-lengths over H. A point is run on meshes of up to {MESHES[-1]} cells to the height; its bar is that of the program's rule on these meshes.
-Their cells are H/40, their steps 1e-6. What we have of the papers are abstracts and captions: statements are judged, no number of a figure could be read.
+`validation/space/papers.py` ([script](papers.py), [scene](papers.yaml), [every run](papers.jsonl)). Parameters as corrected in 2024; lengths over H. Of the meshes of
+{MESHES[0]} to {MESHES[-1]} cells to the height a point is run on as many as its time allowed (`--seconds`, `--cells`; the column `finest`); its bar is that of the program's rule on these
+meshes. Their cells are H/40, their steps 1e-6. From {GRADED_FROM} cells on only those at the contact are so small: rows get higher towards the top, the last {GRADE} times
+the first ([what that changes](#even-rows-wh-with-rows-of-one-height-at-lh--1-and-pe--0006)). What we have of the papers are abstracts and captions: statements are judged, no number of a figure could be read.
 Where and how broad their rod is is not known to us: a strip H/10 wide at half of the height over the whole breadth, but where a table says otherwise.
 s: processor time of all meshes of a point. What it means: [README.md](README.md#the-papers-of-2023-and-2024)."""]
     for study, (title, _) in STUDIES.items():
-        parts.append(f"## {study.capitalize()}: {title}\n\n{table_of(study, rows)}\n\n{verdicts(study, rows)}")
+        table = "" if study == "even rows" else f"{table_of(study, rows)}\n\n"
+        parts.append(f"## {study.capitalize()}: {title}\n\n{table}{verdicts(study, rows)}")
         if study == "breadth":
             parts.append("![mu_M against breadth at four pressures](papers-breadth.png)")
     lines = [[f"{area:.2f}", f"{value:.3f} ± {bar:.3f}", f"{study} {key}"] for area, value, bar, study, key in sorted(points(rows))]
@@ -205,6 +236,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--seconds", type=float, default=40, help="of processor time for one mesh")
     parser.add_argument("--only", nargs="+", choices=STUDIES)
+    parser.add_argument("--points", nargs="+", help="some of the one study after --only, by the first column of its table")
+    parser.add_argument("--cells", type=int, default=MESHES[-1], help="to the height, at most")
     parser.add_argument("--page", action="store_true", help="write the page from what was computed, and compute nothing")
     parser.add_argument("-o", "--output", type=Path, default=Path(__file__).parent)
     words = parser.parse_args()
