@@ -5,7 +5,6 @@
 
 #include "base/memory.h"
 #include "render/figures/probe_data.h"
-#include "render/figures/stack.h"
 #include "render/view/range.h"
 
 #include <math.h>

@@ -2,7 +2,7 @@
 #include "render/film/film_block.h"
 
 #include "base/memory.h"
-#include "render/figures/figures.h"
+#include "render/figures/figure_axes.h"
 
 #include <math.h>
 #include <stdio.h>

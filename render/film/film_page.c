@@ -5,6 +5,7 @@
 #include "render/film/film_block.h"
 #include "render/film/film_plane.h"
 #include "render/figures/color_scale.h"
+#include "render/figures/figure_axes.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -140,10 +141,12 @@ static bool choose_values(FilmPage *page, Error *err)
     if (!block_quantity_find(state ? NULL : def->film->of, &page->block.source.quantity, err))
         return false;
     if (state) {
+        char name[VIEW_STATE_SIZE];
+        ValueWords words = state_words(view, name);
         const double range[2] = {film_moment(view, clock->t[0]).U,
                                  film_moment(view, clock->t[clock->frames - 1]).U};
         if (!result_view_read(view, SERIES_STATE, false, &page->states, err)) return false;
-        if (!state_scale(view, range, page->states, NULL, &bar, err)) return false;
+        if (!history_bar_fit(view, range, page->states, &words, NULL, &bar, err)) return false;
     }
     page->band.map.bar = page->profile.bar = page->plane.bar = bar;
     page->band.map.states = page->states;

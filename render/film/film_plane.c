@@ -2,7 +2,7 @@
 #include "render/film/film_plane.h"
 
 #include "base/memory.h"
-#include "render/figures/contact_map.h"
+#include "render/figures/figure_contact_plane.h"
 
 #include <math.h>
 

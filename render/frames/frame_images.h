@@ -7,7 +7,7 @@
 #define AMONTONS_RENDER_FRAMES_FRAME_IMAGES_H
 
 #include "io/text/html_writer.h"
-#include "render/figures/field_page.h"
+#include "render/figures/figure_field.h"
 
 typedef struct FrameImages {
     const BlockSource *source;

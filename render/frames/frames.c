@@ -8,6 +8,7 @@
 #include "base/order.h"
 #include "render/canvas/svg_chart.h"
 #include "render/frames/frame_choice.h"
+#include "render/figures/figures.h"
 #include "render/frames/frame_images.h"
 #include "render/view/space_time.h"
 
