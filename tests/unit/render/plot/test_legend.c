@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Where legends go: curves that leave one corner free, or none; on the picture, an outer legend
 // stands beside the frame. What a legend hides is checked by walking along the curves.
-#include "render/plot/legend_place.h"
+#include "render/plot/legend.h"
 
 #include "near.h"
 #include "render/plot/figure_curves.h"
