@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "render/figures/picture.h"
 
-#include "render/canvas/foot.h"
-
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -106,8 +104,8 @@ static double sum_shapes(const Picture *picture)
     return sum;
 }
 
-// The panels one below the other, as the paper's Figure 1: (a), (b), (c); frame: [count] where their
-// frames lie.
+// The panels one below the other, as the paper's Figure 1: (a), (b), (c); frame: [count] where
+// their frames lie.
 static bool panels_draw(const Page *page, const Picture *picture, ResultView *view, Box *frame,
                         Error *err)
 {
