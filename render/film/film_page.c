@@ -3,7 +3,6 @@
 
 #include "base/memory.h"
 #include "render/film/film_block.h"
-#include "render/film/film_plane.h"
 #include "render/figures/color_scale.h"
 #include "render/figures/figure_axes.h"
 
@@ -49,14 +48,6 @@ static bool page_open(const FilmPage *self, Page *page, Error *err)
     return page_begin(page, &def, err);
 }
 
-// The contact, now: its slip rates along x, in space all of it.
-static bool place_contact(FilmPage *page, const Box *cell, Error *err)
-{
-    if (page->in_space) return film_plane_create(&page->base, cell, &page->plane, err);
-    film_profile_place(&page->base, cell, &page->profile);
-    return true;
-}
-
 static bool lay_out(FilmPage *page, Error *err)
 {
     double point = page->base.point;
@@ -78,7 +69,10 @@ static bool lay_out(FilmPage *page, Error *err)
         if (!film_block_place(&page->base, &left, &page->block, err)) return false;
         left = lower;
     }
-    if (!place_contact(page, &left, err)) return false;
+
+    // The contact, now: its slip rates along x, in space all of it.
+    if (page->in_space && !film_plane_create(&page->base, &left, &page->plane, err)) return false;
+    if (!page->in_space) film_profile_place(&page->base, &left, &page->profile);
     film_force_place(&page->base, &right, t, &page->force);
     if (page->block.stored && !page->in_space)   // one above the other: frames begin at one line
         page->force.axes.box.left = page->profile.axes.box.left =
