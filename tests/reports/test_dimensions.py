@@ -30,7 +30,6 @@ REASONS = {
     "render/figures/block_page.c": ("a picture is flat", r".*"),
     "render/figures/block_mesh.c": ("a picture is flat", r".*"),
     "render/mesh/mesh_picture.c": ("a picture is flat", r".*"),
-    "render/mesh/mesh_space.c": ("a picture is flat", r"d < 2; "),
     "render/view/contact_plane.c": ("a floor is flat", r".*"),
     "render/view/surface.c": ("a face is flat", r".*"),
     "render/figures/space_page.c": ("a picture is flat", r".*"),
