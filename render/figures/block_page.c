@@ -143,9 +143,9 @@ static SpacePage space_of(const Page *page, const BlockPage *map, const Axes *ax
     return space;
 }
 
-// Below the floor's line, a colour for each contact node, where it is drawn on the deformed block: at
-// its node of the block, the lowest one there of the elements above the floor's line, which those
-// of a base are not. Without memory the nodes are drawn where they were.
+// Below the floor's line, a colour for each contact node, where it is drawn on the deformed block:
+// at its node of the block, the lowest one there of the elements above the floor's line, which
+// those of a base are not. Without memory the nodes are drawn where they were.
 static void draw_contact(const Page *page, const BlockPage *map, const Block *block, int64_t row,
                          const Axes *axes)
 {

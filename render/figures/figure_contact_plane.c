@@ -135,8 +135,8 @@ cleanup:
     return error_is_clean(err);
 }
 
-// The values of all maps. Slip is counted from the first moment, or from the rod's start where there
-// is one moment alone. Shear over pressure and density are NaN where the contact is open.
+// The values of all maps. Slip is counted from the first moment, or from the rod's start where
+// there is one moment alone. Shear over pressure and density are NaN where the contact is open.
 static bool take_values(Maps *maps, Error *err)
 {
     static const ResultSeries series[CONTACT_QUANTITY_COUNT] = {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A page with one field of the block: its size, and what is drawn on it. Called by frame_images.
+// A page with one field of the block: its size, and what is drawn on it. Called by frames.
 #ifndef AMONTONS_RENDER_FIGURES_FIGURE_FIELD_H
 #define AMONTONS_RENDER_FIGURES_FIGURE_FIELD_H
 

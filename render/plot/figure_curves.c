@@ -179,8 +179,8 @@ static bool frame_draw(const Page *page, const Plot *plot, const MapScale *scale
     if (plot->main.has_map) colorbar_draw(page, &scale->bar, &axes->box, BAR_GAP);
     if (!plot->has_inset) return true;
 
-    // The inset covers what lies below it: its place is cleared to paper first. Its frame is what is
-    // left of that when its numbers and names have their room.
+    // The inset covers what lies below it: its place is cleared to paper first. Its frame is what
+    // is left of that when its numbers and names have their room.
     place = inset_place(plot, &axes->box);
     Axes inset = {.box = place, .x = plot->inset.x, .y = plot->inset.y, .small = true};
     inset.box.left = round(place.left + axes_left_margin(page, &inset) * page->point);

@@ -110,7 +110,7 @@ void map_grid_destroy(MapGrid *grid)
     *grid = (MapGrid){0};
 }
 
-// --- Delaunay's triangles, by Qhull (Barber, Dobkin and Huhdanpaa, ACM Trans. Math. Softw. 22, 1996)
+// --- Delaunay's triangles, by Qhull --------------------------------------------------------------
 
 // Facets of the paraboloid's lower side, cut into triangles (Qt) where points lie on one circle.
 static bool take_triangles(qhT *qh, const int32_t *index, int32_t **corners, int32_t *triangles,
@@ -164,8 +164,8 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Joins points; those that are not finite are in no triangle, and where all lie on one line there is
-// none.
+// By Qhull (Barber, Dobkin and Huhdanpaa, ACM Trans. Math. Softw. 22, 1996). Joins points; those
+// that are not finite are in no triangle, and where all lie on one line there is none.
 static bool triangulate(const Point *points, int32_t count, MapTriangles *triangles, Error *err)
 {
     int32_t kept = 0;

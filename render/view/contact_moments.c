@@ -123,8 +123,8 @@ bool contact_moments_find(const ResultView *view, const double *rates, const cha
     }
     for (int32_t i = 0; i < nodes; ++i) arrival[i] -= moments->start;
 
-    // Two moments while slow slip grows. Between the events it begins anew where less than the first
-    // part slips.
+    // Two moments while slow slip grows. Between the events it begins anew where less than the
+    // first part slips.
     double all = 0, rapid = area_reached(view, plane, moments, moments->last);
     int64_t row = moments->before;
     for (int32_t i = 0; i < nodes; ++i) all += plane->weight[i];

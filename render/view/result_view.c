@@ -357,8 +357,8 @@ bool result_view_choose_line(ResultView *view, const char *words, Error *err)
     for (int32_t i = 0; i < plane->nodes; ++i)
         if (fabs(plane->y[i] - y) < fabs(nearest - y)) nearest = plane->y[i];
 
-    // The nodes within half a mean cell of it, one for each x: that nearest to it. As the run itself
-    // finds its line.
+    // The nodes within half a mean cell of it, one for each x: that nearest to it. As the run
+    // itself finds its line.
     for (int32_t i = 0; i < plane->nodes; ++i) area += plane->weight[i];
     double cell = sqrt(area / plane->nodes), rounding = LINE_ROUNDING * cell;
     view->nodes = 0;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A face on the outside is cut into a lattice on which places and values are those of the shape
-// functions. What is left of a block that is cut by several planes is the part behind the first, the
-// part before the first and behind the second, and so on. The section goes through elements in small
-// tetrahedra, in which places and values are linear: each element is a cube of parts, in the
+// functions. What is left of a block that is cut by several planes is the part behind the first,
+// the part before the first and behind the second, and so on. The section goes through elements in
+// small tetrahedra, in which places and values are linear: each element is a cube of parts, in the
 // reference coordinates that make of a cube a wedge or a tetrahedron.
 #include "render/view/surface.h"
 

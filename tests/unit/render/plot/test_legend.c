@@ -118,12 +118,12 @@ static int32_t frame_right(Plot *plot)
     Error err = {0};
     enum { WIDTH = 860, HEIGHT = 645 };
     const PictureStyle style = {.dpi = 254};   // 10 pixels a millimetre
-    const PageDef def = {.style = &style, .height = (double)HEIGHT / WIDTH};
     Page page = {0};
     uint8_t *pixels = NULL;
     int32_t right = -1;
-    assert_true(page_begin(&page, &def, &err));
-    assert_true(figure_curves(&page, plot, &err) && canvas_read(page.canvas, &pixels, &err));
+    plot->height_over_width = (double)HEIGHT / WIDTH;
+    assert_true(figure_plot(&page, plot, &style, NULL, &err));
+    assert_true(canvas_read(page.canvas, &pixels, &err));
     for (int32_t column = 0; column < WIDTH; column++) {
         int32_t dark = 0;
         for (int32_t row = 0; row < HEIGHT; row++) dark += pixels[3 * (row * WIDTH + column)] < 128;
