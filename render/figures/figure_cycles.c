@@ -55,8 +55,8 @@ typedef struct Extent {
     int32_t precursors, slidings;
 } Extent;
 
-// Of each cycle that is shown the farthest slip so far, and its events: discs are precursors, rings
-// slidings. page NULL: they are counted.
+// Draws the farthest slip so far and the events of each cycle that is shown: discs are precursors,
+// rings slidings. page NULL: they are counted.
 static bool lengths_draw(const Page *page, const Axes *axes, ResultView *view, Extent *extent,
                          Error *err)
 {

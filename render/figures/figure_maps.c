@@ -321,7 +321,7 @@ cleanup:
 
 // --- state-map -----------------------------------------------------------------------------------
 
-// Of all values in a pixel the smallest is shown, as slip makes contacts young at once and rest
+// A pixel shows the smallest of its values, as slip makes contacts young at once and rest
 // strengthens them slowly.
 bool figure_state_map(const Page *whole, ResultView *view, Error *err)
 {

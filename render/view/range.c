@@ -31,7 +31,7 @@ bool view_range_find(const ResultView *view, const PictureStyle *style, ViewRang
     for (int32_t k = 0; k < view->event_count; ++k)
         if (view->events[k].kind == VIEW_LEADING) ++count;
 
-    // Of many slidings the last are shown, from the end of the one before them.
+    // The last of many slidings are shown, from the end of the one before them.
     double start = NAN;
     int32_t seen = 0;
     for (int32_t k = 0; k < view->event_count && count > SLIDINGS_MOST; ++k)
