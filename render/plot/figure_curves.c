@@ -142,6 +142,7 @@ static bool panels_draw(const Page *page, const Plot *plot, const Box *below, Er
 
 static const double RIGHT_MARGIN = 6, POWER_MARGIN = 9;   // points: half a number may stand there
 static const double BELOW_MARGIN = 6;   // points beside a legend below
+static const double FRAME_LEAST = 10;   // points: width beside a legend
 static const double INSET_SHARE = 0.75;   // marks and lines of an inset over the main ones
 
 // The frame above `bottom`, with room for what stands beside it.
@@ -174,6 +175,10 @@ static bool frame_draw(const Page *page, const Plot *plot, const MapScale *scale
     Box place = inset_place(plot, &axes->box), legend = {0};
     if (!legend_is_below)
         legend = legend_settle(page, &plot->main, 1, plot->has_inset ? &place : NULL, axes);
+    if (axes->box.right - axes->box.left < FRAME_LEAST * page->point)
+        return REFUSE(err,
+                      "the page is too narrow for its legend beside the frame: give it another "
+                      "width, or its legend another place");
     if (!panel_draw(page, &plot->main, NULL, scale, 1, axes, err)) return false;
     legend_draw(page, axes, &plot->main, &legend, 1);
     if (plot->main.has_map) colorbar_draw(page, &scale->bar, &axes->box, BAR_GAP);
