@@ -30,6 +30,7 @@ REASONS = {
     "render/figures/block_page.c": ("a picture is flat", r".*"),
     "render/figures/block_mesh.c": ("a picture is flat", r".*"),
     "render/mesh/mesh_picture.c": ("a picture is flat", r".*"),
+    "render/plot/map_cells.c": ("a picture is flat", r"d < 2; d"),
     "render/view/contact_plane.c": ("a floor is flat", r".*"),
     "render/view/surface.c": ("a face is flat", r".*"),
     "render/figures/space_page.c": ("a picture is flat", r".*"),
