@@ -8,9 +8,9 @@
 #include "render/events_table.h"
 #include "render/figures/color_scale.h"
 #include "render/figures/figures.h"
-#include "render/figures/pad_data.h"
+#include "render/figures/figure_pads.h"
 #include "render/figures/probe_data.h"
-#include "render/figures/profile_data.h"
+#include "render/figures/figure_profile.h"
 #include "render/view/zoom.h"
 
 #include <limits.h>

@@ -71,7 +71,7 @@ static bool make_picture(const char *folder, const PictureRequest *request, cons
     TRY(picture_draw(picture, folder, request, view, &page, err));
     TRY(page_finish(&page, path, figure ? figure->title : view->title, err));
     for (int32_t k = 0; k < picture->count; ++k)
-        TRY(figure_data_write(folder, picture->parts[k].name, view, &request->field,
+        TRY(figure_data_write(folder, picture->panels[k].figure->name, view, &request->field,
                               request->style.compare, err));
 cleanup:
     page_destroy(&page);
@@ -95,7 +95,8 @@ static bool request_check(const char *folder, const PictureRequest *request, Err
     const char *names[PANELS_MAX];
     for (int32_t k = 0; k < picture_count(request); ++k)
         if (!find_picture(request, k, &picture, err)) return false;
-    for (int32_t k = 0; request->panels && k < picture.count; ++k) names[k] = picture.parts[k].name;
+    for (int32_t k = 0; request->panels && k < picture.count; ++k)
+        names[k] = picture.panels[k].figure->name;
     const char *const *asked = request->panels ? names : request->figures;
     int32_t count = request->panels ? picture.count : request->figure_count;
     if (count > 0 && !picture_options_fit(&request->style, &request->field, asked, count, err))
@@ -136,7 +137,7 @@ static bool check_compare(const PictureRequest *request, ResultView *view, Error
         Picture picture;
         if (!find_picture(request, k, &picture, err)) return false;
         for (int32_t i = 0; i < picture.count && !shows; ++i)
-            if (!figure_data_measured(picture.parts[i].name, compare, view, &shows, err))
+            if (!figure_data_measured(picture.panels[i].figure->name, compare, view, &shows, err))
                 return false;
     }
     for (int32_t k = 0; k < FIGURE_COUNT && !shows; ++k) {

@@ -10,7 +10,7 @@
 // points and its name, then a line "x y" for each point.
 #include "base/memory.h"
 #include "render/canvas/axes.h"
-#include "render/plot/legend_place.h"
+#include "render/plot/legend.h"
 
 #include <math.h>
 #include <stdio.h>

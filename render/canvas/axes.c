@@ -218,20 +218,16 @@ static void tick_mark(const Page *page, const Axes *axes, Point foot, bool below
     draw_segment(page->canvas, &stroke, foot, end);
 }
 
-// Minor tick k, counted from the first tick: at equal distances, or at 1 to 9 times a power of ten.
-static double minor_value(const Ticks *ticks, int32_t k)
-{
-    if (!ticks->is_log) return ((double)ticks->first + (double)k / ticks->minor) * ticks->step;
-    return ticks_minor_log(ticks, k);
-}
-
 // Minor ticks lie between the ticks and beyond them to both ends of the axis.
 static void minor_marks(const Page *page, const Axes *axes, const Ticks *ticks, bool below)
 {
     const Axis *axis = below ? &axes->x : &axes->y;
     if (ticks->count == 0) return;
     for (int32_t k = -ticks->minor; k <= ticks->count * ticks->minor; ++k) {
-        double value = minor_value(ticks, k) / axis->factor, part = axis_part(axis, value);
+        // At equal distances, or at 1 to 9 times a power of ten.
+        double even = ((double)ticks->first + (double)k / ticks->minor) * ticks->step;
+        double value = (ticks->is_log ? ticks_minor_log(ticks, k) : even) / axis->factor;
+        double part = axis_part(axis, value);
         if (!(part >= -1e-6 && part <= 1 + 1e-6)) continue;
         Point foot = below ? axes_place(axes, value, axes->y.low)
                            : axes_place(axes, axes->x.low, value);
@@ -239,52 +235,8 @@ static void minor_marks(const Page *page, const Axes *axes, const Ticks *ticks, 
     }
 }
 
-// From the frame downwards: ticks, numbers, then the name in the middle with the power of ten at
-// its right.
-static void draw_below(const Page *page, const Axes *axes)
-{
-    Ticks ticks = ticks_along_x(page, axes);
-    TextStyle style = {
-        .size = axes_number_size(axes) * page->point, .color = INK, .across = 0.5, .up = 1};
-    double line = axes->box.bottom + (TICK_LENGTH + NUMBER_GAP) * page->point;
-    char label[TICK_LABEL_SIZE];
-    minor_marks(page, axes, &ticks, true);
-    for (int32_t k = 0; k < ticks.count; ++k) {
-        Point foot = axes_place(axes, tick_value(&ticks, k) / axes->x.factor, axes->y.low);
-        tick_mark(page, axes, foot, true, TICK_LENGTH);
-        tick_label(&ticks, k, label);
-        if (!axes->bare_x) text_draw(page->text, &style, (Point){foot.x, line}, label);
-    }
-    if (axes->bare_x) return;
-    line += (axes_number_size(axes) * text_digit_height() + LABEL_GAP) * page->point;
-    style.across = 1;
-    exponent_write(page, &style, (Point){axes->box.right, line}, &ticks);
-    style.across = 0.5;
-    style.size = LABEL_SIZE * page->point;
-    text_draw(page->text, &style, (Point){(axes->box.left + axes->box.right) / 2, line},
-              axes->x.label);
-}
-
-// Numbers end at `edge`, pixels; a power of ten stands above the frame.
-static void left_numbers(const Page *page, const Axes *axes, const TextStyle *style, double edge)
-{
-    Ticks ticks = ticks_along_y(page, axes);
-    char label[TICK_LABEL_SIZE];
-    minor_marks(page, axes, &ticks, false);
-    for (int32_t k = 0; k < ticks.count; ++k) {
-        Point foot = axes_place(axes, axes->x.low, tick_value(&ticks, k) / axes->y.factor);
-        tick_mark(page, axes, foot, false, TICK_LENGTH);
-        tick_label(&ticks, k, label);
-        if (!axes->bare_y) text_draw(page->text, style, (Point){edge, foot.y}, label);
-    }
-    if (axes->bare_y) return;
-    TextStyle above = *style;
-    above.across = above.up = 0;
-    exponent_write(page, &above, (Point){axes->box.left, axes->box.top - NUMBER_GAP * page->point},
-                   &ticks);
-}
-
-// With the frame, last: its line covers where ticks and data meet it.
+// With the frame, last: its line covers where ticks and data meet it. A power of ten stands above
+// the frame.
 void axes_draw_left(const Page *page, const Axes *axes)
 {
     Stroke stroke = {.color = frame_color(axes), .width = FRAME_WIDTH * page->point};
@@ -299,8 +251,20 @@ void axes_draw_left(const Page *page, const Axes *axes)
             if (!axes->bare_y)
                 text_draw(page->text, &style, (Point){edge, foot.y}, axes->y.names[k]);
         }
-    } else
-        left_numbers(page, axes, &style, edge);
+    } else {
+        Ticks ticks = ticks_along_y(page, axes);
+        minor_marks(page, axes, &ticks, false);
+        for (int32_t k = 0; k < ticks.count; ++k) {
+            char label[TICK_LABEL_SIZE];
+            Point foot = axes_place(axes, axes->x.low, tick_value(&ticks, k) / axes->y.factor);
+            tick_mark(page, axes, foot, false, TICK_LENGTH);
+            tick_label(&ticks, k, label);
+            if (!axes->bare_y) text_draw(page->text, &style, (Point){edge, foot.y}, label);
+        }
+        style.across = style.up = 0;
+        Point above = {axes->box.left, axes->box.top - NUMBER_GAP * page->point};
+        if (!axes->bare_y) exponent_write(page, &style, above, &ticks);
+    }
     style =
         (TextStyle){.size = LABEL_SIZE * page->point, .color = INK, .across = 0.5, .rising = true};
     edge -= left_width(page, axes) + LABEL_GAP * page->point;
@@ -310,8 +274,30 @@ void axes_draw_left(const Page *page, const Axes *axes)
     draw_outline(page->canvas, &stroke, &axes->box);
 }
 
+// From the frame downwards: ticks, numbers, then the name in the middle with the power of ten at
+// its right.
 void axes_draw(const Page *page, const Axes *axes)
 {
-    draw_below(page, axes);
+    Ticks ticks = ticks_along_x(page, axes);
+    TextStyle style = {
+        .size = axes_number_size(axes) * page->point, .color = INK, .across = 0.5, .up = 1};
+    double line = axes->box.bottom + (TICK_LENGTH + NUMBER_GAP) * page->point;
+    minor_marks(page, axes, &ticks, true);
+    for (int32_t k = 0; k < ticks.count; ++k) {
+        char label[TICK_LABEL_SIZE];
+        Point foot = axes_place(axes, tick_value(&ticks, k) / axes->x.factor, axes->y.low);
+        tick_mark(page, axes, foot, true, TICK_LENGTH);
+        tick_label(&ticks, k, label);
+        if (!axes->bare_x) text_draw(page->text, &style, (Point){foot.x, line}, label);
+    }
+    if (!axes->bare_x) {
+        line += (axes_number_size(axes) * text_digit_height() + LABEL_GAP) * page->point;
+        style.across = 1;
+        exponent_write(page, &style, (Point){axes->box.right, line}, &ticks);
+        style.across = 0.5;
+        style.size = LABEL_SIZE * page->point;
+        text_draw(page->text, &style, (Point){(axes->box.left + axes->box.right) / 2, line},
+                  axes->x.label);
+    }
     axes_draw_left(page, axes);
 }

@@ -54,30 +54,6 @@ static cairo_status_t bytes_of_cairo(void *self, const unsigned char *bytes, uns
     return bytes_add(self, bytes, length) ? CAIRO_STATUS_SUCCESS : CAIRO_STATUS_NO_MEMORY;
 }
 
-static cairo_surface_t *surface_create(Canvas *canvas)
-{
-    const CanvasDef *def = &canvas->def;
-    double points = POINTS_AN_INCH / def->dpi;
-    cairo_surface_t *surface = NULL;
-    switch (def->format) {
-    case CANVAS_PDF:
-        surface = cairo_pdf_surface_create_for_stream(bytes_of_cairo, canvas, def->width * points,
-                                                      def->height * points);
-        break;
-    case CANVAS_SVG:
-        surface = cairo_svg_surface_create_for_stream(bytes_of_cairo, canvas, def->width * points,
-                                                      def->height * points);
-        cairo_svg_surface_set_document_unit(surface, CAIRO_SVG_UNIT_PT);
-        break;
-    case CANVAS_PNG:
-    case CANVAS_FORMATS:
-        return cairo_image_surface_create_for_data(canvas->pixels, CAIRO_FORMAT_RGB24, def->width,
-                                                   def->height, 4 * def->width);
-    }
-    cairo_surface_set_device_scale(surface, points, points);
-    return surface;
-}
-
 Canvas *canvas_create(const CanvasDef *def, Error *err)
 {
     static const Color paper = {1, 1, 1, 1};
@@ -92,7 +68,20 @@ Canvas *canvas_create(const CanvasDef *def, Error *err)
         TRY(canvas->pixels = memory_bytes(4 * (int64_t)def->width * def->height, err));
     TRY(canvas->bytes = NEW_ARRAY(char, 1, err));
     canvas->room = 1;
-    canvas->surface = surface_create(canvas);
+    double points = POINTS_AN_INCH / def->dpi, width = def->width * points;
+    double height = def->height * points;
+    if (def->format == CANVAS_PDF) {
+        canvas->surface =
+            cairo_pdf_surface_create_for_stream(bytes_of_cairo, canvas, width, height);
+    } else if (def->format == CANVAS_SVG) {
+        canvas->surface =
+            cairo_svg_surface_create_for_stream(bytes_of_cairo, canvas, width, height);
+        cairo_svg_surface_set_document_unit(canvas->surface, CAIRO_SVG_UNIT_PT);
+    } else {
+        canvas->surface = cairo_image_surface_create_for_data(
+            canvas->pixels, CAIRO_FORMAT_RGB24, def->width, def->height, 4 * def->width);
+    }
+    if (canvas_is_vector(canvas)) cairo_surface_set_device_scale(canvas->surface, points, points);
     canvas->cairo = cairo_create(canvas->surface);
     cairo_status_t status = cairo_status(canvas->cairo);
     if (status)
@@ -207,15 +196,6 @@ static uint32_t *pixels_of_box(Canvas *canvas, const Box *box, GlImageDef *def)
            (int64_t)box->top * def->stride + (int64_t)box->left;
 }
 
-// Whether an image covers all of its box: then it needs no second image of where it does.
-static bool is_opaque(const GlImageDef *def)
-{
-    if (!def->values) return false;
-    for (int64_t k = 0; k < (int64_t)def->rows * def->columns; ++k)
-        if (!(def->values[k] > (float)HEAT_MISSING)) return false;
-    return true;
-}
-
 // Rows of a map that are shown several times are drawn once, and copied; transparent: nothing.
 static bool rows_draw(const GlImageDef *def, const HeatMap *map, uint32_t *pixels, Error *err)
 {
@@ -250,8 +230,12 @@ static void draw_pixels(Canvas *canvas, const Box *box, const GlImageDef *wanted
     uint32_t *pixels = pixels_of_box(canvas, box, &def);
     bool on_page = pixels != NULL;
     if (!on_page) {
-        image = cairo_image_surface_create(
-            is_opaque(&def) ? CAIRO_FORMAT_RGB24 : CAIRO_FORMAT_ARGB32, def.width, def.height);
+        // An image that covers all of its box needs no second image of where it does.
+        bool opaque = def.values != NULL;
+        for (int64_t k = 0; opaque && k < (int64_t)def.rows * def.columns; ++k)
+            opaque = def.values[k] > (float)HEAT_MISSING;
+        image = cairo_image_surface_create(opaque ? CAIRO_FORMAT_RGB24 : CAIRO_FORMAT_ARGB32,
+                                           def.width, def.height);
         if (cairo_surface_status(image))
             FAIL(err, ERROR_LIBRARY, "a map of %d by %d values: %s", def.width, def.height,
                  cairo_status_to_string(cairo_surface_status(image)));
@@ -342,18 +326,6 @@ void canvas_copy(Canvas *canvas, Canvas *from)
     cairo_surface_mark_dirty(canvas->surface);
 }
 
-static bool encode_png(Canvas *canvas, const char *title, bool small, Error *err)
-{
-    PngPicture picture = {.width = canvas->def.width,
-                          .height = canvas->def.height,
-                          .stride = cairo_image_surface_get_stride(canvas->surface),
-                          .pixels = cairo_image_surface_get_data(canvas->surface),
-                          .pixels_per_metre = canvas->def.dpi / 0.0254,
-                          .title = title,
-                          .few_colors = small};
-    return png_encode(&picture, bytes_add, canvas, err);
-}
-
 bool canvas_finish(Canvas *canvas, const char *title, bool small, PictureBytes *bytes, Error *err)
 {
     if (canvas->def.format == CANVAS_PDF) {
@@ -363,7 +335,16 @@ bool canvas_finish(Canvas *canvas, const char *title, bool small, PictureBytes *
         cairo_pdf_surface_set_metadata(canvas->surface, CAIRO_PDF_METADATA_CREATE_DATE, "");
     }
     cairo_surface_flush(canvas->surface);
-    if (canvas->def.format == CANVAS_PNG) encode_png(canvas, title, small, &canvas->failure);
+    if (canvas->def.format == CANVAS_PNG) {
+        PngPicture picture = {.width = canvas->def.width,
+                              .height = canvas->def.height,
+                              .stride = cairo_image_surface_get_stride(canvas->surface),
+                              .pixels = cairo_image_surface_get_data(canvas->surface),
+                              .pixels_per_metre = canvas->def.dpi / 0.0254,
+                              .title = title,
+                              .few_colors = small};
+        png_encode(&picture, bytes_add, canvas, &canvas->failure);
+    }
     cairo_surface_finish(canvas->surface);   // the last of the bytes
     *bytes = (PictureBytes){canvas->bytes, canvas->size};
     return canvas_check(canvas, err);

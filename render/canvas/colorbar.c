@@ -86,62 +86,27 @@ double colorbar_width(const Page *page, const Colorbar *bar)
            1.35 * LABEL_SIZE + EDGE_GAP;
 }
 
-// The neutral colour and its name, below the bar.
-static void patch_draw(const Page *page, const Colorbar *bar, const Box *patch)
-{
-    TextStyle style = {.size = NUMBER_SIZE * page->point, .color = INK, .up = 0.5};
-    Stroke stroke = {.color = INK, .width = FRAME_WIDTH * page->point};
-    Point place = {patch->right + (TICK_LENGTH + NUMBER_GAP) * page->point,
-                   (patch->top + patch->bottom) / 2};
-    draw_fill(page->canvas, bar->neutral_color, patch);
-    draw_outline(page->canvas, &stroke, patch);
-    text_draw(page->text, &style, place, bar->neutral);
-}
-
-// Ticks and numbers to the right of the bar, then its name, rising.
-static void scale_draw(const Page *page, const Colorbar *bar, const Box *colors)
-{
-    Ticks ticks = colorbar_ticks(bar);
-    TextStyle style = {.size = NUMBER_SIZE * page->point, .color = INK, .up = 0.5};
-    Stroke stroke = {.color = INK, .width = FRAME_WIDTH * page->point};
-    double out = colors->right + TICK_LENGTH * page->point;
-    char label[LABEL_LENGTH];
-    for (int32_t k = 0; k < ticks.count; ++k) {
-        double up = (tick_value(&ticks, k) - bar->low) / (bar->high - bar->low);
-        double y = colors->bottom - up * (colors->bottom - colors->top);
-        draw_segment(page->canvas, &stroke, (Point){colors->right, y}, (Point){out, y});
-        bar_label(bar, &ticks, k, label);
-        text_draw(page->text, &style, (Point){out + NUMBER_GAP * page->point, y}, label);
-    }
-    ticks_power(&ticks, label);   // of powers none
-    style.up = 0;
-    text_draw(page->text, &style, (Point){colors->left, colors->top - POWER_GAP * page->point},
-              label);
-    style =
-        (TextStyle){.size = LABEL_SIZE * page->point, .color = INK, .across = 0.5, .rising = true};
-    style.up = 1;
-    out += (NUMBER_GAP + numbers_width(page, bar) + LABEL_GAP) * page->point;
-    double margin = NAME_MARGIN * page->point;   // a long name gets smaller, and moves
-    double first = page->room.top + margin, last = page->room.bottom - margin;
-    style.size *= fmin(1, (last - first) / text_width(page->text, style.size, bar->label));
-    double half = text_width(page->text, style.size, bar->label) / 2;
-    double middle = fmin((colors->top + colors->bottom) / 2, last - half);
-    text_draw(page->text, &style, (Point){out, fmax(middle, first + half)}, bar->label);
-}
-
 // The same colour map as the picture's, sampled along the bar, so the two cannot differ.
 void colorbar_draw(const Page *page, const Colorbar *bar, const Box *frame, double gap)
 {
-    Stroke stroke = {.color = INK, .width = FRAME_WIDTH * page->point};
-    Box colors = *frame, patch;
+    double point = page->point;
+    Stroke stroke = {.color = INK, .width = FRAME_WIDTH * point};
+    TextStyle style = {.size = NUMBER_SIZE * point, .color = INK, .up = 0.5};
+    Box colors = *frame;
     float values[MAP_SIZE];
-    colors.left = round(frame->right + gap * page->point);
-    colors.right = round(colors.left + BAR_WIDTH * page->point);
+    char label[LABEL_LENGTH];
+    colors.left = round(frame->right + gap * point);
+    colors.right = round(colors.left + BAR_WIDTH * point);
     if (bar->neutral) {
-        patch = colors;
-        patch.top = round(patch.bottom - PATCH_HEIGHT * page->point);
-        colors.bottom = round(patch.top - PATCH_GAP * page->point);
-        patch_draw(page, bar, &patch);
+        // The neutral colour and its name, below the bar.
+        Box patch = colors;
+        patch.top = round(patch.bottom - PATCH_HEIGHT * point);
+        colors.bottom = round(patch.top - PATCH_GAP * point);
+        Point place = {patch.right + (TICK_LENGTH + NUMBER_GAP) * point,
+                       (patch.top + patch.bottom) / 2};
+        draw_fill(page->canvas, bar->neutral_color, &patch);
+        draw_outline(page->canvas, &stroke, &patch);
+        text_draw(page->text, &style, place, bar->neutral);
     }
     for (int32_t row = 0; row < MAP_SIZE; ++row) {
         float down = (float)row / (MAP_SIZE - 1);
@@ -150,5 +115,29 @@ void colorbar_draw(const Page *page, const Colorbar *bar, const Box *frame, doub
     canvas_heat(page->canvas, &colors,
                 &(HeatMap){.columns = 1, .rows = MAP_SIZE, .values = values});
     draw_outline(page->canvas, &stroke, &colors);
-    scale_draw(page, bar, &colors);
+
+    // Ticks and numbers to the right of the bar.
+    Ticks ticks = colorbar_ticks(bar);
+    double out = colors.right + TICK_LENGTH * point;
+    for (int32_t k = 0; k < ticks.count; ++k) {
+        double up = (tick_value(&ticks, k) - bar->low) / (bar->high - bar->low);
+        double y = colors.bottom - up * (colors.bottom - colors.top);
+        draw_segment(page->canvas, &stroke, (Point){colors.right, y}, (Point){out, y});
+        bar_label(bar, &ticks, k, label);
+        text_draw(page->text, &style, (Point){out + NUMBER_GAP * point, y}, label);
+    }
+    ticks_power(&ticks, label);   // of powers none
+    style.up = 0;
+    text_draw(page->text, &style, (Point){colors.left, colors.top - POWER_GAP * point}, label);
+
+    // The name, rising; a long one gets smaller, and moves.
+    style = (TextStyle){
+        .size = LABEL_SIZE * point, .color = INK, .across = 0.5, .up = 1, .rising = true};
+    out += (NUMBER_GAP + numbers_width(page, bar) + LABEL_GAP) * point;
+    double margin = NAME_MARGIN * point;
+    double first = page->room.top + margin, last = page->room.bottom - margin;
+    style.size *= fmin(1, (last - first) / text_width(page->text, style.size, bar->label));
+    double half = text_width(page->text, style.size, bar->label) / 2;
+    double middle = fmin((colors.top + colors.bottom) / 2, last - half);
+    text_draw(page->text, &style, (Point){out, fmax(middle, first + half)}, bar->label);
 }

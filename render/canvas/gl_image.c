@@ -228,9 +228,19 @@ static bool program_use(Gl *gl, GlKind kind, Error *err)
     return true;
 }
 
-// One vertex buffer, a texture a unit, a frame buffer; all stay bound.
-static void buffers_create(Gl *gl)
+static bool gl_open(Gl *gl, GlSource source, Error *err)
 {
+    if (!(source == GL_OSMESA ? mesa_open(&gl->context, err) : egl_open(&gl->context, err)))
+        return false;
+    if (!context_use(&gl->context, true))
+        return FAULT(err, ERROR_LIBRARY, "OpenGL's context cannot be used");
+#define X(type, name, arguments)                                                                   \
+    gl->name = (type(*) arguments)gl->context.find("gl" #name);                                    \
+    if (!gl->name) return FAULT(err, ERROR_LIBRARY, "OpenGL has no gl%s", #name);
+    GL_CALLS(X)
+#undef X
+
+    // One vertex buffer, a texture a unit, a frame buffer; all stay bound.
     GLuint layout = 0, corners = 0, frame = 0;
     gl->GenVertexArrays(1, &layout);
     gl->BindVertexArray(layout);
@@ -248,20 +258,7 @@ static void buffers_create(Gl *gl)
     gl->GenFramebuffers(1, &frame);
     gl->BindFramebuffer(GL_FRAMEBUFFER, frame);
     gl->PixelStorei(GL_UNPACK_ALIGNMENT, 1);
-}
 
-static bool gl_open(Gl *gl, GlSource source, Error *err)
-{
-    if (!(source == GL_OSMESA ? mesa_open(&gl->context, err) : egl_open(&gl->context, err)))
-        return false;
-    if (!context_use(&gl->context, true))
-        return FAULT(err, ERROR_LIBRARY, "OpenGL's context cannot be used");
-#define X(type, name, arguments)                                                                   \
-    gl->name = (type(*) arguments)gl->context.find("gl" #name);                                    \
-    if (!gl->name) return FAULT(err, ERROR_LIBRARY, "OpenGL has no gl%s", #name);
-    GL_CALLS(X)
-#undef X
-    buffers_create(gl);
     gl->ready = true;
     gl->process = getpid();
     context_use(&gl->context, false);

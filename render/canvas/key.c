@@ -10,13 +10,6 @@ static const double SAMPLE = 12;   // points: width of a line or a patch
 static const double PITCH = 1.35;   // line to line, over the size of the words
 static const double DROP = 2;   // points above the first line
 
-static double sample_width(const Page *page, const KeyEntry *entry)
-{
-    bool disc = entry->mark == KEY_DISC || entry->mark == KEY_RING;
-    double width = entry->mark == KEY_NONE ? 0 : (disc ? 2 * KEY_RADIUS : SAMPLE) + GAP;
-    return width * page->point;
-}
-
 void key_draw_back(Canvas *canvas, Color color, Point centre, double radius)
 {
     Point corners[] = {{centre.x - 1.6 * radius, centre.y},
@@ -69,7 +62,9 @@ static double walk(const Page *page, const KeyEntry *entries, int32_t count, dou
     TextStyle style = {.size = SMALL_SIZE * page->point, .color = INK, .up = 0.5};
     double left = page->room.left + MARGIN * page->point, x = left, pitch = PITCH * style.size;
     for (int32_t k = 0; k < count; ++k) {
-        double sample = sample_width(page, &entries[k]);
+        bool disc = entries[k].mark == KEY_DISC || entries[k].mark == KEY_RING;
+        double sample = entries[k].mark == KEY_NONE ? 0 : (disc ? 2 * KEY_RADIUS : SAMPLE) + GAP;
+        sample *= page->point;
         double width = sample + text_width(page->text, style.size, entries[k].words);
         if (x > left && x + width > page->room.right - MARGIN * page->point) {
             x = left;

@@ -73,22 +73,6 @@ const char *page_title(const PictureStyle *style, const char *own, bool by_defau
     return strcmp(style->title, "scene") == 0 && own ? own : style->title;
 }
 
-// A long one gets smaller, and ends in dots where that is not enough.
-static void title_draw(const Page *page, const char *title)
-{
-    char words[TITLE_MAX + 4];
-    double room = canvas_width(page->canvas) - 2 * TITLE_LEFT * page->point;
-    TextStyle style = {.size = LABEL_SIZE * page->point, .color = INK};
-    size_t length = strlen(title);
-    snprintf(words, sizeof words, "%.*s", TITLE_MAX, title);
-    style.size *= fmin(1, fmax(TITLE_LEAST, room / text_width(page->text, style.size, words)));
-    if (length > TITLE_MAX) length = TITLE_MAX;
-    while (length > 1 && text_width(page->text, style.size, words) > room)
-        snprintf(words + --length, 4, "\u2026");   // bytes of a letter cut in two become a mark
-    text_draw(page->text, &style,
-              (Point){TITLE_LEFT * page->point, page->room.top - TITLE_DROP * page->point}, words);
-}
-
 // The height that is asked is that of all: the figure has what title and foot leave.
 bool page_begin(Page *page, const PageDef *page_def, Error *err)
 {
@@ -109,13 +93,87 @@ bool page_begin(Page *page, const PageDef *page_def, Error *err)
     page->room = (Box){0, head, def.width, def.height - foot};
     if (!(page->canvas = canvas_create(&def, err))) return false;
     if (!(page->text = text_create(page->canvas, err))) return false;
-    if (head > 0) title_draw(page, title);
+    if (head == 0) return true;
+
+    // A long title gets smaller, and ends in dots where that is not enough.
+    char words[TITLE_MAX + 4];
+    double room = canvas_width(page->canvas) - 2 * TITLE_LEFT * page->point;
+    TextStyle letters = {.size = LABEL_SIZE * page->point, .color = INK};
+    size_t length = strlen(title);
+    snprintf(words, sizeof words, "%.*s", TITLE_MAX, title);
+    letters.size *= fmin(1, fmax(TITLE_LEAST, room / text_width(page->text, letters.size, words)));
+    if (length > TITLE_MAX) length = TITLE_MAX;
+    while (length > 1 && text_width(page->text, letters.size, words) > room)
+        snprintf(words + --length, 4, "\u2026");   // bytes of a letter cut in two become a mark
+    text_draw(page->text, &letters,
+              (Point){TITLE_LEFT * page->point, page->room.top - TITLE_DROP * page->point}, words);
     return true;
 }
 
 bool page_finish(Page *page, const char *path, const char *title, Error *err)
 {
     return canvas_write(page->canvas, path, title, page->style.overwrite, err);
+}
+
+// --- the foot ------------------------------------------------------------------------------------
+
+static const double FOOT_SIZE = 7;   // points
+static const double LETTER = 0.6;   // of the size: what a character takes, rather more
+static const double LINE_HEIGHT = 1.25;   // of it
+static const double FOOT_MARGIN = 4;   // points: below the last line and left of all
+static const Color WARNING_COLOR = {0.62f, 0.20f, 0.05f, 1};
+enum { CHARACTERS_LEAST = 30, CHARACTERS_MOST = FOOT_LINE_SIZE - 4 };
+static const char *const REST = "... the rest stands in run.json (warnings).";
+
+// Lines end by their number of characters, few enough for wide ones, as the height must be known
+// before there is a canvas to measure text on: at a blank where there is one.
+Foot foot_wrap(const char *warnings, double width)
+{
+    Foot foot = {0};
+    double most = (width - 2 * FOOT_MARGIN) / (LETTER * FOOT_SIZE);
+    size_t line = (size_t)fmin(fmax(most, CHARACTERS_LEAST), CHARACTERS_MOST);
+    while (*warnings) {
+        size_t length = strcspn(warnings, "\n");
+        const char *next = warnings + length + (warnings[length] == '\n');
+
+        // One warning: its first line begins with the word, the others are indented.
+        const char *lead = "Warning: ";
+        while (length > 0) {
+            char words[FOOT_LINE_SIZE];
+            if (foot.count == FOOT_LINES_MAX) {
+                snprintf(foot.line[foot.count - 1], FOOT_LINE_SIZE, "%s", REST);
+                break;
+            }
+            size_t room = line - strlen(lead), end = length;
+            if (length > room)
+                for (end = room; end > 0 && warnings[end] != ' ';) end--;
+            if (end == 0) end = room;
+            snprintf(words, sizeof words, "%.*s", (int)end, warnings);
+            while (end < length && warnings[end] == ' ') end++;
+            snprintf(foot.line[foot.count++], FOOT_LINE_SIZE, "%.12s%.140s", lead, words);
+            warnings += end;
+            length -= end;
+            lead = "   ";
+        }
+        warnings = next;
+    }
+    return foot;
+}
+
+double foot_height(const Foot *foot)
+{
+    return foot->count > 0 ? foot->count * LINE_HEIGHT * FOOT_SIZE + FOOT_MARGIN : 0;
+}
+
+void foot_draw(const Page *page, const Foot *foot)
+{
+    double point = page->point;
+    TextStyle style = {.size = FOOT_SIZE * point, .color = WARNING_COLOR};
+    double top = page->room.bottom;
+    for (int32_t k = 0; k < foot->count; ++k)
+        text_draw(page->text, &style,
+                  (Point){FOOT_MARGIN * point, round(top + (k + 0.8) * LINE_HEIGHT * style.size)},
+                  foot->line[k]);
 }
 
 void page_destroy(Page *page)

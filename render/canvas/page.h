@@ -50,6 +50,20 @@ void page_destroy(Page *page);   // zeroed is fine
 // The style with the format that the file's name ends in; ERROR_INPUT: in none.
 bool page_style_of_name(const char *path, PictureStyle *style, Error *err);
 
+// Lines below a figure, outside of its axes: the warnings of the run that it shows.
+enum { FOOT_LINES_MAX = 6, FOOT_LINE_SIZE = 160 };
+
+typedef struct Foot {
+    int32_t count;
+    char line[FOOT_LINES_MAX][FOOT_LINE_SIZE];   // [count]
+} Foot;
+
+// warnings: one a line; "": none. width: of the page, points.
+// Words that do not fit are left to run.json, and the last line says so.
+Foot foot_wrap(const char *warnings, double width);
+double foot_height(const Foot *foot);   // points; 0 without lines
+void foot_draw(const Page *page, const Foot *foot);
+
 static const double LABEL_SIZE = 8;   // points: names of axes
 static const double NUMBER_SIZE = 7.2;   // points: numbers at ticks
 static const double SMALL_SIZE = 7;   // points: inside an inset, notes

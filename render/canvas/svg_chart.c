@@ -80,33 +80,33 @@ static void write_exponent(HtmlWriter *html, const Ticks *ticks, double x, doubl
     if (words[0]) write_text(html, "class='number'", x, y, words);
 }
 
-static void write_x(HtmlWriter *html, const Axes *axes, bool with_words)
+void svg_axes(HtmlWriter *html, const Axes *axes, bool with_x)
 {
-    char label[TICK_LABEL_SIZE];
+    char label[TICK_LABEL_SIZE], turned[120];
     const Box *box = &axes->box;
+    html_markup(html, "<rect class='axis' x='%.1f' y='%.1f' width='%.1f' height='%.1f'/>",
+                box->left, box->top, box->right - box->left, box->bottom - box->top);
+
+    // Below the frame.
     Ticks ticks = axis_ticks(&axes->x, TICKS_X);
     for (int32_t k = 0; k < ticks.count; ++k) {
         double x = axes_place(axes, tick_value(&ticks, k) / axes->x.factor, axes->y.low).x;
         html_markup(html, "<path class='axis' d='M%.1f %.1fv%g'/>", x, box->bottom, TICK);
-        if (!with_words) continue;
+        if (!with_x) continue;
         tick_label(&ticks, k, label);
         write_text(html, "class='number' text-anchor='middle'", x, box->bottom + NUMBER_DROP,
                    label);
     }
-    if (!with_words) return;
-    write_text(html, "class='label' text-anchor='middle'", (box->left + box->right) / 2,
-               box->bottom + LABEL_DROP, axes->x.label);
-    write_exponent(html, &ticks, box->right - 30, box->bottom + LABEL_DROP);
-}
+    if (with_x) {
+        write_text(html, "class='label' text-anchor='middle'", (box->left + box->right) / 2,
+                   box->bottom + LABEL_DROP, axes->x.label);
+        write_exponent(html, &ticks, box->right - 30, box->bottom + LABEL_DROP);
+    }
 
-static void write_y(HtmlWriter *html, const Axes *axes)
-{
-    char label[TICK_LABEL_SIZE], turned[120];
-    const Box *box = &axes->box;
+    // Left of it.
     int32_t wanted = (int32_t)((box->bottom - box->top) / NUMBER_PITCH);
-    Ticks ticks = axis_ticks(&axes->y, wanted < 2             ? 2
-                                       : wanted < TICKS_Y_MAX ? wanted
-                                                              : TICKS_Y_MAX);
+    wanted = wanted < 2 ? 2 : wanted < TICKS_Y_MAX ? wanted : TICKS_Y_MAX;
+    ticks = axis_ticks(&axes->y, wanted);
     for (int32_t k = 0; k < ticks.count; ++k) {
         double y = axes_place(axes, axes->x.low, tick_value(&ticks, k) / axes->y.factor).y;
         html_markup(html, "<path class='axis' d='M%.1f %.1fh%g'/>", box->left, y, -TICK);
@@ -119,15 +119,6 @@ static void write_y(HtmlWriter *html, const Axes *axes)
              "class='label' text-anchor='middle' transform='rotate(-90 %.1f %.1f)'", x, y);
     write_text(html, turned, x, y, axes->y.label);
     write_exponent(html, &ticks, box->left, box->top - 4);
-}
-
-void svg_axes(HtmlWriter *html, const Axes *axes, bool with_x)
-{
-    const Box *box = &axes->box;
-    html_markup(html, "<rect class='axis' x='%.1f' y='%.1f' width='%.1f' height='%.1f'/>",
-                box->left, box->top, box->right - box->left, box->bottom - box->top);
-    write_x(html, axes, with_x);
-    write_y(html, axes);
 }
 
 // --- curves --------------------------------------------------------------------------------------

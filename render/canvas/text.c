@@ -58,42 +58,34 @@ static FT_Face face_open(FT_Library library, const char *path)
     return NULL;
 }
 
-// AMONTONS_FONT is taken at its word: where it is wrong, no other font is tried.
-static FT_Face font_find(FT_Library library, Error *err)
-{
-    FT_Face face = NULL;
-    const char *path = getenv("AMONTONS_FONT");
-    if (path && path[0]) {
-        if (!(face = face_open(library, path)))
-            FAIL(err, ERROR_LIBRARY,
-                 "AMONTONS_FONT=%s is not a font that FreeType can read and scale", path);
-        return face;
-    }
-    for (size_t k = 0; k < sizeof FONT_FILES / sizeof *FONT_FILES; ++k)
-        if ((face = face_open(library, FONT_FILES[k]))) return face;
-    FAIL(err, ERROR_LIBRARY,
-         "no DejaVuSans.ttf in the system's font folders (%s, ...): install the Debian package "
-         "fonts-dejavu-core, or set AMONTONS_FONT to a .ttf file",
-         FONT_FILES[0]);
-cleanup:
-    return NULL;
-}
-
 // Closes its faces, too.
 static void library_close(void *library)
 {
     FT_Done_FreeType(library);
 }
 
-// Cairo keeps fonts for longer than we do: the file is closed with the last of them. Fontconfig has
-// no part in it, as nothing is looked up.
+// AMONTONS_FONT is taken at its word: where it is wrong, no other font is tried. Cairo keeps fonts
+// for longer than we do: the file is closed with the last of them. Fontconfig has no part in it, as
+// nothing is looked up.
 static bool font_open(Text *text, Error *err)
 {
     static const cairo_user_data_key_t file;
     FT_Library library = NULL;
     FT_Face face = NULL;
+    const char *path = getenv("AMONTONS_FONT");
+    bool named = path && path[0];
     if (FT_Init_FreeType(&library)) FAIL(err, ERROR_LIBRARY, "FreeType does not start");
-    TRY(face = font_find(library, err));
+    if (named) face = face_open(library, path);
+    if (named && !face)
+        FAIL(err, ERROR_LIBRARY, "AMONTONS_FONT=%s is not a font that FreeType can read and scale",
+             path);
+    for (size_t k = 0; !face && k < sizeof FONT_FILES / sizeof *FONT_FILES; ++k)
+        face = face_open(library, FONT_FILES[k]);
+    if (!face)
+        FAIL(err, ERROR_LIBRARY,
+             "no DejaVuSans.ttf in the system's font folders (%s, ...): install the Debian package "
+             "fonts-dejavu-core, or set AMONTONS_FONT to a .ttf file",
+             FONT_FILES[0]);
     text->font = cairo_ft_font_face_create_for_ft_face(face, 0);
     if (cairo_font_face_set_user_data(text->font, &file, library, library_close)) {
         cairo_font_face_destroy(text->font);
@@ -155,27 +147,6 @@ static void run_end(Line *line, const Pen *pen)
     line->along += extents.x_advance;
 }
 
-static void letter_add(Line *line, const Pen *pen, const char *letter, size_t length)
-{
-    if (line->length + length >= RUN_SIZE) run_end(line, pen);
-    memcpy(line->run + line->length, letter, length);
-    line->length += length;
-}
-
-// The pen inside a mark's braces.
-static Pen pen_marked(const Pen *pen, char mark)
-{
-    Pen inner = *pen;
-    if (mark == '~') inner.slanted = true;
-    if (mark == '_' || mark == '^') {
-        inner.size *= SCRIPT_SIZE;
-        inner.slanted = false;
-        inner.raised = mark == '^';
-        inner.baseline += pen->size * (mark == '^' ? SCRIPT_RISE : -SCRIPT_DROP);
-    }
-    return inner;
-}
-
 // Goes along the words, letter by letter, opening and closing marks.
 static void line_walk(Line *line, double size, const char *words)
 {
@@ -185,8 +156,17 @@ static void line_walk(Line *line, double size, const char *words)
         bool opens = (*words == '_' || *words == '^' || *words == '~') && words[1] == '{';
         if (opens && depth < NEST_MAX) {
             run_end(line, &pen[depth]);
-            pen[depth + 1] = pen_marked(&pen[depth], *words);
-            ++depth;
+            // The pen inside a mark's braces.
+            Pen inner = pen[depth];
+            if (*words == '~') {
+                inner.slanted = true;
+            } else {
+                inner.baseline += inner.size * (*words == '^' ? SCRIPT_RISE : -SCRIPT_DROP);
+                inner.size *= SCRIPT_SIZE;
+                inner.slanted = false;
+                inner.raised = *words == '^';
+            }
+            pen[++depth] = inner;
             words += 2;
         } else if (*words == '}' && depth > 0) {
             run_end(line, &pen[depth--]);
@@ -195,7 +175,10 @@ static void line_walk(Line *line, double size, const char *words)
             size_t length = (size_t)text_utf8_length(words);
             bool minus = *words == '-' && pen[depth].raised;
             const char *letter = minus ? MINUS : length ? words : REPLACEMENT;
-            letter_add(line, &pen[depth], letter, letter == words ? length : strlen(letter));
+            size_t added = letter == words ? length : strlen(letter);
+            if (line->length + added >= RUN_SIZE) run_end(line, &pen[depth]);
+            memcpy(line->run + line->length, letter, added);
+            line->length += added;
             words += length ? length : 1;
         }
     }

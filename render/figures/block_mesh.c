@@ -59,22 +59,6 @@ static double side_place(const Parts *parts, int32_t side, int32_t i)
     return round((double)i * count / parts->inside) / count;
 }
 
-// From 0 to 1 along both axes of an element.
-static void lattice_place(const Parts *parts, bool triangle, int32_t i, int32_t j, double place[2])
-{
-    int32_t last = parts->inside;
-    place[0] = (double)i / last;
-    place[1] = (double)j / last;
-    if (j == 0) place[0] = side_place(parts, 0, i);
-    if (!triangle && i == last) place[1] = side_place(parts, 1, j);
-    if (!triangle && j == last) place[0] = side_place(parts, 2, i);
-    if (i == 0) place[1] = side_place(parts, triangle ? 2 : 3, j);
-    if (triangle && i > 0 && j > 0 && i + j == last) {
-        place[1] = side_place(parts, 1, j);
-        place[0] = 1 - place[1];
-    }
-}
-
 // Shape functions where the parts of an element meet: of the one before, if it is alike.
 typedef struct Lattice {
     int32_t kind;   // -1: of none yet
@@ -82,7 +66,8 @@ typedef struct Lattice {
     double weight[LATTICE_MAX][ELEMENT_NODES_MAX];
 } Lattice;
 
-// Row by row along eta; of a triangle only where i + j <= inside.
+// Row by row along eta; of a triangle only where i + j <= inside. Places go from 0 to 1 along both
+// axes, on a side to where its own parts meet.
 static void lattice_weigh(ElementKind kind, const Parts *parts, Lattice *lattice)
 {
     int32_t last = parts->inside;
@@ -93,8 +78,15 @@ static void lattice_weigh(ElementKind kind, const Parts *parts, Lattice *lattice
     lattice->parts = *parts;
     for (int32_t j = 0; j <= last; ++j)
         for (int32_t i = 0; i <= (triangle ? last - j : last); ++i) {
-            double at[2];
-            lattice_place(parts, triangle, i, j, at);
+            double at[2] = {(double)i / last, (double)j / last};
+            if (j == 0) at[0] = side_place(parts, 0, i);
+            if (!triangle && i == last) at[1] = side_place(parts, 1, j);
+            if (!triangle && j == last) at[0] = side_place(parts, 2, i);
+            if (i == 0) at[1] = side_place(parts, triangle ? 2 : 3, j);
+            if (triangle && i > 0 && j > 0 && i + j == last) {
+                at[1] = side_place(parts, 1, j);
+                at[0] = 1 - at[1];
+            }
             for (int32_t d = 0; d < 2 && !triangle; ++d) at[d] = 2 * at[d] - 1;
             ShapeValues shape = shape_at(kind, at);
             memcpy(lattice->weight[j * (last + 1) + i], shape.value,
@@ -102,63 +94,51 @@ static void lattice_weigh(ElementKind kind, const Parts *parts, Lattice *lattice
         }
 }
 
-// corners: [(inside + 1)^2], as the lattice.
-static void fill_corners(const Block *block, const Axes *axes, int32_t e, const Lattice *lattice,
-                         Corner *corners)
-{
-    const int32_t *nodes = block->frame.element_nodes + block->frame.first_node[e];
-    ElementKind kind = (ElementKind)block->frame.kind[e];
-    int32_t count = element_node_count(kind), last = lattice->parts.inside;
-    bool triangle = element_corner_count(kind) == 3;
-    for (int32_t j = 0; j <= last; ++j)
-        for (int32_t i = 0; i <= (triangle ? last - j : last); ++i) {
-            const double *weight = lattice->weight[j * (last + 1) + i];
-            double x = 0, z = 0, value = 0;
-            for (int32_t a = 0; a < count; ++a) {
-                x += weight[a] * block->place[nodes[a]][0];
-                z += weight[a] * block->place[nodes[a]][1];
-                value += weight[a] * block->value[nodes[a]];
-            }
-            corners[j * (last + 1) + i] = (Corner){axes_place(axes, x, z), value};
-        }
-}
-
-// Whether an element may have this value: shape functions of order 2 leave the range of the nodes
-// by less than its width.
-static bool may_reach(const Block *block, int32_t e, double level)
-{
-    const FieldFrame *frame = &block->frame;
-    double low = INFINITY, high = -INFINITY;
-    for (int32_t k = frame->first_node[e]; k < frame->first_node[e + 1]; ++k) {
-        double value = block->value[frame->element_nodes[k]];
-        low = fmin(low, value);
-        high = fmax(high, value);
-    }
-    return level >= low - (high - low) && level <= high + (high - low);
-}
-
 // All triangles of all elements, or of those that may reach *level; ends where `work` gives false.
 static bool each_triangle(const Block *block, const Axes *axes, const double *level,
                           TriangleFunction work, void *context)
 {
+    const FieldFrame *frame = &block->frame;
     Corner corners[LATTICE_MAX];
     Lattice lattice = {.kind = -1};
     bool going = true;
-    for (int32_t e = 0; going && e < block->frame.element_count; ++e) {
-        if (level && !may_reach(block, e, *level)) continue;
+    for (int32_t e = 0; going && e < frame->element_count; ++e) {
+        const int32_t *nodes = frame->element_nodes + frame->first_node[e];
+        ElementKind kind = (ElementKind)frame->kind[e];
+
+        // Shape functions of order 2 leave the range of the nodes by less than its width.
+        double low = INFINITY, high = -INFINITY;
+        for (int32_t k = 0; level && k < frame->first_node[e + 1] - frame->first_node[e]; ++k) {
+            low = fmin(low, block->value[nodes[k]]);
+            high = fmax(high, block->value[nodes[k]]);
+        }
+        if (level && !(*level >= low - (high - low) && *level <= high + (high - low))) continue;
+
+        // Corners of the lattice.
         Parts chosen = choose_parts(block, axes, e);
-        int32_t parts = chosen.inside, row = parts + 1;
-        bool triangle = element_corner_count((ElementKind)block->frame.kind[e]) == 3;
-        lattice_weigh((ElementKind)block->frame.kind[e], &chosen, &lattice);
-        fill_corners(block, axes, e, &lattice, corners);
+        int32_t parts = chosen.inside, row = parts + 1, count = element_node_count(kind);
+        bool triangle = element_corner_count(kind) == 3;
+        lattice_weigh(kind, &chosen, &lattice);
+        for (int32_t j = 0; j <= parts; ++j)
+            for (int32_t i = 0; i <= (triangle ? parts - j : parts); ++i) {
+                const double *weight = lattice.weight[j * row + i];
+                double x = 0, z = 0, value = 0;
+                for (int32_t a = 0; a < count; ++a) {
+                    x += weight[a] * block->place[nodes[a]][0];
+                    z += weight[a] * block->place[nodes[a]][1];
+                    value += weight[a] * block->value[nodes[a]];
+                }
+                corners[j * row + i] = (Corner){axes_place(axes, x, z), value};
+            }
+
         for (int32_t j = 0; going && j < parts; ++j)
             for (int32_t i = 0; going && i < (triangle ? parts - j : parts); ++i) {
-                const Corner *low = corners + j * row + i, *high = low + row;
-                const Corner lower[3] = {low[0], low[1], high[0]};
-                going = work(context, lower);
+                const Corner *lower = corners + j * row + i, *upper = lower + row;
+                const Corner first[3] = {lower[0], lower[1], upper[0]};
+                going = work(context, first);
                 if (!going || (triangle && i + j == parts - 1)) continue;
-                const Corner upper[3] = {low[1], high[1], high[0]};
-                going = work(context, upper);
+                const Corner second[3] = {lower[1], upper[1], upper[0]};
+                going = work(context, second);
             }
     }
     return going;

@@ -82,26 +82,6 @@ void block_page_ranges(const double extent[4], double scale, double share, Axes 
 
 // --- range of the colours ------------------------------------------------------------------------
 
-// Adds to each node's weight its share of the elements around it.
-static void add_sizes(const FieldFrame *frame, WeighedValue *nodes)
-{
-    for (int32_t e = 0; e < frame->element_count; ++e) {
-        const int32_t *own = frame->element_nodes + frame->first_node[e];
-        ElementKind kind = (ElementKind)frame->kind[e];
-        int32_t count = element_node_count(kind);
-        MeshPlace place[ELEMENT_NODES_MAX];
-        Quadrature points = shape_quadrature(kind);
-        double size = 0;
-        for (int32_t a = 0; a < count; ++a)
-            memcpy(place[a], frame->position + 3 * (int64_t)own[a], sizeof place[a]);
-        for (int32_t q = 0; q < points.count; ++q) {
-            ShapeValues shape = shape_at(kind, points.point[q]);
-            size += points.weight[q] * shape_jacobian(kind, &shape, (const MeshPlace *)place);
-        }
-        for (int32_t a = 0; a < count; ++a) nodes[own[a]].weight += fabs(size) / count;
-    }
-}
-
 bool block_page_fit(BlockPage *map, const Block *blocks, int32_t count, BlockQuantity quantity,
                     Error *err)
 {
@@ -112,10 +92,28 @@ bool block_page_fit(BlockPage *map, const Block *blocks, int32_t count, BlockQua
     if (quantity == BLOCK_PRESSURE && map->view->line) shown.words = PRESSURE_IN_SPACE;
     for (int32_t k = 0; k < count; ++k) total += blocks[k].frame.node_count;
     TRY(nodes = NEW_ARRAY(WeighedValue, total, err));
-    for (int64_t k = 0, start = 0; k < count; start += blocks[k++].frame.node_count) {
-        add_sizes(&blocks[k].frame, nodes + start);
-        for (int32_t i = 0; i < blocks[k].frame.node_count; ++i)
-            nodes[start + i].value = blocks[k].value[i];
+    WeighedValue *own = nodes;   // those of block k
+    for (int32_t k = 0; k < count; own += blocks[k++].frame.node_count) {
+        const FieldFrame *frame = &blocks[k].frame;
+        for (int32_t i = 0; i < frame->node_count; ++i) own[i].value = blocks[k].value[i];
+
+        // The weight of a node is its share of the elements around it.
+        for (int32_t e = 0; e < frame->element_count; ++e) {
+            const int32_t *around = frame->element_nodes + frame->first_node[e];
+            ElementKind kind = (ElementKind)frame->kind[e];
+            int32_t node_count = element_node_count(kind);
+            MeshPlace place[ELEMENT_NODES_MAX];
+            Quadrature points = shape_quadrature(kind);
+            double size = 0;
+            for (int32_t a = 0; a < node_count; ++a)
+                memcpy(place[a], frame->position + 3 * (int64_t)around[a], sizeof place[a]);
+            for (int32_t q = 0; q < points.count; ++q) {
+                ShapeValues shape = shape_at(kind, points.point[q]);
+                size += points.weight[q] * shape_jacobian(kind, &shape, (const MeshPlace *)place);
+            }
+            for (int32_t a = 0; a < node_count; ++a)
+                own[around[a]].weight += fabs(size) / node_count;
+        }
     }
     TRY(value_bar_fit(nodes, total, &shown, map->style, &map->bar, err));
 cleanup:
@@ -145,48 +143,41 @@ static SpacePage space_of(const Page *page, const BlockPage *map, const Axes *ax
     return space;
 }
 
-// Where the contact nodes are drawn: each at its node of the block, the lowest one there of the
-// elements above the floor's line, which those of a base are not.
-static bool contact_places(const ResultView *view, const Block *block, double *place, Error *err)
+// Below the floor's line, a colour for each contact node, where it is drawn on the deformed block:
+// at its node of the block, the lowest one there of the elements above the floor's line, which
+// those of a base are not. Without memory the nodes are drawn where they were.
+static void draw_contact(const Page *page, const BlockPage *map, const Block *block, int64_t row,
+                         const Axes *axes)
 {
+    const ResultView *view = map->view;
     const FieldFrame *frame = &block->frame;
+    Error ignored = {0};
     double near = SAME_PLACE * (view->x[view->nodes - 1] - view->x[0]);
-    bool *above = NEW_ARRAY(bool, frame->node_count, err);
-    double *height = NEW_ARRAY(double, view->nodes, err);
-    TRY(above && height);
-    for (int32_t e = 0; e < frame->element_count; ++e) {
+    bool *above = NEW_ARRAY(bool, frame->node_count, &ignored);
+    double *height = NEW_ARRAY(double, view->nodes, &ignored);
+    double *place = NEW_ARRAY(double, view->nodes, &ignored);
+    bool placed = above && height && place;
+    for (int32_t e = 0; placed && e < frame->element_count; ++e) {
         double top = -INFINITY;
         for (int32_t k = frame->first_node[e]; k < frame->first_node[e + 1]; ++k)
             top = fmax(top, frame->position[3 * frame->element_nodes[k] + 1]);
         for (int32_t k = frame->first_node[e]; k < frame->first_node[e + 1] && top > near; ++k)
             above[frame->element_nodes[k]] = true;
     }
-    for (int32_t i = 0; i < view->nodes; ++i) {
+    for (int32_t i = 0; placed && i < view->nodes; ++i) {
         place[i] = view->x[i];
         height[i] = INFINITY;
     }
-    for (int32_t n = 0; n < frame->node_count; ++n)
+    for (int32_t n = 0; placed && n < frame->node_count; ++n)
         for (int32_t i = 0; i < view->nodes && above[n]; ++i) {
             const double *at = frame->position + 3 * (int64_t)n;
             if (fabs(at[0] - view->x[i]) > near || at[1] >= height[i]) continue;
             height[i] = at[1];
             place[i] = block->place[n][0];
         }
-cleanup:
-    memory_free_all(above, height);
-    return error_is_clean(err);
-}
 
-// Below the floor's line, a colour for each contact node, where it is drawn on the deformed block.
-static void draw_contact(const Page *page, const BlockPage *map, const Block *block, int64_t row,
-                         const Axes *axes)
-{
-    const ResultView *view = map->view;
     const double *status = view->status + row * view->nodes;
     double unit = map->share * page->point, floor_y = axes_place(axes, 0, 0).y, from, to;
-    Error ignored = {0};   // without memory the nodes are drawn where they were
-    double *place = NEW_ARRAY(double, view->nodes, &ignored);
-    bool placed = place && contact_places(view, block, place, &ignored);
     SpaceTime contact = {.nodes = view->nodes, .x = placed ? place : view->x, .pad = view->pad};
     for (int32_t i = 0; i < view->nodes; ++i) {
         node_extent(&contact, i, &from, &to);
@@ -197,7 +188,7 @@ static void draw_contact(const Page *page, const BlockPage *map, const Block *bl
         box.right = fmax(round(box.right), box.left + 1);
         if (kind >= 0 && kind < STATUSES) draw_fill(page->canvas, STATUS[kind].color, &box);
     }
-    memory_free(place);
+    memory_free_all(above, height, place);
 }
 
 void block_page_contact(const Page *page, const BlockPage *map, const Block *block, int64_t row,
@@ -261,30 +252,12 @@ static double drawn_height(const Block *block, double height, double face, doubl
     return above[0] > below[0] ? below[1] + part * (above[1] - below[1]) : above[1];
 }
 
-// Where the rod's strip of the face is drawn. The mark stands before all that is drawn at these
-// heights, also of a soft layer that bulges.
-static RodMark rod_find(const Block *block, double low, double high, double share)
-{
-    const FieldFrame *frame = &block->frame;
-    double face = INFINITY, slack = FACE_SLACK * (high - low);
-    for (int32_t i = 0; i < frame->node_count; ++i)
-        if (rod_mark_pushes(low, high, frame->position[3 * i + 1]))
-            face = fmin(face, frame->position[3 * i]);
-    RodMark rod = {INFINITY, drawn_height(block, low, face, slack),
-                   drawn_height(block, high, face, slack), share};
-    for (int32_t i = 0; i < frame->node_count; ++i)
-        if (block->place[i][1] >= rod.low && block->place[i][1] <= rod.high)
-            rod.face = fmin(rod.face, block->place[i][0]);
-    return rod;
-}
-
 bool block_page_draw(const Page *page, const BlockPage *map, const Block *block, const Axes *axes,
                      Error *err)
 {
     SpacePage space = space_of(page, map, axes);
     if (block->moved) return space_page_draw(page, &space, block, err);
     double unit = map->share * page->point;
-    double low = map->view->number[NUMBER_ROD_LOW], high = map->view->number[NUMBER_ROD_HIGH];
     Stroke outline = {.color = INK, .width = OUTLINE_WIDTH * unit};
     Stroke edge = {.color = CONTOUR, .width = EDGE_WIDTH * unit};
     if (!block_colors_draw(page->canvas, block, axes, map->bar.low / map->bar.factor,
@@ -293,7 +266,7 @@ bool block_page_draw(const Page *page, const BlockPage *map, const Block *block,
     if (map->edges) block_edges_draw(page, block, axes, &edge);
 
     // At the numbers of the bar.
-    Stroke stroke = {.color = CONTOUR, .width = CONTOUR_WIDTH * map->share * page->point};
+    Stroke stroke = {.color = CONTOUR, .width = CONTOUR_WIDTH * unit};
     Ticks ticks = colorbar_ticks(&map->bar);
     for (int32_t k = 0; k < ticks.count; ++k) {
         double level = tick_value(&ticks, k);
@@ -306,7 +279,20 @@ bool block_page_draw(const Page *page, const BlockPage *map, const Block *block,
     Point left = axes_place(axes, axes->x.low, 0), right = axes_place(axes, axes->x.high, 0);
     draw_segment(page->canvas, &outline, left, right);
     draw_load(page, map, block, axes);
-    RodMark rod = rod_find(block, low, high, map->share);
+
+    // The rod where its strip of the face is drawn, before all that is drawn at these heights, also
+    // a soft layer that bulges.
+    const FieldFrame *frame = &block->frame;
+    double low = map->view->number[NUMBER_ROD_LOW], high = map->view->number[NUMBER_ROD_HIGH];
+    double face = INFINITY, slack = FACE_SLACK * (high - low);
+    for (int32_t i = 0; i < frame->node_count; ++i)
+        if (rod_mark_pushes(low, high, frame->position[3 * i + 1]))
+            face = fmin(face, frame->position[3 * i]);
+    RodMark rod = {INFINITY, drawn_height(block, low, face, slack),
+                   drawn_height(block, high, face, slack), map->share};
+    for (int32_t i = 0; i < frame->node_count; ++i)
+        if (block->place[i][1] >= rod.low && block->place[i][1] <= rod.high)
+            rod.face = fmin(rod.face, block->place[i][0]);
     rod_mark_draw(page, axes, &rod);
     return true;
 }

@@ -6,7 +6,7 @@
 
 #include "render/canvas/colorbar.h"
 #include "render/figures/block_mesh.h"
-#include "render/view/surface_cut.h"
+#include "render/view/surface.h"
 
 typedef struct BlockPage {
     const ResultView *view;   // its statuses have been read

@@ -28,17 +28,12 @@ Colorbar slip_scale(const ResultView *view, double V)
     return slip_scale_up_to(largest, V);
 }
 
-// Where the scale ends: the half decade above all slip.
-static double decade_high(double largest, double V)
-{
-    if (!(largest > V)) return DECADE_HIGH_MIN;
-    return fmin(fmax(ceil(2 * log10(largest / V)) / 2, DECADE_HIGH_MIN), DECADE_HIGH_MAX);
-}
-
+// The scale ends at the half decade above all slip.
 Colorbar slip_scale_up_to(double largest, double V)
 {
+    double high = largest > V ? ceil(2 * log10(largest / V)) / 2 : DECADE_HIGH_MIN;
     return (Colorbar){.low = DECADE_LOW,
-                      .high = decade_high(largest, V),
+                      .high = fmin(fmax(high, DECADE_HIGH_MIN), DECADE_HIGH_MAX),
                       .factor = 1 / V,
                       .powers = true,
                       .label = "slip rate / ~{V}",
@@ -51,20 +46,6 @@ Colorbar slip_scale_up_to(double largest, double V)
 static const double LEFT_OUT = 0.01;   // of what is shown, at each end of the range: corners
 static const double DECADES_FROM = 30;   // largest over least from which on powers are shown
 static const double LEAST_SHOWN = 1e-15;   // of the largest: powers begin there at the least
-
-// In order, without those that are not finite: how many, and the weight of all.
-static int64_t sort_values(WeighedValue *values, int64_t count, double *weight)
-{
-    int64_t kept = 0;
-    *weight = 0;
-    for (int64_t k = 0; k < count; ++k) {
-        if (!isfinite(values[k].value)) continue;
-        *weight += values[k].weight;
-        values[kept++] = values[k];
-    }
-    qsort(values, (size_t)kept, sizeof *values, order_doubles);
-    return kept;
-}
 
 // The value below which `part` of the weight lies.
 static double value_at(const WeighedValue *sorted, int64_t count, double weight, double part)
@@ -86,24 +67,43 @@ static double range_end(const WeighedValue *sorted, int64_t count, double weight
     return isfinite(limit) && !is_part ? limit / factor : value_at(sorted, count, weight, part);
 }
 
-// Returns true if the values above 0 span decades and no value is below 0. The *zeros values that
-// are 0 stand before them.
-static bool spans_decades(const WeighedValue *sorted, int64_t count, int64_t *zeros)
+bool value_bar_fit(WeighedValue *values, int64_t count, const ValueWords *words,
+                   const PictureStyle *style, Colorbar *bar, Error *err)
 {
-    double weight = 0;
-    *zeros = 0;
-    while (*zeros < count && sorted[*zeros].value == 0) ++*zeros;
-    if (*zeros == count || sorted[0].value < 0) return false;
-    for (int64_t k = *zeros; k < count; ++k) weight += sorted[k].weight;
-    const WeighedValue *above = sorted + *zeros;
-    return value_at(above, count - *zeros, weight, 1 - LEFT_OUT) >
-           DECADES_FROM * value_at(above, count - *zeros, weight, LEFT_OUT);
-}
+    const PictureStyle none = {0}, *limits = style && style->limits ? style : &none;
 
-// Name and unit; the factor makes the numbers short, but of powers.
-static Axis name_of(const ValueWords *words, const double range[2], bool powers)
-{
-    Axis axis = {.low = range[0], .high = range[1], .factor = 1};
+    // All that is finite, in order.
+    double weight = 0;
+    int64_t kept = 0;
+    for (int64_t k = 0; k < count; ++k) {
+        if (!isfinite(values[k].value)) continue;
+        weight += values[k].weight;
+        values[kept++] = values[k];
+    }
+    if (kept == 0) return FAULT(err, ERROR_FILE, "the field holds no number");
+    qsort(values, (size_t)kept, sizeof *values, order_doubles);
+    const WeighedValue *shown = values, *last = values + kept - 1;
+
+    // Powers of ten where no value is below 0 and those above 0 span decades; zeros are not shown
+    // then.
+    bool powers = false;
+    int64_t zeros = 0;
+    while (zeros < kept && values[zeros].value == 0) ++zeros;
+    if (words->decades && zeros < kept && values[0].value >= 0) {
+        const WeighedValue *above = values + zeros;
+        double sum = 0;
+        for (const WeighedValue *value = above; value <= last; ++value) sum += value->weight;
+        powers = value_at(above, kept - zeros, sum, 1 - LEFT_OUT) >
+                 DECADES_FROM * value_at(above, kept - zeros, sum, LEFT_OUT);
+    }
+    for (int64_t k = 0; powers && k < zeros; ++k) weight -= values[k].weight;
+    if (powers) shown += zeros;
+    kept = last + 1 - shown;
+
+    // Name and unit; the factor makes the numbers short, but of powers.
+    Axis axis = {.low = range_end(shown, kept, weight, &none, 0, 1),
+                 .high = range_end(shown, kept, weight, &none, 1, 1),
+                 .factor = 1};
     if (!words->normalised[0])
         snprintf(axis.label, sizeof axis.label, "%s", words->words);
     else if (!words->in_si)
@@ -112,29 +112,13 @@ static Axis name_of(const ValueWords *words, const double range[2], bool powers)
         snprintf(axis.label, sizeof axis.label, "%s (%s)", words->words, words->si);
     else
         axis_set_unit(&axis, words->words, words->si);
-    return axis;
-}
 
-bool value_bar_fit(WeighedValue *values, int64_t count, const ValueWords *words,
-                   const PictureStyle *style, Colorbar *bar, Error *err)
-{
-    const PictureStyle none = {0};
-    double weight = 0, range[2];
-    int64_t kept = sort_values(values, count, &weight), zeros = 0;
-    if (kept == 0) return FAULT(err, ERROR_FILE, "the field holds no number");
-    bool powers = words->decades && spans_decades(values, kept, &zeros);
-    for (int64_t k = 0; powers && k < zeros; ++k) weight -= values[k].weight;
-    const WeighedValue *shown = powers ? values + zeros : values, *last = values + kept - 1;
-    kept = last + 1 - shown;
-    for (int32_t end = 0; end < 2; ++end)
-        range[end] = range_end(shown, kept, weight, &none, end, 1);
-    Axis axis = name_of(words, range, powers);
+    // Ends of the bar, and what is beyond them.
+    double range[2];
     *bar = (Colorbar){.factor = axis.factor, .powers = powers};
     snprintf(bar->label, sizeof bar->label, "%s", axis.label);
     for (int32_t end = 0; end < 2; ++end) {
-        range[end] = axis.factor * range_end(shown, kept, weight,
-                                             style && style->limits ? style : &none, end,
-                                             axis.factor);
+        range[end] = axis.factor * range_end(shown, kept, weight, limits, end, axis.factor);
         if (powers) range[end] = log10(fmax(range[end], LEAST_SHOWN * last->value));
     }
     colorbar_fit(bar, range);
@@ -145,45 +129,36 @@ bool value_bar_fit(WeighedValue *values, int64_t count, const ValueWords *words,
     return true;
 }
 
-// --- states --------------------------------------------------------------------------------------
-
 enum { COUNTED_MOST = 200000 };   // of a long history every second row, or third, ...
 
-// As it is written in formulas: a Greek letter by its name.
-static const char *letter_of(const char *name)
+bool history_bar_fit(const ResultView *view, const double U[2], const double *values,
+                     const ValueWords *words, const PictureStyle *style, Colorbar *bar, Error *err)
+{
+    int64_t total = view->rows * view->nodes, every = 1 + total / COUNTED_MOST, count = 0;
+    WeighedValue *counted = NEW_ARRAY(WeighedValue, total / every + view->nodes, err);
+    TRY(counted);
+    for (int64_t row = 0; row < view->rows; row += every)
+        for (int32_t i = 0; i < view->nodes && view->U[row] >= U[0] && view->U[row] <= U[1]; ++i)
+            counted[count++] = (WeighedValue){values[row * view->nodes + i], 1};
+    TRY(value_bar_fit(counted, count, words, style, bar, err));
+cleanup:
+    memory_free(counted);
+    return error_is_clean(err);
+}
+
+// In formulas a Greek letter stands for its name.
+ValueWords state_words(const ResultView *view, char name[VIEW_STATE_SIZE])
 {
     static const char *const greek[][2] = {
         {"theta", "~{\u03b8}"}, {"phi", "~{\u03c6}"}, {"chi", "~{\u03c7}"}, {"psi", "~{\u03c8}"}};
-    for (size_t k = 0; k < sizeof greek / sizeof *greek; ++k)
-        if (strcmp(greek[k][0], name) == 0) return greek[k][1];
-    return name;
-}
-
-ValueWords state_words(const ResultView *view, char name[VIEW_STATE_SIZE])
-{
     bool time = strcmp(view->state_unit, "time") == 0;
+    const char *letter = name;
     result_view_state_name(view, name);
-    return (ValueWords){.words = letter_of(name),
+    for (size_t k = 0; k < sizeof greek / sizeof *greek; ++k)
+        if (strcmp(greek[k][0], name) == 0) letter = greek[k][1];
+    return (ValueWords){.words = letter,
                         .si = time ? "s" : "",
                         .normalised = time ? "~{t}_{0}" : "",
                         .in_si = view->si,
                         .decades = strcmp(view->state_unit, "1") != 0};
-}
-
-bool state_scale(const ResultView *view, const double range[2], const double *states,
-                 const PictureStyle *style, Colorbar *bar, Error *err)
-{
-    char name[VIEW_STATE_SIZE];
-    ValueWords words = state_words(view, name);
-    int64_t total = view->rows * view->nodes, every = 1 + total / COUNTED_MOST, count = 0;
-    WeighedValue *values = NEW_ARRAY(WeighedValue, total / every + view->nodes, err);
-    TRY(values);
-    for (int64_t row = 0; row < view->rows; row += every)
-        for (int32_t i = 0; i < view->nodes && view->U[row] >= range[0] && view->U[row] <= range[1];
-             ++i)
-            values[count++] = (WeighedValue){states[row * view->nodes + i], 1};
-    TRY(value_bar_fit(values, count, &words, style, bar, err));
-cleanup:
-    memory_free(values);
-    return error_is_clean(err);
 }

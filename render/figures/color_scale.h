@@ -32,11 +32,11 @@ typedef struct ValueWords {
 bool value_bar_fit(WeighedValue *values, int64_t count, const ValueWords *words,
                    const PictureStyle *style, Colorbar *bar, Error *err);
 
-// Name and unit of that state; `name` is what the words stand in.
-ValueWords state_words(const ResultView *view, char name[VIEW_STATE_SIZE]);
+// The same of values [rows * nodes] while U is from U[0] to U[1], all counted alike.
+bool history_bar_fit(const ResultView *view, const double U[2], const double *values,
+                     const ValueWords *words, const PictureStyle *style, Colorbar *bar, Error *err);
 
-// The bar of states [rows * nodes] while U is from range[0] to range[1], all counted alike.
-bool state_scale(const ResultView *view, const double range[2], const double *states,
-                 const PictureStyle *style, Colorbar *bar, Error *err);
+// Name and unit of the state that the view stands for; `name` is what the words stand in.
+ValueWords state_words(const ResultView *view, char name[VIEW_STATE_SIZE]);
 
 #endif

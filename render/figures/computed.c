@@ -33,54 +33,44 @@ void computed_choose_cycle(ResultView *view, int32_t cycle)
 
 // --- length over load ----------------------------------------------------------------------------
 
-// The rows of the cycle: from the shortest front behind the sliding before to the next one.
-static void cycle_rows(const ResultView *view, const Zoom *zoom, int64_t *first, int64_t *end)
-{
-    double least = INFINITY;
-    *first = 0;
-    *end = view->rows;
-    for (int64_t row = 0; zoom->found && row < view->rows; ++row) {
-        double U = view->U[row];
-        if (U > zoom->U_slide) {
-            *end = row;
-            return;
-        }
-        if (U >= zoom->U_start && view->front[row] <= least) {
-            least = view->front[row];
-            if (view->mu[row] <= view->mu[*first] || *first == 0) *first = row;
-        }
-    }
-}
-
-// The largest length of the precursors of the cycle that began up to U.
-static double longest_until(const ResultView *view, const Zoom *zoom, double U)
-{
-    double longest = 0;
-    for (int32_t k = 0; k < view->event_count; ++k) {
-        const ViewEvent *event = &view->events[k];
-        bool counts = event->kind == VIEW_BOUNDED && event->U_start <= U;
-        if (counts && zoom_covers(zoom, event->U_start))
-            longest = fmax(longest, event->reach - result_view_trailing_end(view));
-    }
-    return longest;
-}
-
 // From the trailing end to the farthest point that slip has come to since the sliding before, be it
 // slow or in a precursor, against the largest F_T/F_N since then.
 static bool find_lengths(ResultView *view, Error *err)
 {
-    int64_t first = 0, end = 0;
-    double mu = -INFINITY, length = 0;
+    int64_t first = 0, end = view->rows;
+    double least = INFINITY, mu = -INFINITY, length = 0, from = result_view_trailing_end(view);
     Zoom zoom = zoom_choose(view);
     if (view->precursors.at) return true;
     if (!result_view_read_front(view, err) || !curve_make(&view->precursors, view->rows, err))
         return false;
-    cycle_rows(view, &zoom, &first, &end);
+
+    // The rows of the cycle: from the shortest front behind the sliding before to the next one.
+    for (int64_t row = 0; zoom.found && row < view->rows; ++row) {
+        double U = view->U[row];
+        if (U > zoom.U_slide) {
+            end = row;
+            break;
+        }
+        if (U >= zoom.U_start && view->front[row] <= least) {
+            least = view->front[row];
+            if (view->mu[row] <= view->mu[first] || first == 0) first = row;
+        }
+    }
+
     for (int64_t row = first; row < end; ++row) {
         if (!isfinite(view->mu[row] + view->front[row])) continue;
         mu = fmax(mu, view->mu[row]);
-        length = fmax(length, view->front[row] - result_view_trailing_end(view));
-        length = fmax(length, longest_until(view, &zoom, view->U[row]));
+        length = fmax(length, view->front[row] - from);
+
+        // The largest length of the precursors of the cycle that have begun.
+        double longest = 0;
+        for (int32_t k = 0; k < view->event_count; ++k) {
+            const ViewEvent *event = &view->events[k];
+            if (event->kind == VIEW_BOUNDED && event->U_start <= view->U[row] &&
+                zoom_covers(&zoom, event->U_start))
+                longest = fmax(longest, event->reach - from);
+        }
+        length = fmax(length, longest);
         curve_add(&view->precursors, mu, length);
     }
     return true;
@@ -115,20 +105,6 @@ bool computed_events(const ResultView *view, ViewEventKind kind, ViewCurve *even
 
 // --- speed over place ----------------------------------------------------------------------------
 
-// When node i first slipped so fast, from row `first` to the one before `end`; NaN: it did not.
-static double arrival(const ResultView *view, int32_t i, int64_t first, int64_t end, double rapid)
-{
-    for (int64_t row = first; row < end; ++row) {
-        double now = fabs(view->slip_rate[row * view->nodes + i]);
-        if (!(now >= rapid)) continue;
-        double before = row > 0 ? fabs(view->slip_rate[(row - 1) * view->nodes + i]) : now;
-        double part = now > before ? fmin((rapid - before) / (now - before), 1) : 1;
-        return row > 0 ? view->t[row] - (1 - fmax(part, 0)) * (view->t[row] - view->t[row - 1])
-                       : view->t[row];
-    }
-    return NAN;
-}
-
 // Between two stations, length.
 static double station_step(const ResultView *view)
 {
@@ -158,8 +134,19 @@ static bool find_speeds(ResultView *view, double start, double stop, ViewCurve *
     TRY(times = NEW_ARRAY(double, view->nodes, err));
     TRY(curve_make(curve, STATIONS, err));
     result_view_event_rows(view, start, stop, &first, &last);
-    for (int32_t i = 0; i < view->nodes; ++i)
-        times[i] = arrival(view, i, first, last + 1, RAPID * V);
+
+    // When each node first slipped so fast, between steps by its slip rates; NaN: it did not.
+    for (int32_t i = 0; i < view->nodes; ++i) {
+        int64_t row = first;
+        const double *rate = view->slip_rate + i;
+        while (row <= last && !(fabs(rate[row * view->nodes]) >= RAPID * V)) ++row;
+        times[i] = row > last ? NAN : view->t[row];
+        if (row > last || row == 0) continue;
+        double now = fabs(rate[row * view->nodes]), before = fabs(rate[(row - 1) * view->nodes]);
+        double part = now > before ? fmin((RAPID * V - before) / (now - before), 1) : 1;
+        times[i] -= (1 - fmax(part, 0)) * (view->t[row] - view->t[row - 1]);
+    }
+
     double low = view->x[0], step = station_step(view);
     for (int32_t k = 0; k + 1 < STATIONS; ++k) {
         double took = arrival_at(view, times, low + (k + 1) * step) -
@@ -197,29 +184,34 @@ double computed_speed(const ResultView *view, const ViewCurve *curve, double x)
     return NAN;
 }
 
-// That of the sliding of the cycle.
-static bool find_sliding_speeds(ResultView *view, Error *err)
+bool computed_curve(ResultView *view, MeasuredKind kind, ViewCurve *curve, Error *err)
 {
     Zoom zoom = zoom_choose(view);
     double stop = INFINITY;
-    if (view->front_speed.at || !zoom.found) return true;
-    for (int32_t k = 0; k < view->event_count; ++k)
-        if (view->events[k].U_start == zoom.U_slide) stop = view->events[k].U_stop;
-    return find_speeds(view, zoom.U_slide, stop, &view->front_speed, err);
-}
-
-bool computed_curve(ResultView *view, MeasuredKind kind, ViewCurve *curve, Error *err)
-{
-    bool done = true;
-    *curve = (ViewCurve){view->rows, view->U, view->mu};
-    if (kind == MEASURED_AREA || kind == MEASURED_PROBE) *curve = (ViewCurve){0};
-    if (kind == MEASURED_FRONT) done = result_view_read_front(view, err);
-    if (kind == MEASURED_FRONT) curve->value = view->front;
-    if (kind == MEASURED_LENGTH) done = find_lengths(view, err);
-    if (kind == MEASURED_LENGTH) *curve = view->precursors;
-    if (kind == MEASURED_SPEED) done = find_sliding_speeds(view, err);
-    if (kind == MEASURED_SPEED) *curve = view->front_speed;
-    return done;
+    *curve = (ViewCurve){0};
+    switch (kind) {
+    case MEASURED_MU:
+        *curve = (ViewCurve){view->rows, view->U, view->mu};
+        return true;
+    case MEASURED_FRONT:
+        if (!result_view_read_front(view, err)) return false;
+        *curve = (ViewCurve){view->rows, view->U, view->front};
+        return true;
+    case MEASURED_LENGTH:
+        if (!find_lengths(view, err)) return false;
+        *curve = view->precursors;
+        return true;
+    case MEASURED_SPEED:   // that of the sliding of the cycle
+        for (int32_t k = 0; k < view->event_count; ++k)
+            if (view->events[k].U_start == zoom.U_slide) stop = view->events[k].U_stop;
+        if (!view->front_speed.at && zoom.found &&
+            !find_speeds(view, zoom.U_slide, stop, &view->front_speed, err))
+            return false;
+        *curve = view->front_speed;
+        return true;
+    default:
+        return true;
+    }
 }
 
 // --- area ----------------------------------------------------------------------------------------

@@ -1,26 +1,65 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The block at one stored time: a field in colours with contour lines, on the deformed mesh.
-#include "render/figures/figures.h"
+#include "render/figures/figure_field.h"
 
-#include "render/figures/field_page.h"
+#include "render/figures/figures.h"
 #include "render/view/zoom.h"
 
-// The state that the request asks for; without a word the last one before the zoomed sliding.
-static bool read_block(const FigureInput *input, BlockQuantity quantity, Block *block, Error *err)
+#include <math.h>
+#include <stdio.h>
+
+static const double LEFT = 30, RIGHT = 60;   // points beside the frame: numbers; the colour bar
+static const double WORDS_HEIGHT = 11;   // points above the frame
+static const double LEGEND_HEIGHT = 10;   // points below the names of the axes
+static const double BAR_GAP = 6;   // points: frame to colour bar
+static const double SHAPE_MAX = 1.1;   // of the frame's height over the room for its width
+
+enum { WORDS_SIZE = 160 };
+
+double field_page_lay_out(FieldPage *field, double page_width)
 {
-    BlockSource source = {.folder = input->folder,
-                          .view = input->view,
-                          .quantity = quantity,
-                          .depth = input->def.style->depth};
-    TRY(block_source_open(&source, err));
-    Zoom zoom = zoom_choose(input->view);
-    int32_t index = zoom.found ? block_time_before(&source, zoom.U_slide) : source.count - 1;
-    if (input->field->at) TRY(block_time_find(&source, input->field->at, &index, err));
-    TRY(block_read(&source, index, block, err));
-    TRY(result_view_read_status(input->view, err));
-cleanup:
-    block_source_close(&source);
-    return error_is_clean(err);
+    double room = page_width - LEFT - RIGHT;
+    Axes axes = {.x.label = "x"};
+    field->width = room;
+    field->scale = block_page_scale(field->extent, room, 1);
+    field->height = block_page_height(field->extent, field->scale, 1);
+    if (field->height > SHAPE_MAX * room) {
+        field->scale *= SHAPE_MAX * room / field->height;
+        field->height = block_page_height(field->extent, field->scale, 1);
+        block_page_ranges(field->extent, field->scale, 1, &axes);
+        field->width = field->scale * (axes.x.high - axes.x.low);
+    }
+    return (WORDS_HEIGHT + field->height + axes_bottom_margin(&axes) + LEGEND_HEIGHT) / page_width;
+}
+
+bool field_page_draw(const Page *page, const FieldPage *field, const BlockPage *map,
+                     const Block *block, Error *err)
+{
+    double point = page->point, low = field->extent[0], high = field->extent[1];
+    Axes axes = {.x = figure_length_axis(map->view, "x", low, high)};
+    axes.y = axes.x;
+    snprintf(axes.y.label, sizeof axes.y.label, "~{z}%.80s", axes.x.label + 4);   // behind "~{x}"
+    block_page_ranges(field->extent, field->scale, 1, &axes);
+    axes.box.left = round(LEFT * point);
+    axes.box.top = page->room.top + round(WORDS_HEIGHT * point);
+    axes.box.right = axes.box.left + round(field->width * point);
+    axes.box.bottom = axes.box.top + round(field->height * point);
+    if (!block_page_draw(page, map, block, &axes, err)) return false;
+    block_page_axes(page, map, block, &axes);
+
+    // "U / L_0 = 0.0117   deformation x 50".
+    char words[WORDS_SIZE];
+    Axis U = figure_length_axis(map->view, "U", block->U, block->U);
+    TextStyle style = {.size = SMALL_SIZE * page->point, .color = INK};
+    snprintf(words, sizeof words, "%s = %.5g    deformation \u00d7 %g", U.label,
+             block->U * U.factor, field->magnification);
+    text_draw_within(page->text, &style, (Point){axes.box.left, axes.box.top - 3.5 * page->point},
+                     axes.box.right - axes.box.left, words);
+
+    colorbar_draw(page, &map->bar, &axes.box, BAR_GAP);
+    double below = axes.box.bottom + (axes_bottom_margin(&axes) + 0.5 * LEGEND_HEIGHT) * point;
+    block_page_legend(page, (Point){axes.box.left, below}, 0);
+    return true;
 }
 
 bool figure_field_shows(const char *folder, const char *quantity)
@@ -35,22 +74,34 @@ bool figure_field(Page *page, const FigureInput *input, Error *err)
     Block block = {0};
     FieldPage field = {0};
     PageDef def = input->def;
-    BlockQuantity quantity = BLOCK_VON_MISES;
     SpaceCut cut;
+    BlockSource source = {.folder = input->folder,
+                          .view = input->view,
+                          .quantity = BLOCK_VON_MISES,
+                          .depth = def.style->depth};
     BlockPage map = {.view = input->view,
                      .edges = input->field->edges,
                      .cut = &cut,
                      .share = 1,
                      .style = input->def.style};
     TRY(block_cut_read(input->view, input->field->cut, &cut, err));
-    TRY(block_quantity_find(input->field->of, &quantity, err));
-    TRY(read_block(input, quantity, &block, err));
+    TRY(block_quantity_find(input->field->of, &source.quantity, err));
+
+    // The state that the request asks for; without a word the last one before the zoomed sliding.
+    TRY(block_source_open(&source, err));
+    Zoom zoom = zoom_choose(input->view);
+    int32_t index = zoom.found ? block_time_before(&source, zoom.U_slide) : source.count - 1;
+    if (input->field->at) TRY(block_time_find(&source, input->field->at, &index, err));
+    TRY(block_read(&source, index, &block, err));
+    TRY(result_view_read_status(input->view, err));
+
     block_page_deform(&block, 1, &field.magnification, field.extent);
-    TRY(block_page_fit(&map, &block, 1, quantity, err));
+    TRY(block_page_fit(&map, &block, 1, source.quantity, err));
     def.height = field_page_lay_out(&field, page_width(def.style));
     TRY(page_begin(page, &def, err));
     TRY(field_page_draw(page, &field, &map, &block, err));
 cleanup:
+    block_source_close(&source);
     block_destroy(&block);
     return error_is_clean(err);
 }

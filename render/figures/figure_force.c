@@ -61,29 +61,15 @@ static void curve_draw(const Page *page, const ResultView *view, const Axes *axe
     canvas_clip(page->canvas, NULL);
 }
 
-// The levels that the result knows: mu_M is missing in a run that did not end. highest: the largest
-// mu of the curve.
-static int32_t levels_list(const ResultView *view, double highest, Level level[LEVELS_MAX])
+// Dashed lines across the frame, their names right of it.
+static void levels_draw(const Page *page, const Axes *axes, Level *level, int32_t count)
 {
-    static const struct {
-        ResultNumber number;
-        const char *name;
-    } known[LEVELS_MAX] = {{NUMBER_MU_STATIC, "~{\u03bc}_{S}"},
-                           {NUMBER_MU_M, "~{\u03bc}_{M}"},
-                           {NUMBER_MU_KINETIC, "~{\u03bc}_{K}"}};
-    int32_t count = 0;
-    for (int32_t k = 0; k < LEVELS_MAX; ++k) {
-        double mu = view->number[known[k].number];
-        if (!isfinite(mu)) continue;
-        level[count] = (Level){.mu = mu, .name = known[k].name};
-        level[count++].away = highest > 0 && mu > AWAY * highest;
-    }
-    return count;
-}
+    double point = page->point;
+    Stroke stroke = dashed_stroke(page, FIGURE_LEVEL, 0.5);
+    TextStyle style = {.size = NUMBER_SIZE * point, .color = INK, .up = 0.5};
 
-// Names that would overlap move apart, downwards from the highest.
-static void names_spread(const Axes *axes, Level *level, int32_t count, double spacing)
-{
+    // Names that would overlap move apart, downwards from the highest.
+    double spacing = 1.1 * style.size;
     for (int32_t k = 0; k < count; ++k) {
         level[k].y = axes_place(axes, 0, level[k].mu).y;
         if (level[k].away) level[k].y = axes->box.top + spacing / 2;
@@ -95,15 +81,7 @@ static void names_spread(const Axes *axes, Level *level, int32_t count, double s
         level[place] = moved;
     }
     for (int32_t k = 1; k < count; ++k) level[k].y = fmax(level[k].y, level[k - 1].y + spacing);
-}
 
-// Dashed lines across the frame, their names right of it.
-static void levels_draw(const Page *page, const Axes *axes, Level *level, int32_t count)
-{
-    double point = page->point;
-    Stroke stroke = dashed_stroke(page, FIGURE_LEVEL, 0.5);
-    TextStyle style = {.size = NUMBER_SIZE * point, .color = INK, .up = 0.5};
-    names_spread(axes, level, count, 1.1 * style.size);
     for (int32_t k = 0; k < count; ++k) {
         char words[LEVEL_NAME_SIZE];
         Point to = axes_place(axes, axes->x.high, level[k].mu);
@@ -182,40 +160,32 @@ bool figure_force_enlarges(const ResultView *view, const PictureStyle *style)
     return view_range_find(view, style, &shown, &ignored) && has_inset(view, style, &shown);
 }
 
-// The zoom's U, mu from the first precursor shown to a little above the peak; in a frame above.
-static bool inset_axes(const Page *page, const ResultView *view, const ViewRange *shown,
-                       Axes *inset)
-{
-    Zoom zoom = zoom_choose(view);
-    double range[2];
-    if (!has_inset(view, &page->style, shown)) return false;
-    result_view_mu_range(view, (double[]){zoom.U_low, zoom.U_slide}, range);
-    double pad = 0.12 * (range[1] - range[0]);
-    *inset = (Axes){.color = ZOOM_FORCE};
-    inset->x = figure_length_axis(view, "U", zoom.U_low, zoom.U_high);
-    inset->x.factor = figure_length_axis(view, "U", shown->low, shown->high).factor;
-    inset->x.label[0] = '\0';
-    inset->y =
-        (Axis){.low = range[0] - pad, .high = range[1] + pad, .factor = 1, .label = FIGURE_MU};
-    inset->box.top = page->room.top + round(axes_top_margin(inset) * page->point);
-    inset->box.bottom = inset->box.top + round(INSET_SHARE * (page->room.bottom - page->room.top));
-    return true;
-}
-
-// The frame of the U that is shown, all of mu there and the levels; below `top`. level: [returned].
+// The frame of the U that is shown, all of mu there and the levels that the result knows: mu_M is
+// missing in a run that did not end. The frame lies below `top`. level: [returned].
 static int32_t axes_layout(const Page *page, const ResultView *view, const ViewRange *shown,
                            double top, Axes *axes, Level level[LEVELS_MAX])
 {
+    static const struct {
+        ResultNumber number;
+        const char *name;
+    } known[LEVELS_MAX] = {{NUMBER_MU_STATIC, "~{\u03bc}_{S}"},
+                           {NUMBER_MU_M, "~{\u03bc}_{M}"},
+                           {NUMBER_MU_KINETIC, "~{\u03bc}_{K}"}};
     double range[2];
     Box room = page->room;
     room.top = top;
     result_view_mu_range(view, (double[]){shown->low, shown->high}, range);
     if (!(range[1] >= range[0])) range[0] = range[1] = 0;
-    int32_t count = levels_list(view, range[1], level);
+    double highest = range[1];   // of the curve
+    int32_t count = 0;
     bool away = false;
-    for (int32_t k = 0; k < count; ++k) {
-        if (!level[k].away) range[1] = fmax(range[1], level[k].mu);
-        away = away || level[k].away;
+    for (int32_t k = 0; k < LEVELS_MAX; ++k) {
+        double mu = view->number[known[k].number];
+        if (!isfinite(mu)) continue;
+        bool beyond = highest > 0 && mu > AWAY * highest;
+        level[count++] = (Level){.mu = mu, .name = known[k].name, .away = beyond};
+        if (!beyond) range[1] = fmax(range[1], mu);
+        away = away || beyond;
     }
     *axes = (Axes){.x = figure_length_axis(view, "U", shown->low, shown->high),
                    .y = {.low = fmin(0, range[0] * HEADROOM), .factor = 1, .label = FIGURE_MU},
@@ -224,26 +194,6 @@ static int32_t axes_layout(const Page *page, const ResultView *view, const ViewR
     if (!(axes->y.high > axes->y.low)) axes->y.high = axes->y.low + 1;
     axes_fit(page, &room, away ? AWAY_MARGIN : LEVEL_MARGIN, axes);
     return count;
-}
-
-static void key_of_peaks(Page *page, const ResultView *view, const ViewRange *shown,
-                         const Measured *measured)
-{
-    KeyEntry entries[5];
-    int32_t count = 0;
-    const Axes axes = {.x = {.low = shown->low, .high = shown->high}};
-    bool seen[2] = {false, false};
-    for (int32_t k = 0; k < view->peak_count; ++k)
-        if (is_shown(&view->peaks[k], &axes)) seen[view->peaks[k].counts] = true;
-    if (seen[1])
-        entries[count++] =
-            (KeyEntry){KEY_DISC, INK, "largest before the block slid, counts for ~{\u03bc}_{M}"};
-    if (seen[0]) entries[count++] = (KeyEntry){KEY_RING, INK, "does not count"};
-    if (slidings_draw(NULL, view, &axes) > 0)
-        entries[count++] =
-            (KeyEntry){KEY_LINE, ZOOM_FORCE, "ticks at the foot: the whole block slides"};
-    if (shown->words[0]) entries[count++] = (KeyEntry){.words = shown->words};
-    key_draw(page, entries, measured_key(measured, KEY_DISC, entries, count));
 }
 
 bool figure_force(const Page *whole, ResultView *view, Error *err)
@@ -256,11 +206,44 @@ bool figure_force(const Page *whole, ResultView *view, Error *err)
     if (!view_range_find(view, &page.style, &shown, err) ||
         !measured_read(page.style.compare, MEASURED_MU, view, &measured, err))
         return false;
-    key_of_peaks(&page, view, &shown, &measured);
-    bool enlarged = inset_axes(&page, view, &shown, &inset);
-    double below = inset.box.bottom + (axes_bottom_margin(&inset) + INSET_GAP) * page.point;
-    double top = enlarged ? round(below) : page.room.top;
-    int32_t count = axes_layout(&page, view, &shown, top, &axes, level);
+
+    // The key.
+    KeyEntry entries[5];
+    int32_t count = 0;
+    const Axes all = {.x = {.low = shown.low, .high = shown.high}};
+    bool seen[2] = {false, false};
+    for (int32_t k = 0; k < view->peak_count; ++k)
+        if (is_shown(&view->peaks[k], &all)) seen[view->peaks[k].counts] = true;
+    if (seen[1])
+        entries[count++] =
+            (KeyEntry){KEY_DISC, INK, "largest before the block slid, counts for ~{\u03bc}_{M}"};
+    if (seen[0]) entries[count++] = (KeyEntry){KEY_RING, INK, "does not count"};
+    if (slidings_draw(NULL, view, &all) > 0)
+        entries[count++] =
+            (KeyEntry){KEY_LINE, ZOOM_FORCE, "ticks at the foot: the whole block slides"};
+    if (shown.words[0]) entries[count++] = (KeyEntry){.words = shown.words};
+    key_draw(&page, entries, measured_key(&measured, KEY_DISC, entries, count));
+
+    // The inset, a frame above: the zoom's U, mu from the first precursor shown to a little above
+    // the peak.
+    bool enlarged = has_inset(view, &page.style, &shown);
+    double top = page.room.top;
+    if (enlarged) {
+        Zoom zoom = zoom_choose(view);
+        double range[2];
+        result_view_mu_range(view, (double[]){zoom.U_low, zoom.U_slide}, range);
+        double pad = 0.12 * (range[1] - range[0]);
+        inset = (Axes){
+            .color = ZOOM_FORCE,
+            .x = figure_length_axis(view, "U", zoom.U_low, zoom.U_high),
+            .y = {.low = range[0] - pad, .high = range[1] + pad, .factor = 1, .label = FIGURE_MU}};
+        inset.x.factor = figure_length_axis(view, "U", shown.low, shown.high).factor;
+        inset.x.label[0] = '\0';
+        inset.box.top = page.room.top + round(axes_top_margin(&inset) * page.point);
+        inset.box.bottom = inset.box.top + round(INSET_SHARE * (page.room.bottom - page.room.top));
+        top = round(inset.box.bottom + (axes_bottom_margin(&inset) + INSET_GAP) * page.point);
+    }
+    int32_t levels = axes_layout(&page, view, &shown, top, &axes, level);
 
     // Both frames are equally wide: the wider numbers say where they begin.
     double left = enlarged ? round(page.room.left + axes_left_margin(&page, &inset) * page.point)
@@ -270,7 +253,7 @@ bool figure_force(const Page *whole, ResultView *view, Error *err)
     inset.box.left = axes.box.left;
     inset.box.right = axes.box.right;
 
-    levels_draw(&page, &axes, level, count);
+    levels_draw(&page, &axes, level, levels);
     curve_draw(&page, view, &axes);
     peaks_draw(&page, view, &axes);
     slidings_draw(&page, view, &axes);

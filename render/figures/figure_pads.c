@@ -1,15 +1,115 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Which pad lets go first: a line a pad, against U, from where some of it slips to where all of it
-// has let go, with its number in the order; of one cycle, or of all.
-#include "render/figures/figures.h"
+// has let go, with its number in the order; of one cycle, or of all. The rule is that of
+// record/pads: a node counts from when it has stuck, as the tail of a sliding is not the next
+// cycle's slip. Where no node ever sticks one that slips slower than CREEP V is at rest.
+#include "render/figures/figure_pads.h"
 
 #include "base/memory.h"
-#include "render/figures/pad_data.h"
-#include "render/figures/stack.h"
+#include "render/canvas/key.h"
+#include "render/figures/figures.h"
 #include "render/view/zoom.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
+
+// --- numbers -------------------------------------------------------------------------------------
+
+enum { OPEN = 0, STICK = 1 };   // statuses in the history
+static const double CREEP = 0.1;   // of V (record/observation)
+
+void pad_words(const ResultView *view, int32_t pad, char words[PAD_WORDS_SIZE])
+{
+    int length = 0;
+    const char *name = result_view_name(view->pad_names, pad, &length);
+    if (length > 0)
+        snprintf(words, PAD_WORDS_SIZE, "%.*s", length < PAD_WORDS_SIZE ? length : 40, name);
+    else
+        snprintf(words, PAD_WORDS_SIZE, "pad %d", pad + 1);
+}
+
+bool pad_courses_read(ResultView *view, PadCourses *courses, Error *err)
+{
+    int32_t cycles = 0, pads = result_view_pads(view);
+    int64_t first = 0;
+    double least = CREEP * fabs(view->number[NUMBER_ROD_VELOCITY]);
+    bool *stuck = NULL, *slipped = NULL;   // [nodes] seen sticking in this cycle; slipped since
+    *courses = (PadCourses){.pads = pads};
+    for (int32_t k = 0; k < view->event_count; ++k) {
+        const ViewEvent *event = &view->events[k];
+        cycles += event->kind == VIEW_LEADING && isfinite(event->U_start + event->U_stop);
+    }
+    TRY(result_view_read_status(view, err) && result_view_read_slip_rate(view, err));
+    bool creeps = true;   // no node ever sticks
+    for (int64_t k = 0; k < view->rows * view->nodes && creeps; ++k)
+        creeps = view->status[k] != STICK;
+    TRY((stuck = NEW_ARRAY(bool, view->nodes, err)) &&
+        (slipped = NEW_ARRAY(bool, view->nodes, err)));
+    TRY(courses->list = NEW_ARRAY(PadCourse, (int64_t)pads * (cycles ? cycles : 1), err));
+    for (int32_t k = 0; k < view->event_count || (cycles == 0 && courses->count == 0); ++k) {
+        const ViewEvent *event = k < view->event_count ? &view->events[k] : NULL;
+        int64_t before = 0, last = view->rows - 1;
+        if (event && !(event->kind == VIEW_LEADING && isfinite(event->U_start + event->U_stop)))
+            continue;
+        if (event) result_view_event_rows(view, event->U_start, event->U_stop, &before, &last);
+
+        // A cycle begins: nothing has stuck yet.
+        PadCourse *own = courses->list + courses->count;
+        for (int32_t p = 0; p < pads; ++p)
+            own[p] = (PadCourse){.cycle = 1 + courses->count / pads,
+                                 .pad = p,
+                                 .U_first_slip = NAN,
+                                 .U_let_go = NAN,
+                                 .mu_let_go = NAN};
+        memset(stuck, 0, (size_t)view->nodes * sizeof *stuck);
+        memset(slipped, 0, (size_t)view->nodes * sizeof *slipped);
+
+        // Its rows, up to that in which the last pad lets go.
+        int32_t let_go = 0;
+        for (int64_t row = first; row <= last && let_go < pads; ++row) {
+            const double *status = view->status + row * view->nodes;
+            const double *rate = view->slip_rate + row * view->nodes;
+            int32_t letting_go = 0;
+            for (int32_t i = 0; i < view->nodes; ++i) {
+                bool rests = status[i] == STICK ||
+                             (creeps && status[i] != OPEN && fabs(rate[i]) < least);
+                if (rests)
+                    stuck[i] = true;
+                else if (stuck[i])
+                    slipped[i] = true;
+            }
+            for (int32_t p = 0; p < pads; ++p) {
+                bool some = false, all = true;
+                for (int32_t i = 0; i < view->nodes; ++i) {
+                    if ((int32_t)view->pad[i] != p) continue;
+                    some = some || slipped[i];
+                    all = all && (slipped[i] || status[i] == OPEN);
+                }
+                if (some && isnan(own[p].U_first_slip)) own[p].U_first_slip = view->U[row];
+                if (!some || !all || own[p].order > 0) continue;
+                own[p].U_let_go = view->U[row];
+                own[p].mu_let_go = view->mu[row];
+                own[p].order = let_go + 1;
+                ++letting_go;
+            }
+            let_go += letting_go;
+        }
+        courses->count += pads;
+        first = last + 1;
+    }
+cleanup:
+    memory_free_all(stuck, slipped);
+    return error_is_clean(err);
+}
+
+void pad_courses_destroy(PadCourses *courses)
+{
+    memory_free(courses->list);
+    *courses = (PadCourses){0};
+}
+
+// --- the figure ----------------------------------------------------------------------------------
 
 enum { NAMES_MAX = 40 };
 
@@ -21,26 +121,6 @@ static const double LINE_WIDTH = 2.5;   // points
 static bool is_shown(const PadCourse *course, const Zoom *zoom)
 {
     return !zoom->found || zoom->cycle == 0 || course->cycle == zoom->cycle;
-}
-
-static void course_draw(const Page *page, const Axes *axes, const PadCourse *course)
-{
-    double y = course->pad + 1;
-    Stroke stroke = {.color = FIGURE_CURVE, .width = LINE_WIDTH * page->point};
-    TextStyle style = {.size = SMALL_SIZE * page->point, .color = INK, .up = 0.5};
-    char number[16];
-    if (isnan(course->U_first_slip)) return;
-    double end = isnan(course->U_let_go) ? axes->x.high : course->U_let_go;
-    canvas_clip(page->canvas, &axes->box);
-    draw_segment(page->canvas, &stroke, axes_place(axes, course->U_first_slip, y),
-                 axes_place(axes, end, y));
-    canvas_clip(page->canvas, NULL);
-    if (course->order == 0) return;
-    Point at = axes_place(axes, end, y);
-    draw_disc(page->canvas, INK, at, 1.5 * KEY_RADIUS * page->point);
-    snprintf(number, sizeof number, "%d", course->order);
-    at.x += NUMBER_GAP * page->point;
-    text_draw(page->text, &style, at, number);
 }
 
 bool figure_pads_shows(const ResultView *view)
@@ -68,6 +148,8 @@ bool figure_pads(Page *page, const FigureInput *input, Error *err)
         stack_widen(courses.list[k].U_let_go, &low, &high);
     }
     if (!(low < high)) result_view_range(view, &low, &high);
+
+    // The axes: a line for each pad, with its name.
     for (int32_t p = 0; p < courses.pads; ++p) {
         char words[PAD_WORDS_SIZE];
         pad_words(view, p, words);
@@ -82,6 +164,7 @@ bool figure_pads(Page *page, const FigureInput *input, Error *err)
                     .name_count = courses.pads};
     def.height = page_shape(def.style, stack_shape(1) + 0.05 * courses.pads);
     TRY(page_begin(page, &def, err));
+
     Page whole = *page;
     KeyEntry entries[3] = {{KEY_LINE, FIGURE_CURVE, "slips in part"},
                            {KEY_DISC, INK, "all of it has let go, in this order"}};
@@ -89,8 +172,27 @@ bool figure_pads(Page *page, const FigureInput *input, Error *err)
     if (zoom.words[0]) entries[count++] = (KeyEntry){.words = zoom.words};
     key_draw(&whole, entries, count);
     axes_fit(&whole, &whole.room, RIGHT_MARGIN, &axes);
-    for (int32_t k = 0; k < courses.count; ++k)
-        if (is_shown(&courses.list[k], &zoom)) course_draw(&whole, &axes, &courses.list[k]);
+
+    // From where some of a pad slips to where all of it has let go, or else to the frame's end.
+    double point = whole.point;
+    Stroke stroke = {.color = FIGURE_CURVE, .width = LINE_WIDTH * point};
+    TextStyle style = {.size = SMALL_SIZE * point, .color = INK, .up = 0.5};
+    for (int32_t k = 0; k < courses.count; ++k) {
+        const PadCourse *course = &courses.list[k];
+        char number[16];
+        if (!is_shown(course, &zoom) || isnan(course->U_first_slip)) continue;
+        double end = isnan(course->U_let_go) ? axes.x.high : course->U_let_go;
+        Point at = axes_place(&axes, end, course->pad + 1);
+        canvas_clip(whole.canvas, &axes.box);
+        draw_segment(whole.canvas, &stroke,
+                     axes_place(&axes, course->U_first_slip, course->pad + 1), at);
+        canvas_clip(whole.canvas, NULL);
+        if (course->order == 0) continue;
+        draw_disc(whole.canvas, INK, at, 1.5 * KEY_RADIUS * point);
+        snprintf(number, sizeof number, "%d", course->order);
+        at.x += NUMBER_GAP * point;
+        text_draw(whole.text, &style, at, number);
+    }
     axes_draw(&whole, &axes);
 cleanup:
     pad_courses_destroy(&courses);

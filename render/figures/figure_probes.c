@@ -5,7 +5,6 @@
 
 #include "base/memory.h"
 #include "render/figures/probe_data.h"
-#include "render/figures/stack.h"
 #include "render/view/range.h"
 
 #include <math.h>
@@ -14,55 +13,6 @@
 enum { KEY_MAX = 34 };   // probes, which slidings are shown, measurements
 
 static const double SMALL_STRAIN = 1e-2;   // below it strains are shown in millionths
-
-// Name and unit of the y axis of component c.
-static void name_axis(const ResultView *view, ProbeQuantity quantity, int32_t c, Axis *axis)
-{
-    ProbeWords words = probe_words(quantity);
-    char name[AXIS_LABEL_SIZE];
-    double largest = fmax(fabs(axis->low), fabs(axis->high));
-    snprintf(name, sizeof name, "%s_{%s}", words.symbol, probe_component(view, quantity, c));
-    if (quantity == PROBE_STRAIN && largest < SMALL_STRAIN) {
-        axis->factor = 1e6;
-        snprintf(axis->label, sizeof axis->label, "%.70s (10^{\u22126})", name);
-    } else if (view->si && words.si[0]) {
-        axis_set_unit(axis, name, words.si);
-    } else {
-        snprintf(axis->label, sizeof axis->label, "%.50s%s%.30s", name,
-                 words.normalised[0] ? " / " : "", words.normalised);
-    }
-}
-
-static void curve_draw(const Page *page, const ResultView *view, const Axes *axes,
-                       const double *values, int64_t stride, int32_t probe)
-{
-    Stroke stroke = {.color = stack_color(probe), .width = CURVE_WIDTH * page->point};
-    if (probe >= STACK_COLORS) {
-        stroke.dash = 3 * page->point;
-        stroke.space = 2 * page->point;
-    }
-    canvas_clip(page->canvas, &axes->box);
-    LinePen pen = line_begin(page->canvas, &stroke);
-    for (int64_t row = 0; row < view->rows; ++row)
-        line_add(&pen, axes_place(axes, view->U[row], values[row * stride]));
-    line_end(&pen);
-    canvas_clip(page->canvas, NULL);
-}
-
-static void key_of(Page *page, const ResultView *view, const ViewRange *shown,
-                   const Measured *measured)
-{
-    char names[KEY_MAX][PROBE_NAME_SIZE];
-    KeyEntry entries[KEY_MAX];
-    int32_t count = 0;
-    for (int32_t k = 0; k < view->probes && count < KEY_MAX - 2; ++k) {
-        probe_name(view, k, names[k]);
-        entries[count++] =
-            (KeyEntry){k < STACK_COLORS ? KEY_LINE : KEY_DASHED, stack_color(k), names[k]};
-    }
-    if (shown->words[0]) entries[count++] = (KeyEntry){.words = shown->words};
-    key_draw(page, entries, measured_key(measured, KEY_DISC, entries, count));
-}
 
 bool figure_probes_show(const char *quantity)
 {
@@ -90,8 +40,22 @@ bool figure_probes(Page *page, const FigureInput *input, Error *err)
     int64_t stride = (int64_t)components * view->probes;
     def.height = page_shape(def.style, stack_shape(components));
     TRY(page_begin(page, &def, err));
+
+    // The key.
     Page whole = *page;
-    key_of(&whole, view, &shown, &measured);
+    char names[KEY_MAX][PROBE_NAME_SIZE];
+    KeyEntry entries[KEY_MAX];
+    int32_t count = 0;
+    for (int32_t k = 0; k < view->probes && count < KEY_MAX - 2; ++k) {
+        probe_name(view, k, names[k]);
+        entries[count++] =
+            (KeyEntry){k < STACK_COLORS ? KEY_LINE : KEY_DASHED, stack_color(k), names[k]};
+    }
+    if (shown.words[0]) entries[count++] = (KeyEntry){.words = shown.words};
+    key_draw(&whole, entries, measured_key(&measured, KEY_DISC, entries, count));
+
+    // A frame for each component: its range, name and unit.
+    ProbeWords words = probe_words(quantity);
     for (int32_t c = 0; c < components; ++c) {
         double low = INFINITY, high = -INFINITY;
         for (int64_t row = 0; row < view->rows; ++row)
@@ -103,12 +67,35 @@ bool figure_probes(Page *page, const FigureInput *input, Error *err)
                 stack_widen(measured.value[k], &low, &high);
         axes[c] = (Axes){.x = figure_length_axis(view, "U", shown.low, shown.high),
                          .y = stack_axis(low, high)};
-        name_axis(view, quantity, c, &axes[c].y);
+        Axis *axis = &axes[c].y;
+        char name[AXIS_LABEL_SIZE];
+        double largest = fmax(fabs(axis->low), fabs(axis->high));
+        snprintf(name, sizeof name, "%s_{%s}", words.symbol, probe_component(view, quantity, c));
+        if (quantity == PROBE_STRAIN && largest < SMALL_STRAIN) {
+            axis->factor = 1e6;
+            snprintf(axis->label, sizeof axis->label, "%.70s (10^{\u22126})", name);
+        } else if (view->si && words.si[0]) {
+            axis_set_unit(axis, name, words.si);
+        } else {
+            snprintf(axis->label, sizeof axis->label, "%.50s%s%.30s", name,
+                     words.normalised[0] ? " / " : "", words.normalised);
+        }
     }
+
+    // A curve for each probe, dashed where colours begin anew.
     stack_fit(&whole, axes, components);
     for (int32_t c = 0; c < components; ++c) {
-        for (int32_t k = 0; k < view->probes; ++k)
-            curve_draw(&whole, view, &axes[c], values + k * components + c, stride, k);
+        canvas_clip(whole.canvas, &axes[c].box);
+        for (int32_t k = 0; k < view->probes; ++k) {
+            Stroke stroke = {.color = stack_color(k), .width = CURVE_WIDTH * whole.point};
+            if (k >= STACK_COLORS) stroke.dash = 3 * whole.point, stroke.space = 2 * whole.point;
+            const double *reading = values + k * components + c;
+            LinePen pen = line_begin(whole.canvas, &stroke);
+            for (int64_t row = 0; row < view->rows; ++row)
+                line_add(&pen, axes_place(&axes[c], view->U[row], reading[row * stride]));
+            line_end(&pen);
+        }
+        canvas_clip(whole.canvas, NULL);
         measured_draw_probes(&whole, &measured, c, &axes[c]);
         axes_draw(&whole, &axes[c]);
     }

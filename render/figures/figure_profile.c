@@ -2,38 +2,164 @@
 // Pressure, friction, their ratio, slip, contact area and gap along the contact at chosen moments:
 // a frame for each, a curve for each moment; in space along a line. Where the block has lifted off,
 // rings.
-#include "render/figures/figures.h"
+#include "render/figures/figure_profile.h"
 
-#include "render/figures/profile_data.h"
-#include "render/figures/stack.h"
+#include "base/memory.h"
+#include "render/canvas/key.h"
+#include "render/figures/figures.h"
+#include "render/view/block.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+// --- numbers -------------------------------------------------------------------------------------
+
+enum { MOMENT_SIZE = 40 };
+
+// words: what is said of it before U and F_T/F_N; may be empty.
+static void add_row(const ResultView *view, int64_t row, const char *words, Profiles *profiles)
+{
+    int32_t k = profiles->count++;
+    profiles->row[k] = row;
+    snprintf(profiles->words[k], PROFILE_WORDS_SIZE,
+             "%s%s~{F}_{T} / ~{F}_{N} = %.3g, ~{U} = %.6g%s", words, words[0] ? ": " : "",
+             view->mu[row], view->U[row] * (view->si ? 1e3 : 1), view->si ? " mm" : "");
+}
+
+// The moments that are asked for.
+static bool add_asked(const ResultView *view, const char *at, Profiles *profiles, Error *err)
+{
+    char word[MOMENT_SIZE], *end = NULL;
+    for (; *at; at += strcspn(at, ","), at += *at == ',') {
+        bool by_U = false;
+        double value = 0;
+        snprintf(word, sizeof word, "%.*s", (int)strcspn(at, ","), at);
+        if (strncmp(word, "mu=", 3) == 0) {
+            value = strtod(word + 3, &end);
+            if (!word[3] || *end || at[strcspn(at, ",")])
+                return REFUSE(err, "a load is given alone, as in mu=0.2, not as \"%.40s\"", word);
+
+            // The rows at which F_T/F_N rises through mu, the last PROFILES_MAX of them.
+            int64_t found[PROFILES_MAX];
+            int32_t count = 0;
+            for (int64_t row = view->rows - 1; row > 0 && count < PROFILES_MAX; --row) {
+                if (!(view->mu[row - 1] < value && view->mu[row] >= value)) continue;
+                bool nearer = fabs(view->mu[row - 1] - value) < fabs(view->mu[row] - value);
+                found[count++] = nearer ? row - 1 : row;
+            }
+            if (count == 0) return REFUSE(err, "F_T/F_N never rises through %g", value);
+            while (count > 0) add_row(view, found[--count], "", profiles);
+            return true;
+        }
+        if (profiles->count == PROFILES_MAX)
+            return REFUSE(err, "profile shows %d moments at most", PROFILES_MAX);
+        if (!block_moment_seen(view, word, &by_U, &value, err)) return false;
+        add_row(view, result_view_nearest_row(view, by_U ? view->U : view->t, value), "", profiles);
+    }
+    return profiles->count > 0 || REFUSE(err, "no moment is named");
+}
+
+// Around the last sliding, or else the last rapid event.
+static void add_event(const ResultView *view, Profiles *profiles)
+{
+    const ViewEvent *chosen = NULL;
+    for (int32_t k = 0; k < view->event_count; ++k) {
+        const ViewEvent *event = &view->events[k];
+        if (event->kind <= VIEW_QUASI_STATIC || !isfinite(event->U_start + event->U_stop)) continue;
+        if (!chosen || event->kind == VIEW_LEADING || chosen->kind != VIEW_LEADING) chosen = event;
+    }
+    if (!chosen) {
+        int64_t largest = 0;
+        for (int64_t row = 1; row < view->rows; ++row)
+            if (view->mu[row] > view->mu[largest]) largest = row;
+        if (largest + 1 < view->rows) add_row(view, largest, "largest load", profiles);
+        add_row(view, view->rows - 1, "end", profiles);
+        return;
+    }
+    int64_t before = 0, after = result_view_nearest_row(view, view->U, chosen->U_stop);
+    for (int64_t row = 0; row < view->rows && view->U[row] < chosen->U_start; ++row) before = row;
+    while (after + 1 < view->rows && view->U[after + 1] <= chosen->U_stop) ++after;
+    int64_t equal = before;
+    while (equal > 0 && view->mu[equal] > view->mu[after]) --equal;
+    bool found = view->mu[equal] <= view->mu[after] && equal < before;
+    if (found &&
+        fabs(view->mu[equal + 1] - view->mu[after]) < fabs(view->mu[equal] - view->mu[after]))
+        ++equal;
+    if (found && equal < before) add_row(view, equal, "before, at the load after", profiles);
+    add_row(view, before, chosen->kind == VIEW_LEADING ? "before sliding" : "before the event",
+            profiles);
+    add_row(view, after, chosen->kind == VIEW_LEADING ? "after sliding" : "after the event",
+            profiles);
+}
+
+// [count * nodes] of a series at the moments.
+static bool take_series(ResultView *view, ResultSeries series, const Profiles *profiles,
+                        double **values, Error *err)
+{
+    double *all = NULL;
+    TRY(*values = NEW_ARRAY(double, (int64_t)profiles->count * profiles->nodes, err));
+    TRY(result_view_read(view, series, false, &all, err));
+    for (int32_t k = 0; k < profiles->count; ++k)
+        memcpy(*values + (int64_t)k * profiles->nodes, all + profiles->row[k] * profiles->nodes,
+               (size_t)profiles->nodes * sizeof *all);
+cleanup:
+    memory_free(all);
+    return error_is_clean(err);
+}
+
+bool profiles_read(ResultView *view, const char *at, Profiles *profiles, Error *err)
+{
+    *profiles = (Profiles){.nodes = view->nodes};
+    double **values = profiles->values;
+    if (at)
+        TRY(add_asked(view, at, profiles, err));
+    else
+        add_event(view, profiles);
+    TRY(take_series(view, SERIES_PRESSURE, profiles, &values[PROFILE_PRESSURE], err));
+    TRY(take_series(view, SERIES_SHEAR, profiles, &values[PROFILE_SHEAR], err));
+    TRY(take_series(view, SERIES_SLIP, profiles, &values[PROFILE_SLIP], err));
+    TRY(take_series(view, SERIES_STATUS, profiles, &profiles->status, err));
+    if (result_file_has_series(view->file, SERIES_GAP))
+        TRY(take_series(view, SERIES_GAP, profiles, &values[PROFILE_GAP], err));
+    if (result_file_has_series(view->file, SERIES_AREA))
+        TRY(take_series(view, SERIES_AREA, profiles, &values[PROFILE_AREA], err));
+    int32_t nodes = profiles->nodes;
+    TRY(values[PROFILE_RATIO] = NEW_ARRAY(double, (int64_t)profiles->count *nodes, err));
+    for (int32_t k = profiles->count - 1; k >= 0; --k)
+        for (int32_t i = 0; i < nodes; ++i) {
+            int64_t at_node = (int64_t)k * nodes + i;
+            bool open = profiles->status[at_node] == 0;
+            profiles->opens = profiles->opens || open;
+            values[PROFILE_RATIO][at_node] = open || !(values[PROFILE_PRESSURE][at_node] > 0)
+                                                 ? NAN
+                                                 : values[PROFILE_SHEAR][at_node] /
+                                                       values[PROFILE_PRESSURE][at_node];
+            if (profiles->count > 1) values[PROFILE_SLIP][at_node] -= values[PROFILE_SLIP][i];
+        }
+cleanup:
+    return error_is_clean(err);
+}
+
+void profiles_destroy(Profiles *profiles)
+{
+    memory_free_list((void *const *)profiles->values, PROFILE_QUANTITIES);
+    memory_free(profiles->status);
+    *profiles = (Profiles){0};
+}
+
+// --- the figure ----------------------------------------------------------------------------------
 
 static const double RING = 0.62;   // inside over outside of the mark of an open node
 
-static bool is_shown(const Profiles *profiles, ProfileQuantity quantity)
-{
-    return profiles->values[quantity] && (quantity != PROFILE_GAP || profiles->opens);
-}
-
-static void name_axis(const ResultView *view, ProfileQuantity quantity, Axis *axis)
+bool figure_profile(Page *page, const FigureInput *input, Error *err)
 {
     static const struct {
         const char *name, *si, *normalised;
     } words[PROFILE_QUANTITIES] = {{"~{p}", "Pa", "~{E}"},       {"~{\u03c4}", "Pa", "~{E}"},
                                    {"~{\u03c4} / ~{p}", "", ""}, {"slip", "m", "~{L}_{0}"},
                                    {"~{A} / ~{A}_{0}", "", ""},  {"gap", "m", "~{L}_{0}"}};
-    const char *name = words[quantity].name, *normalised = words[quantity].normalised;
-    if (view->si && words[quantity].si[0])
-        axis_set_unit(axis, name, words[quantity].si);
-    else
-        snprintf(axis->label, sizeof axis->label, "%s%s%s", name, *normalised ? " / " : "",
-                 normalised);
-}
-
-bool figure_profile(Page *page, const FigureInput *input, Error *err)
-{
     ResultView *view = input->view;
     PageDef def = input->def;
     Profiles profiles = {0};
@@ -42,21 +168,30 @@ bool figure_profile(Page *page, const FigureInput *input, Error *err)
     double from = 0, to = 0;
     int32_t frames = 0;
     TRY(profiles_read(view, input->field->at, &profiles, err));
+
+    // A frame for each quantity that there is, the gap where some node is open.
     result_view_x_extent(view, &from, &to);
     for (int32_t q = 0; q < PROFILE_QUANTITIES; ++q) {
         bool area = q == PROFILE_AREA;   // which changes by a few per cent
         double low = area ? INFINITY : 0, high = area ? -INFINITY : 0;
-        if (!is_shown(&profiles, (ProfileQuantity)q)) continue;
+        if (!profiles.values[q] || (q == PROFILE_GAP && !profiles.opens)) continue;
         for (int64_t i = 0; i < (int64_t)profiles.count * profiles.nodes; ++i)
             stack_widen(profiles.values[q][i], &low, &high);
         Axes *own = &axes[frames];
         *own = (Axes){.x = figure_length_axis(view, "x", from, to), .y = stack_axis(low, high)};
-        name_axis(view, (ProfileQuantity)q, &own->y);
+        const char *name = words[q].name, *normalised = words[q].normalised;
+        if (view->si && words[q].si[0])
+            axis_set_unit(&own->y, name, words[q].si);
+        else
+            snprintf(own->y.label, sizeof own->y.label, "%s%s%s", name, *normalised ? " / " : "",
+                     normalised);
         shown[frames++] = (ProfileQuantity)q;
     }
     def.height = page_shape(def.style, stack_shape(frames));
     TRY(page_begin(page, &def, err));
     Page whole = *page;
+
+    // The key.
     KeyEntry entries[PROFILES_MAX + 2];
     int32_t count = 0;
     for (int32_t k = 0; k < profiles.count; ++k)
@@ -65,6 +200,8 @@ bool figure_profile(Page *page, const FigureInput *input, Error *err)
         entries[count++] = (KeyEntry){.words = "slip is that since the first of these moments"};
     if (profiles.opens) entries[count++] = (KeyEntry){KEY_RING, INK, "open: no contact"};
     key_draw(&whole, entries, count);
+
+    // A curve for each moment.
     stack_fit(&whole, axes, frames);
     for (int32_t f = 0; f < frames; ++f) {
         for (int32_t k = 0; k < profiles.count; ++k) {

@@ -120,27 +120,6 @@ static bool has_free_place(const Strip *strip)
            strip->height + WORDS_HEIGHT > FREE_ABOVE + LEGEND_LINES * FREE_LINE;
 }
 
-// "(a) U / L_0 = 0.011491", the part of the page that frame k takes.
-static Axes frame_axes(const Page *page, const FigureInput *input, const Strip *strip, int32_t k)
-{
-    char words[WORDS_SIZE];
-    double point = page->point;
-    const Block *block = &strip->blocks[k];
-    Axis U = figure_length_axis(input->view, "U", block->U, block->U);
-    Axes axes = {0};
-    int32_t line = k / COLUMNS;
-    TextStyle style = {.size = SMALL_SIZE * point, .color = INK};
-    block_page_ranges(strip->extent, strip->scale, SHARE, &axes);
-    axes.box.left = round((LEFT + k % COLUMNS * (strip->width + GAP)) * point);
-    axes.box.right = axes.box.left + round(strip->width * point);
-    axes.box.top = page->room.top +
-                   round((WORDS_HEIGHT + line * (strip->height + WORDS_HEIGHT)) * point);
-    axes.box.bottom = axes.box.top + round(strip->height * point);
-    snprintf(words, sizeof words, "(%c)  %s = %.6g", 'a' + k, U.label, block->U * U.factor);
-    text_draw(page->text, &style, (Point){axes.box.left, axes.box.top - 1.5 * point}, words);
-    return axes;
-}
-
 static bool draw_strip(const Page *page, const FigureInput *input, const Strip *strip,
                        BlockQuantity quantity, Error *err)
 {
@@ -154,10 +133,23 @@ static bool draw_strip(const Page *page, const FigureInput *input, const Strip *
                      .share = SHARE,
                      .style = input->def.style};
     Box all = {0};
-    TextStyle style = {.size = SMALL_SIZE * point, .color = INK, .up = 0.5};
+    TextStyle style = {.size = SMALL_SIZE * point, .color = INK, .up = 0.5}, above = style;
+    above.up = 0;
     if (!block_page_fit(&map, strip->blocks, strip->count, quantity, err)) return false;
     for (int32_t k = 0; k < strip->count; ++k) {
-        Axes axes = frame_axes(page, input, strip, k);
+        // "(a) U / L_0 = 0.011491" above the part of the page that the frame takes.
+        const Block *block = &strip->blocks[k];
+        Axis U = figure_length_axis(input->view, "U", block->U, block->U);
+        Axes axes = {0};
+        int32_t line = k / COLUMNS;
+        block_page_ranges(strip->extent, strip->scale, SHARE, &axes);
+        axes.box.left = round((LEFT + k % COLUMNS * (strip->width + GAP)) * point);
+        axes.box.right = axes.box.left + round(strip->width * point);
+        axes.box.top = page->room.top +
+                       round((WORDS_HEIGHT + line * (strip->height + WORDS_HEIGHT)) * point);
+        axes.box.bottom = axes.box.top + round(strip->height * point);
+        snprintf(words, sizeof words, "(%c)  %s = %.6g", 'a' + k, U.label, block->U * U.factor);
+        text_draw(page->text, &above, (Point){axes.box.left, axes.box.top - 1.5 * point}, words);
         if (!block_page_draw(page, &map, &strip->blocks[k], &axes, err)) return false;
         if (k == 0) all = axes.box;
         all.right = fmax(all.right, axes.box.right);

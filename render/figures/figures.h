@@ -4,7 +4,7 @@
 #ifndef AMONTONS_RENDER_FIGURES_FIGURES_H
 #define AMONTONS_RENDER_FIGURES_FIGURES_H
 
-#include "render/canvas/axes.h"
+#include "render/figures/figure_axes.h"
 #include "render/figures/measured.h"
 
 #define FIGURE_MU "~{F}_{T} / ~{F}_{N}"
@@ -73,8 +73,5 @@ bool figure_front_speed(const Page *page, ResultView *view, Error *err);
 // Axes of force curves of [count] results, in a frame that is known; y: headroom times their range,
 // 0 included.
 Axes figure_force_axes(const ResultView *views, int32_t count, Box box, double headroom);
-
-// An axis of lengths from low to high: "~{U} / ~{L}_{0}", or in SI "~{U} (mm)".
-Axis figure_length_axis(const ResultView *view, const char *symbol, double low, double high);
 
 #endif

@@ -5,7 +5,7 @@
 #include "base/order.h"
 #include "base/units.h"
 #include "io/text/csv_reader.h"
-#include "render/figures/stack.h"
+#include "render/figures/figure_axes.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -98,13 +98,6 @@ static bool find_number(const CsvTable *table, const char *name, const char *oth
            csv_to_si(table, column->index, unit, "1", &column->factor, err);
 }
 
-// F_N of the whole block of the result, N; NaN: in the plane its thickness is not known.
-static double whole_load(const ResultView *view)
-{
-    bool space = view->number[NUMBER_FORMAT] > 1;
-    return view->number[NUMBER_LOAD] * (space ? 1 : view->number[NUMBER_THICKNESS]);
-}
-
 // mu or F_T/F_N; else F_T over F_N, both with a unit of the same kind or both without; else F_T in
 // newtons over the load of the result.
 static bool find_ratio(const CsvTable *table, const ResultView *view, Column *ratio, Error *err)
@@ -116,9 +109,13 @@ static bool find_ratio(const CsvTable *table, const ResultView *view, Column *ra
     if (!csv_find(table, "F_T", &ratio->index, &unit[0], err) ||
         !csv_find(table, "F_N", &ratio->under, &unit[1], err))
         return false;
-    if (ratio->index >= 0 && ratio->under < 0 && view->si && whole_load(view) > 0) {
+
+    // F_N of the whole block, N; NaN: in the plane its thickness is not known.
+    bool space = view->number[NUMBER_FORMAT] > 1;
+    double load = view->number[NUMBER_LOAD] * (space ? 1 : view->number[NUMBER_THICKNESS]);
+    if (ratio->index >= 0 && ratio->under < 0 && view->si && load > 0) {
         if (!csv_to_si(table, ratio->index, unit[0], "force", &ratio->factor, err)) return false;
-        ratio->factor /= whole_load(view);
+        ratio->factor /= load;
         return true;
     }
     if (ratio->index < 0 || ratio->under < 0) {
@@ -142,11 +139,23 @@ typedef struct Columns {
     ProbeQuantity quantity;
 } Columns;
 
-// Strain as gauges are read: a number, a percentage, or millionths.
-static bool strain_factor(const CsvTable *table, CsvUnit unit, Column *column, Error *err)
+// The column of component c of a probe, as in figures/probes.csv: "gauge1 strain_xx". Strain is a
+// number, a percentage, or in millionths, as gauges are read.
+static bool find_probe(const CsvTable *table, const ResultView *view, ProbeQuantity quantity,
+                       int32_t probe, int32_t c, Column *column, Error *err)
 {
+    static const char *const dimensions[PROBE_QUANTITY_COUNT] = {
+        [PROBE_STRESS] = "stress", [PROBE_DISPLACEMENT] = "length", [PROBE_VELOCITY] = "velocity"};
     static const char *const millionths[] = {"um/m",  "\u00b5m/m", "\u03bcm/m",  "1e-6",
                                              "10^-6", "ustrain",   "microstrain"};
+    char name[PROBE_COLUMN_SIZE];
+    CsvUnit unit;
+    *column = NONE;
+    probe_column(view, probe, quantity, c, name);
+    if (!csv_find(table, name, &column->index, &unit, err)) return false;
+    if (column->index < 0) return true;
+    if (quantity != PROBE_STRAIN)
+        return unit_factor(table, view, unit, dimensions[quantity], column, err);
     for (size_t k = 0; k < sizeof millionths / sizeof *millionths; ++k)
         if (strlen(millionths[k]) == (size_t)unit.length &&
             strncmp(millionths[k], unit.text, (size_t)unit.length) == 0) {
@@ -154,36 +163,6 @@ static bool strain_factor(const CsvTable *table, CsvUnit unit, Column *column, E
             return true;
         }
     return unit.length == 0 || csv_to_si(table, column->index, unit, "1", &column->factor, err);
-}
-
-// The column of component c of a probe, as in figures/probes.csv: "gauge1 strain_xx".
-static bool find_probe(const CsvTable *table, const ResultView *view, ProbeQuantity quantity,
-                       int32_t probe, int32_t c, Column *column, Error *err)
-{
-    static const char *const dimensions[PROBE_QUANTITY_COUNT] = {
-        [PROBE_STRESS] = "stress", [PROBE_DISPLACEMENT] = "length", [PROBE_VELOCITY] = "velocity"};
-    char name[PROBE_COLUMN_SIZE];
-    CsvUnit unit;
-    *column = NONE;
-    probe_column(view, probe, quantity, c, name);
-    if (!csv_find(table, name, &column->index, &unit, err)) return false;
-    if (column->index < 0) return true;
-    if (quantity == PROBE_STRAIN) return strain_factor(table, unit, column, err);
-    return unit_factor(table, view, unit, dimensions[quantity], column, err);
-}
-
-static bool find_probes(const CsvTable *table, const ResultView *view, Columns *found, Error *err)
-{
-    found->probe = NONE;
-    for (int32_t q = 0; q < PROBE_QUANTITY_COUNT; ++q)
-        for (int32_t k = 0; k < view->probes; ++k)
-            for (int32_t c = 0; c < probe_components(view, (ProbeQuantity)q); ++c) {
-                found->quantity = (ProbeQuantity)q;
-                if (!find_probe(table, view, found->quantity, k, c, &found->probe, err))
-                    return false;
-                if (found->probe.index >= 0) return true;
-            }
-    return true;
 }
 
 // Which columns `kind` has: over what, and the value. false: the file does not have it.
@@ -273,17 +252,6 @@ static bool take_probes(const CsvTable *table, const Columns *found, const Resul
 // A column `event` says what a row belongs to, as in figures/precursors.csv and front-speed.csv.
 // Speeds of precursors stand beside no sliding; the farthest slip so far stands beside no event,
 // where the table has events.
-static bool shows_event(const CsvTable *table, int32_t row, MeasuredKind kind)
-{
-    int32_t column = csv_column(table, "event");
-    const char *event = csv_cell(table, row, column);
-    if (kind == MEASURED_SPEED) return !*event || strcmp(event, VIEW_WORD_SLIDING) == 0;
-    if (kind != MEASURED_LENGTH || strcmp(event, MEASURED_FARTHEST) != 0) return true;
-    for (int32_t k = 0; k < table->rows; ++k)
-        if (strcmp(csv_cell(table, k, column), MEASURED_FARTHEST) != 0) return false;
-    return true;
-}
-
 static bool take_rows(const CsvTable *table, const Columns *found, const ResultView *view,
                       Measured *measured, Error *err)
 {
@@ -293,7 +261,10 @@ static bool take_rows(const CsvTable *table, const Columns *found, const ResultV
     if (measured->kind == MEASURED_PROBE) return take_probes(table, found, view, measured, err);
     if (!make_lists(measured, table->rows, err)) return false;
     if (!find_error(table, &value, &error, err)) return false;
-    bool is_time = measured->kind <= MEASURED_AREA && found->U.index < 0;
+    bool is_time = measured->kind <= MEASURED_AREA && found->U.index < 0, has_events = false;
+    int32_t events = csv_column(table, "event");
+    for (int32_t row = 0; row < table->rows; ++row)
+        if (strcmp(csv_cell(table, row, events), MEASURED_FARTHEST) != 0) has_events = true;
     for (int32_t row = 0; row < table->rows; ++row) {
         int32_t k = measured->count;
         measured->at[k] = read_cell(table, row, &at);
@@ -304,18 +275,15 @@ static bool take_rows(const CsvTable *table, const Columns *found, const ResultV
         measured->error[k] = read_cell(table, row, &error);
         measured->computed[k] = NAN;
         bool placed = measured->kind != MEASURED_AREA || isfinite(measured->x[k]);
-        bool shown = shows_event(table, row, measured->kind);
+        const char *event = csv_cell(table, row, events);
+        bool shown = true;
+        if (measured->kind == MEASURED_SPEED)
+            shown = !*event || strcmp(event, VIEW_WORD_SLIDING) == 0;
+        if (measured->kind == MEASURED_LENGTH && strcmp(event, MEASURED_FARTHEST) == 0)
+            shown = !has_events;
         if (isfinite(measured->at[k] + measured->value[k]) && placed && shown) ++measured->count;
     }
     return true;
-}
-
-static bool has_any(const Columns *found)
-{
-    Column at, value;
-    for (int32_t kind = 0; kind < MEASURED_KINDS; ++kind)
-        if (choose(found, (MeasuredKind)kind, &at, &value)) return true;
-    return false;
 }
 
 static bool read_table(const char *path, const ResultView *view, CsvTable *table, Columns *found,
@@ -328,9 +296,24 @@ static bool read_table(const char *path, const ResultView *view, CsvTable *table
         find_quantity(table, "x", "length", view, &found->x, err) &&
         find_number(table, "A/A_0", NULL, &found->area, err) &&
         find_quantity(table, "l", "length", view, &found->length, err) &&
-        find_quantity(table, "v", "velocity", view, &found->speed, err) &&
-        find_probes(table, view, found, err));
-    if (!has_any(found))
+        find_quantity(table, "v", "velocity", view, &found->speed, err));
+
+    // The first column of a probe, whose quantity is that of all.
+    found->probe = NONE;
+    for (int32_t q = 0; q < PROBE_QUANTITY_COUNT && found->probe.index < 0; ++q) {
+        found->quantity = (ProbeQuantity)q;
+        int32_t components = probe_components(view, found->quantity);
+        for (int32_t k = 0; k < view->probes * components && found->probe.index < 0; ++k)
+            TRY(find_probe(table, view, found->quantity, k / components, k % components,
+                           &found->probe, err));
+    }
+
+    bool any = false;
+    for (int32_t kind = 0; kind < MEASURED_KINDS; ++kind) {
+        Column at, value;
+        any = any || choose(found, (MeasuredKind)kind, &at, &value);
+    }
+    if (!any)
         FAIL(err, ERROR_INPUT,
              "%s: it needs the columns U (or t) and mu, F_T/F_N, F_T and F_N, or F_T in newtons "
              "where the scene has its `thickness`; U and x; U, x and A/A_0; F_T/F_N and l; x and "
@@ -421,48 +404,42 @@ cleanup:
     return error_is_clean(err);
 }
 
-// The reading of each measurement's probe at its time, linear between steps.
-static bool compute_probes(Measured *measured, ResultView *view, Error *err)
+// Computes what the result has where each measurement lies, and the misfit.
+static bool compare(Measured *measured, ResultView *view, Error *err)
 {
-    double *values = NULL;
-    int32_t components = probe_components(view, measured->quantity);
+    ViewCurve curve = {0};
+    double *values = NULL;   // of the probes
+    bool probe = measured->kind == MEASURED_PROBE, area = measured->kind == MEASURED_AREA;
+    int32_t components = probe ? probe_components(view, measured->quantity) : 0;
     int64_t stride = (int64_t)components * view->probes;
-    TRY(probe_read(view, measured->quantity, &values, err));
-    for (int32_t k = 0; k < measured->count; ++k) {
-        double at = measured->at[k];
-        int32_t id = (int32_t)measured->x[k];
-        if (!(at >= view->U[0] && at <= view->U[view->rows - 1])) continue;
-        int64_t row = curve_place(view->U, view->rows, at);
-        double span = view->U[row + 1] - view->U[row];
-        double part = span > 0 ? (at - view->U[row]) / span : 1;
-        const double *now = values + row * stride + (id / PROBE_COMPONENTS_MAX) * components +
-                            id % PROBE_COMPONENTS_MAX;
-        measured->computed[k] = now[0] + part * (now[stride] - now[0]);
+    if (probe) TRY(probe_read(view, measured->quantity, &values, err));
+    if (area) TRY(computed_area_read(view, err) && result_view_read_status(view, err));
+    if (measured->kind == MEASURED_LENGTH) TRY(match_events(measured, view, err));
+    TRY(computed_curve(view, measured->kind, &curve, err));
+    for (int32_t k = 0; k < measured->count && !measured->matched; ++k) {
+        double at = measured->at[k], *computed = &measured->computed[k];
+        if (probe) {
+            // Linear between steps.
+            int32_t id = (int32_t)measured->x[k];
+            if (!(at >= view->U[0] && at <= view->U[view->rows - 1])) continue;
+            int64_t row = curve_place(view->U, view->rows, at);
+            double span = view->U[row + 1] - view->U[row];
+            double part = span > 0 ? (at - view->U[row]) / span : 1;
+            const double *now = values + row * stride + (id / PROBE_COMPONENTS_MAX) * components +
+                                id % PROBE_COMPONENTS_MAX;
+            *computed = now[0] + part * (now[stride] - now[0]);
+        } else if (area) {
+            *computed = computed_area(view, at, measured->x[k]);
+        } else if (measured->kind == MEASURED_SPEED) {
+            *computed = computed_speed(view, &curve, at);
+        } else {
+            *computed = curve_value(&curve, at);
+        }
     }
     describe(measured, view);
 cleanup:
     memory_free(values);
     return error_is_clean(err);
-}
-
-static bool compare(Measured *measured, ResultView *view, Error *err)
-{
-    if (measured->kind == MEASURED_PROBE) return compute_probes(measured, view, err);
-    ViewCurve curve;
-    bool area = measured->kind == MEASURED_AREA;
-    if (area && !(computed_area_read(view, err) && result_view_read_status(view, err)))
-        return false;
-    if (measured->kind == MEASURED_LENGTH && !match_events(measured, view, err)) return false;
-    if (!computed_curve(view, measured->kind, &curve, err)) return false;
-    for (int32_t k = 0; k < measured->count && !measured->matched; ++k) {
-        double at = measured->at[k];
-        measured->computed[k] = area ? computed_area(view, at, measured->x[k])
-                                : measured->kind == MEASURED_SPEED
-                                    ? computed_speed(view, &curve, at)
-                                    : curve_value(&curve, at);
-    }
-    describe(measured, view);
-    return true;
 }
 
 bool measured_read(const char *path, MeasuredKind kind, ResultView *view, Measured *measured,

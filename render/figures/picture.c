@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "render/figures/picture.h"
 
-#include "render/canvas/foot.h"
-
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 enum { NAMES_SIZE = 320 };
 
 static const double FORCE_PLAIN = 0.62;   // height over width of force without an inset
+static const double LETTER_LEFT = 1.5, LETTER_DROP = 7.5;   // points: (a), from its panel's corner
+static const double LETTER_ROOM = 3;   // points: from the letter to numbers beside it
+static const double SCRATCH_DPI = 100;   // of the page that is measured
+static const double SLACK = 0.4;   // points: what the measured page is coarser
 
 static const FigureShape SHAPES[FIGURE_COUNT] = {
     [FIGURE_FORCE] = {0.85, .draw = figure_force},
@@ -62,7 +65,7 @@ bool figure_is_there(const char *name, const ResultView *view)
 bool picture_add(Picture *picture, const Figure *figure, Error *err)
 {
     if (picture->count == PANELS_MAX) return REFUSE(err, "a page takes %d panels", PANELS_MAX);
-    picture->parts[picture->count++] = (PanelFigure){.name = figure->name, .figure = figure->id};
+    picture->panels[picture->count++] = (Panel){.figure = figure};
     return true;
 }
 
@@ -71,22 +74,95 @@ static bool spread_states(const ResultView *view, const PictureStyle *style, Pic
                           Error *err)
 {
     int32_t more = view->states - 1;
-    PanelFigure *parts = picture->parts;
+    Panel *panels = picture->panels;
     for (int32_t k = picture->count - 1; k >= 0; --k) {
-        const Figure *figure = &FIGURES[parts[k].figure];
+        const Figure *figure = panels[k].figure;
         bool plain = figure->id == FIGURE_FORCE && !figure_force_enlarges(view, style);
-        parts[k].draw = figure->shape->draw;
-        parts[k].shape = plain ? FORCE_PLAIN : figure->shape->height_over_width;
+        panels[k].shape = plain ? FORCE_PLAIN : figure->shape->height_over_width;
         if (figure->id != FIGURE_STATE_MAP || more < 1) continue;
         if (picture->count + more > PANELS_MAX)
             return REFUSE(err, "a page takes %d panels", PANELS_MAX);
-        memmove(parts + k + 1 + more, parts + k + 1,
-                (size_t)(picture->count - k - 1) * sizeof *parts);
-        for (int32_t i = 1; i <= more; ++i) parts[k + i] = parts[k];
-        for (int32_t i = 1; i <= more; ++i) parts[k + i].state = i;
+        memmove(panels + k + 1 + more, panels + k + 1,
+                (size_t)(picture->count - k - 1) * sizeof *panels);
+        for (int32_t i = 1; i <= more; ++i) panels[k + i] = panels[k];
+        for (int32_t i = 1; i <= more; ++i) panels[k + i].state = i;
         picture->count += more;
     }
     return true;
+}
+
+// Whether a panel shows another U than the others: contact-density enlarges a part.
+static bool enlarges(const Picture *picture, int32_t k)
+{
+    return picture->panels[k].figure->id == FIGURE_CONTACT_DENSITY;
+}
+
+static double sum_shapes(const Picture *picture)
+{
+    double sum = 0;
+    for (int32_t k = 0; k < picture->count; ++k) sum += picture->panels[k].shape;
+    return sum;
+}
+
+// The panels one below the other, as the paper's Figure 1: (a), (b), (c); frame: [count] where
+// their frames lie.
+static bool panels_draw(const Page *page, const Picture *picture, ResultView *view, Box *frame,
+                        Error *err)
+{
+    double height = page->room.bottom - page->room.top, top = page->room.top, point = page->point;
+    double shapes = sum_shapes(picture);
+    TextStyle style = {.size = LABEL_SIZE * point, .color = INK};
+    char zoom_name[32] = "", letter[8];
+    for (int32_t k = 0; k < picture->count; ++k)
+        if (enlarges(picture, k))
+            snprintf(zoom_name, sizeof zoom_name, "enlarged in (%c)", 'a' + k);
+    for (int32_t k = 0; k < picture->count; ++k) {
+        const Panel *panel = &picture->panels[k];
+        Page part = *page;
+        part.room.top = top;
+        part.room.bottom = round(top + height * panel->shape / shapes);
+        part.frame = &frame[k];
+        part.zoom_name = zoom_name[0] ? zoom_name : NULL;
+        part.bare_x = k + 1 < picture->count && !enlarges(picture, k) && !enlarges(picture, k + 1);
+        view->state = panel->state;
+        if (!panel->figure->shape->draw(&part, view, err)) return false;
+        snprintf(letter, sizeof letter, "(%c)", 'a' + k);
+        text_draw(page->text, &style, (Point){LETTER_LEFT * point, top + LETTER_DROP * point},
+                  letter);
+        top = part.room.bottom;
+    }
+    return true;
+}
+
+// A page of panels with frames of one width, and numbers of U below the last of those that share
+// it. A coarse page, of which nothing else is wanted, tells how much room the widest names and
+// numbers take beside the frames.
+static bool panels_page(Page *page, PageDef *def, const Picture *picture, ResultView *view,
+                        Error *err)
+{
+    PictureStyle coarse = *def->style;
+    Box frame[PANELS_MAX];
+    Page measured = {0};
+    double beside[2] = {0, 0};   // points
+    coarse.dpi = SCRATCH_DPI;
+    coarse.format = "png";
+    def->height = page_shape(def->style, sum_shapes(picture));
+    PageDef scratch = *def;
+    scratch.style = &coarse;
+    TRY(page_begin(&measured, &scratch, err));
+    TRY(panels_draw(&measured, picture, view, frame, err));
+    for (int32_t k = 0; k < picture->count; ++k) {
+        beside[0] = fmax(beside[0], frame[k].left / measured.point);
+        beside[1] = fmax(beside[1], (measured.room.right - frame[k].right) / measured.point);
+    }
+    beside[0] += LETTER_ROOM;
+    TRY(page_begin(page, def, err));
+    for (int32_t side = 0; side < 2; ++side)
+        page->beside[side] = ceil((beside[side] + SLACK) * page->point);
+    TRY(panels_draw(page, picture, view, frame, err));
+cleanup:
+    page_destroy(&measured);
+    return error_is_clean(err);
 }
 
 bool picture_draw(const Picture *asked, const char *folder, const PictureRequest *request,
@@ -102,11 +178,11 @@ bool picture_draw(const Picture *asked, const char *folder, const PictureRequest
     FigureInput input = {view, folder, &request->field, def};
     TRY(spread_states(view, style, &picture, err));
     if (!figure || picture.count > 1) {
-        TRY(panels_draw(page, &def, picture.parts, picture.count, view, err));
+        TRY(panels_page(page, &def, &picture, view, err));
     } else if (figure->shape->draw_whole) {
         TRY(figure->shape->draw_whole(page, &input, err));
     } else {
-        def.height = page_shape(style, picture.parts[0].shape);
+        def.height = page_shape(style, picture.panels[0].shape);
         TRY(page_begin(page, &def, err) && figure->shape->draw(page, view, err));
     }
     foot_draw(page, &foot);

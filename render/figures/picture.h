@@ -4,7 +4,9 @@
 #ifndef AMONTONS_RENDER_FIGURES_PICTURE_H
 #define AMONTONS_RENDER_FIGURES_PICTURE_H
 
-#include "render/figures/panels.h"
+#include "render/figures/figures.h"
+
+enum { PANELS_MAX = 12 };
 
 // Shape of a figure, and the function that draws it.
 typedef struct FigureShape {
@@ -28,10 +30,17 @@ bool figure_find(const char *name, const Figure **figure, Error *err);
 // Whether a result has what a figure of that name shows.
 bool figure_is_there(const char *name, const ResultView *view);
 
+// One of the panels of a page.
+typedef struct Panel {
+    const Figure *figure;
+    double shape;   // height over the page's width
+    int32_t state;   // which the view stands for while it is drawn
+} Panel;
+
 typedef struct Picture {
     const Figure *figure;   // NULL: panels
     int32_t count;
-    PanelFigure parts[PANELS_MAX];   // [count]
+    Panel panels[PANELS_MAX];   // [count] only their figures are given
 } Picture;
 
 // Adds a figure to a picture that has room for one more. ERROR_INPUT: it is full.

@@ -68,27 +68,6 @@ void space_page_floor_corners(const Block *block, double corner[4][2])
 
 // --- the block -----------------------------------------------------------------------------------
 
-static bool draw_colors(const Page *page, const SpacePage *space, const Block *block,
-                        const Surface *surface, DepthImage *image, Error *err)
-{
-    const Box *box = &space->axes.box;
-    if (!depth_image_create((int32_t)(box->right - box->left), (int32_t)(box->bottom - box->top),
-                            SLACK * diagonal(block), image, err))
-        return false;
-    for (int64_t t = 0; t < surface->triangles.count; ++t) {
-        DepthPoint corner[3];
-        for (int32_t k = 0; k < 3; ++k) {
-            const SurfacePoint *point = &surface->triangles.points[3 * t + k];
-            corner[k] = see(space, block, point->at, point->value);
-        }
-        depth_image_add(image, corner);
-    }
-    for (int64_t k = 0; k < (int64_t)image->rows * image->columns; ++k)
-        image->values[k] = colorbar_level(space->bar, (double)image->values[k]);
-    canvas_heat(page->canvas, box, &(HeatMap){image->columns, image->rows, image->values, NULL, 0});
-    return true;
-}
-
 static void draw_parts(const Page *page, const SpacePage *space, const Block *block,
                        const SurfaceParts *lines, const DepthImage *image, const Stroke *stroke)
 {
@@ -99,25 +78,6 @@ static void draw_parts(const Page *page, const SpacePage *space, const Block *bl
                                     see(space, block, two[1].at, 0)};
         depth_image_line(image, page->canvas, corner, stroke, ends);
     }
-}
-
-// Where a triangle has a value: a line between two of its sides.
-static void draw_contour(const Page *page, const SpacePage *space, const Block *block,
-                         const SurfacePoint corner[3], double value, const DepthImage *image)
-{
-    Stroke stroke = {.color = CONTOUR, .width = CONTOUR_WIDTH * space->unit};
-    DepthPoint ends[3];
-    int32_t found = 0;
-    for (int32_t k = 0; k < 3; ++k) {
-        const SurfacePoint *a = &corner[k], *b = &corner[(k + 1) % 3];
-        double place[3];
-        if ((a->value < value) == (b->value < value)) continue;
-        double part = (value - a->value) / (b->value - a->value);
-        for (int32_t d = 0; d < 3; ++d) place[d] = a->at[d] + part * (b->at[d] - a->at[d]);
-        ends[found++] = see(space, block, place, 0);
-    }
-    Point at = {space->axes.box.left, space->axes.box.top};
-    if (found == 2) depth_image_line(image, page->canvas, at, &stroke, ends);
 }
 
 // --- marks ---------------------------------------------------------------------------------------
@@ -132,52 +92,46 @@ static double off_strip(const Block *block, int64_t node, const double low[2], c
     return beside ? INFINITY : fmax(0, fmax(low[1] - was[2], was[2] - high[1]));
 }
 
-// Mean way, as drawn, of the nodes of the trailing face in the rod's strip, or next to it where no
-// node is inside; false: there is none.
-static bool rod_moved(const Block *block, const double low[2], const double high[2],
-                      double moved[3])
+// The strip that the rod pushes, and an arrow against its middle; not where it was cut away.
+static void draw_rod(const Page *page, const SpacePage *space, const Block *block)
 {
-    double nearest = INFINITY, count = 0;
+    static const int32_t round[5][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}};
+    const double *number = space->view->number;
+    const SpaceCut *cut = space->cut;
+    double breadth = number[NUMBER_ROD_BREADTH], middle = (block->low[1] + block->high[1]) / 2;
+    double low[2] = {block->low[1], number[NUMBER_ROD_LOW]};
+    double high[2] = {block->high[1], number[NUMBER_ROD_HIGH]};
+    if (breadth > 0) low[0] = middle - breadth / 2, high[0] = middle + breadth / 2;
+
+    // From which y on the cut leaves the strip.
+    double left = cut->count > 0 ? INFINITY : low[0];
+    for (int32_t k = 0; k < cut->count; ++k) {
+        if (cut->axis[k] == 1) left = fmax(low[0], cut->value[k]);
+        if (cut->axis[k] == 2 && (low[1] + high[1]) / 2 < cut->value[k]) {
+            left = low[0];
+            break;
+        }
+    }
+    low[0] = left;
+    middle = (low[0] + high[0]) / 2;
+    if (!(low[0] < high[0]) || !isfinite(low[1] + high[1])) return;
+
+    // Mean way, as drawn, of the nodes of the trailing face in the strip, or next to it where no
+    // node is inside.
+    double nearest = INFINITY, count = 0, moved[3] = {0, 0, 0};
     for (int64_t i = 0; i < block->frame.node_count; ++i)
         nearest = fmin(nearest, off_strip(block, i, low, high));
-    for (int32_t d = 0; d < 3; ++d) moved[d] = 0;
     for (int64_t i = 0; i < block->frame.node_count && isfinite(nearest); ++i) {
         if (off_strip(block, i, low, high) > nearest + FACE_SLACK * diagonal(block)) continue;
         count += 1;
         for (int32_t d = 0; d < 3; ++d)
             moved[d] += block->moved[i][d] - block->frame.position[3 * i + d];
     }
-    for (int32_t d = 0; d < 3 && count > 0; ++d) moved[d] /= count;
-    return count > 0;
-}
+    if (count == 0) return;
+    for (int32_t d = 0; d < 3; ++d) moved[d] /= count;
 
-// From which y on the cut leaves the strip at height z, which begins at `low`.
-static double rod_left(const SpaceCut *cut, double low, double z)
-{
-    double left = INFINITY;
-    if (cut->count == 0) return low;
-    for (int32_t k = 0; k < cut->count; ++k) {
-        if (cut->axis[k] == 1) left = fmax(low, cut->value[k]);
-        if (cut->axis[k] == 2 && z < cut->value[k]) return low;
-    }
-    return left;
-}
-
-// The strip that the rod pushes, and an arrow against its middle; not where it was cut away.
-static void draw_rod(const Page *page, const SpacePage *space, const Block *block)
-{
-    static const int32_t round[5][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}};
-    const double *number = space->view->number;
-    double breadth = number[NUMBER_ROD_BREADTH], middle = (block->low[1] + block->high[1]) / 2;
-    double low[2] = {block->low[1], number[NUMBER_ROD_LOW]};
-    double high[2] = {block->high[1], number[NUMBER_ROD_HIGH]}, moved[3];
     Stroke strip = {.color = ROD_COLOR, .width = STRIP_WIDTH * space->unit};
     Stroke shaft = {.color = ROD_COLOR, .width = ROD_WIDTH * space->unit};
-    if (breadth > 0) low[0] = middle - breadth / 2, high[0] = middle + breadth / 2;
-    low[0] = rod_left(space->cut, low[0], (low[1] + high[1]) / 2);
-    middle = (low[0] + high[0]) / 2;
-    if (!(low[0] < high[0]) || !isfinite(low[1] + high[1]) || !rod_moved(block, low, high, moved))
-        return;
     Point line[5];
     for (int32_t k = 0; k < 5; ++k)
         line[k] = see_on_page(space, block, block->low[0] + moved[0],
@@ -191,23 +145,6 @@ static void draw_rod(const Page *page, const SpacePage *space, const Block *bloc
     double part = ROD_LENGTH * space->unit / way;
     Point from = {tip.x + part * (back.x - tip.x), tip.y + part * (back.y - tip.y)};
     arrow_draw(page, &shaft, from, tip, ROD_HEAD * space->unit);
-}
-
-// Arrows on the far edge of the top.
-static void draw_load(const Page *page, const SpacePage *space, const Block *block)
-{
-    const FieldFrame *frame = &block->frame;
-    Stroke stroke = {.color = LOAD_COLOR, .width = 0.6 * space->unit};
-    double top = -INFINITY;
-    if (!(space->view->number[NUMBER_PRESSURE] > 0)) return;
-    for (int64_t i = 0; i < frame->node_count; ++i) top = fmax(top, block->moved[i][2]);
-    for (int32_t k = 0; k < ARROWS; ++k) {
-        double x = block->low[0] + (block->high[0] - block->low[0]) * (k + 0.5) / ARROWS;
-        Point tip = see_on_page(space, block, x, block->high[1], top);
-        tip.y -= LOAD_GAP * space->unit;
-        arrow_draw(page, &stroke, (Point){tip.x, tip.y - LOAD_LENGTH * space->unit}, tip,
-                   LOAD_HEAD * space->unit);
-    }
 }
 
 // --- the floor -----------------------------------------------------------------------------------
@@ -304,25 +241,64 @@ bool space_page_draw(const Page *page, const SpacePage *space, const Block *bloc
 {
     Surface surface = {.with_edges = false};
     DepthImage image = {0};
-    Stroke outline = {.color = INK, .width = OUTLINE_WIDTH * space->unit};
-    Stroke edge = {.color = CONTOUR, .width = EDGE_WIDTH * space->unit};
+    const Box *box = &space->axes.box;
+    double unit = space->unit, top = -INFINITY;
+    Stroke outline = {.color = INK, .width = OUTLINE_WIDTH * unit};
+    Stroke edge = {.color = CONTOUR, .width = EDGE_WIDTH * unit};
     TRY(surface_build(block, space->cut, space->edges, &surface, err));
     space_page_floor(page, space, block, block->row);
-    TRY(draw_colors(page, space, block, &surface, &image, err));
+
+    // Colours: at each pixel those of the nearest triangle.
+    TRY(depth_image_create((int32_t)(box->right - box->left), (int32_t)(box->bottom - box->top),
+                           SLACK * diagonal(block), &image, err));
+    for (int64_t t = 0; t < surface.triangles.count; ++t) {
+        DepthPoint corner[3];
+        for (int32_t k = 0; k < 3; ++k) {
+            const SurfacePoint *point = &surface.triangles.points[3 * t + k];
+            corner[k] = see(space, block, point->at, point->value);
+        }
+        depth_image_add(&image, corner);
+    }
+    for (int64_t k = 0; k < (int64_t)image.rows * image.columns; ++k)
+        image.values[k] = colorbar_level(space->bar, (double)image.values[k]);
+    canvas_heat(page->canvas, box, &(HeatMap){image.columns, image.rows, image.values, NULL, 0});
     draw_parts(page, space, block, &surface.edges, &image, &edge);
 
-    // At the numbers of the bar.
+    // Contours at the numbers of the bar: where a triangle has the value, a line between two of its
+    // sides.
+    Stroke contour = {.color = CONTOUR, .width = CONTOUR_WIDTH * unit};
     Ticks ticks = colorbar_ticks(space->bar);
-    for (int32_t k = 0; k < ticks.count; ++k) {
-        double number = tick_value(&ticks, k);
+    for (int32_t n = 0; n < ticks.count; ++n) {
+        double number = tick_value(&ticks, n), value = number / space->bar->factor;
         if (!(number > space->bar->low && number < space->bar->high)) continue;
-        for (int64_t t = 0; t < surface.triangles.count; ++t)
-            draw_contour(page, space, block, surface.triangles.points + 3 * t,
-                         number / space->bar->factor, &image);
+        for (int64_t t = 0; t < surface.triangles.count; ++t) {
+            const SurfacePoint *corner = surface.triangles.points + 3 * t;
+            DepthPoint ends[3];
+            int32_t found = 0;
+            for (int32_t k = 0; k < 3; ++k) {
+                const SurfacePoint *a = &corner[k], *b = &corner[(k + 1) % 3];
+                double place[3];
+                if ((a->value < value) == (b->value < value)) continue;
+                double part = (value - a->value) / (b->value - a->value);
+                for (int32_t d = 0; d < 3; ++d) place[d] = a->at[d] + part * (b->at[d] - a->at[d]);
+                ends[found++] = see(space, block, place, 0);
+            }
+            if (found == 2)
+                depth_image_line(&image, page->canvas, (Point){box->left, box->top}, &contour,
+                                 ends);
+        }
     }
-
     draw_parts(page, space, block, &surface.outline, &image, &outline);
-    draw_load(page, space, block);
+
+    // The load: arrows on the far edge of the top.
+    Stroke load = {.color = LOAD_COLOR, .width = 0.6 * unit};
+    for (int64_t i = 0; i < block->frame.node_count; ++i) top = fmax(top, block->moved[i][2]);
+    for (int32_t k = 0; k < ARROWS && space->view->number[NUMBER_PRESSURE] > 0; ++k) {
+        double x = block->low[0] + (block->high[0] - block->low[0]) * (k + 0.5) / ARROWS;
+        Point tip = see_on_page(space, block, x, block->high[1], top);
+        tip.y -= LOAD_GAP * unit;
+        arrow_draw(page, &load, (Point){tip.x, tip.y - LOAD_LENGTH * unit}, tip, LOAD_HEAD * unit);
+    }
     draw_rod(page, space, block);
 cleanup:
     surface_destroy(&surface);

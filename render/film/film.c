@@ -49,51 +49,6 @@ static bool complete(const FilmRequest *request, FilmRequest *film, int32_t *fra
     return true;
 }
 
-static bool set_clock(const FilmRequest *film, const ResultView *view, int32_t frames,
-                      FilmClock *clock, Error *err)
-{
-    double *fastest = NULL, t[2] = {0, 0};
-    FilmSpan span = {film->begin, film->end, film->cycle};
-    TRY(film_span_find(view, &span, t, err));
-
-    // The largest |slip rate| at each step, of nodes in contact: one that has lifted off does not
-    // slip.
-    TRY((fastest = NEW_ARRAY(double, view->rows, err)));
-    for (int64_t row = 0; row < view->rows; ++row)
-        for (int64_t i = row * view->nodes; i < (row + 1) * view->nodes; ++i)
-            if (view->status[i] != 0) fastest[row] = fmax(fastest[row], fabs(view->slip_rate[i]));
-
-    FilmClockDef def = {.rows = view->rows,
-                        .t = view->t,
-                        .fastest = fastest,
-                        .V = fabs(view->number[NUMBER_ROD_VELOCITY]),
-                        .low = t[0],
-                        .high = t[1],
-                        .frames = frames,
-                        .rate = film->rate,
-                        .ease = fmin(EASE, EASE_SHARE * film->seconds)};
-    TRY(film_clock_create(&def, clock, err));
-cleanup:
-    memory_free(fastest);
-    return error_is_clean(err);
-}
-
-static bool shoot(const FilmRequest *film, FilmPage *page, FilmSink *sink, int32_t frames,
-                  Error *err)
-{
-    for (int32_t k = 0; k < frames; ++k) {
-        const uint8_t *pixels = NULL;
-        int32_t stride = 0;
-        if (film->stop && *film->stop)
-            return FAULT(err, ERROR_INTERRUPT, "stopped after %d of %d frames; there is no film", k,
-                         frames);
-        if (!film_page_show(page, k, &pixels, &stride, err)) return false;
-        if (!film_sink_add(sink, pixels, stride, err)) return false;
-        if (film->on_frame) film->on_frame(k + 1, frames, film->context);
-    }
-    return true;
-}
-
 __attribute__((visibility("default"))) bool
 amontons_render_film(const char *folder, const FilmRequest *request, Error *err)
 {
@@ -102,6 +57,7 @@ amontons_render_film(const char *folder, const FilmRequest *request, Error *err)
     ResultView view = {0};
     FilmPage *page = NULL;
     FilmSink *sink = NULL;
+    double *fastest = NULL, t[2] = {0, 0};
     int32_t frames = 0;
     TRY(complete(request, &film, &frames, err));
     TRY(result_view_open(folder, &view, err));
@@ -109,17 +65,47 @@ amontons_render_film(const char *folder, const FilmRequest *request, Error *err)
     TRY(result_view_read_status(&view, err));
     double V = fabs(view.number[NUMBER_ROD_VELOCITY]);
     if (!(V > 0)) FAIL(err, ERROR_INPUT, "the result does not say how fast the rod moves");
-    TRY(set_clock(&film, &view, frames, &clock, err));
+
+    // The clock. fastest: the largest |slip rate| at each step, of nodes in contact: one that has
+    // lifted off does not slip.
+    FilmSpan span = {film.begin, film.end, film.cycle};
+    TRY(film_span_find(&view, &span, t, err));
+    TRY((fastest = NEW_ARRAY(double, view.rows, err)));
+    for (int64_t row = 0; row < view.rows; ++row)
+        for (int64_t i = row * view.nodes; i < (row + 1) * view.nodes; ++i)
+            if (view.status[i] != 0) fastest[row] = fmax(fastest[row], fabs(view.slip_rate[i]));
+    FilmClockDef run = {.rows = view.rows,
+                        .t = view.t,
+                        .fastest = fastest,
+                        .V = V,
+                        .low = t[0],
+                        .high = t[1],
+                        .frames = frames,
+                        .rate = film.rate,
+                        .ease = fmin(EASE, EASE_SHARE * film.seconds)};
+    TRY(film_clock_create(&run, &clock, err));
+
+    // The page, the file, and frame by frame from one to the other.
     const PictureStyle titled = {.title = film.title};
     FilmPageDef def = {folder, &view, &clock, &film, page_title(&titled, view.title, true)};
     TRY(page = film_page_create(&def, err));
     VideoDef file = {film.path,  film.width, film.height,   film.rate,
                      view.title, NULL,       film.overwrite};
     TRY(sink = film_sink_create(&file, err));
-    TRY(shoot(&film, page, sink, frames, err));
+    for (int32_t k = 0; k < frames; ++k) {
+        const uint8_t *pixels = NULL;
+        int32_t stride = 0;
+        if (film.stop && *film.stop)
+            FAIL(err, ERROR_INTERRUPT, "stopped after %d of %d frames; there is no film", k,
+                 frames);
+        TRY(film_page_show(page, k, &pixels, &stride, err));
+        TRY(film_sink_add(sink, pixels, stride, err));
+        if (film.on_frame) film.on_frame(k + 1, frames, film.context);
+    }
     TRY(film_sink_finish(sink, err));
     if (film.still) *film.still = (double)film_page_still(page) / film.rate;
 cleanup:
+    memory_free(fastest);
     film_sink_destroy(sink);
     film_page_destroy(page);
     film_clock_destroy(&clock);

@@ -2,7 +2,7 @@
 #include "render/film/film_band.h"
 
 #include "base/memory.h"
-#include "render/figures/figures.h"
+#include "render/figures/figure_axes.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -52,15 +52,17 @@ void film_time_words(const ResultView *view, double t, char words[FILM_WORDS_SIZ
 
 // --- what stands ---------------------------------------------------------------------------------
 
-static void lay_out(const Page *page, const Box *cell, FilmBand *band)
+bool film_band_create(const Page *page, const Box *cell, FilmBand *band, Error *err)
 {
-    double point = page->point;
+    const FilmClock *clock = band->clock;
     const ResultView *view = band->view;
     MapPage *map = &band->map;
     Axes *axes = &map->axes;
-    double low = 0, high = 0;
+    double point = page->point, low = 0, high = 0, *seconds = NULL;
+
+    // Strip and frame, one below the other.
     result_view_x_extent(view, &low, &high);
-    axes->x = (Axis){.high = (double)(band->clock->frames - 1) / band->clock->rate, .factor = 1};
+    axes->x = (Axis){.high = (double)(clock->frames - 1) / clock->rate, .factor = 1};
     axes->y = figure_length_axis(view, "x", low, high);
     band->strip.top = round(cell->top + WORDS_HEIGHT * point);
     band->strip.bottom = round(band->strip.top + STRIP_HEIGHT * point);
@@ -70,22 +72,20 @@ static void lay_out(const Page *page, const Box *cell, FilmBand *band)
     axes->box.right = round(cell->right - SIDE * point);
     band->strip.left = axes->box.left;
     band->strip.right = axes->box.right;
-}
+    band->speed_low = band->speed_high = clock->speed[0];
+    for (int32_t k = 1; k < clock->frames; ++k) {
+        band->speed_low = fmin(band->speed_low, clock->speed[k]);
+        band->speed_high = fmax(band->speed_high, clock->speed[k]);
+    }
 
-// The slip map over seconds of film in the place of U.
-static bool fill_map(FilmBand *band, Error *err)
-{
-    const ResultView *view = band->view;
-    MapPage *map = &band->map;
-    double *seconds = NEW_ARRAY(double, view->rows, err);
-    TRY(seconds);
+    // The slip map over seconds of film in the place of U.
+    TRY(seconds = NEW_ARRAY(double, view->rows, err));
     for (int64_t row = 0; row < view->rows; ++row) {
-        bool shown = view->t[row] >= band->clock->t[0] &&
-                     view->t[row] <= band->clock->t[band->clock->frames - 1];
-        seconds[row] = shown ? film_clock_seconds(band->clock, view->t[row]) : NAN;
+        bool shown = view->t[row] >= clock->t[0] && view->t[row] <= clock->t[clock->frames - 1];
+        seconds[row] = shown ? film_clock_seconds(clock, view->t[row]) : NAN;
         // The first step behind the end: what lies in the last long step has its value.
         if (!shown && row > 0 && isfinite(seconds[row - 1]))
-            seconds[row] = map->axes.x.high * (1 + 1e-9);
+            seconds[row] = axes->x.high * (1 + 1e-9);
     }
     SpaceTime data = {.rows = view->rows,
                       .U = seconds,
@@ -94,27 +94,15 @@ static bool fill_map(FilmBand *band, Error *err)
                       .pad = view->pad,
                       .value = map->states ? map->states : view->slip_rate,
                       .sign = map->sign};
-    map->grid = (PixelGrid){.U_high = map->axes.x.high,
-                            .x_low = map->axes.y.low,
-                            .x_high = map->axes.y.high,
-                            .columns = (int32_t)(map->axes.box.right - map->axes.box.left),
-                            .rows = (int32_t)(map->axes.box.bottom - map->axes.box.top)};
+    map->grid = (PixelGrid){.U_high = axes->x.high,
+                            .x_low = axes->y.low,
+                            .x_high = axes->y.high,
+                            .columns = (int32_t)(axes->box.right - axes->box.left),
+                            .rows = (int32_t)(axes->box.bottom - axes->box.top)};
     TRY(map_page_fill(&data, map, err));
 cleanup:
     memory_free(seconds);
     return error_is_clean(err);
-}
-
-bool film_band_create(const Page *page, const Box *cell, FilmBand *band, Error *err)
-{
-    const FilmClock *clock = band->clock;
-    lay_out(page, cell, band);
-    band->speed_low = band->speed_high = clock->speed[0];
-    for (int32_t k = 1; k < clock->frames; ++k) {
-        band->speed_low = fmin(band->speed_low, clock->speed[k]);
-        band->speed_high = fmax(band->speed_high, clock->speed[k]);
-    }
-    return fill_map(band, err);
 }
 
 void film_band_destroy(FilmBand *band)
@@ -122,96 +110,80 @@ void film_band_destroy(FilmBand *band)
     map_page_destroy(&band->map);
 }
 
-static Color between(Color from, Color to, double part)
-{
-    float p = (float)part;
-    return (Color){from.red + p * (to.red - from.red), from.green + p * (to.green - from.green),
-                   from.blue + p * (to.blue - from.blue), 1};
-}
-
-// A column a frame, by the logarithm of its speed.
-static void draw_strip(const Page *page, const FilmBand *band)
+void film_band_draw(const Page *page, const FilmBand *band)
 {
     const Axes *axes = &band->map.axes;
     const FilmClock *clock = band->clock;
-    Stroke stroke = {.color = INK, .width = FRAME_WIDTH * page->point};
+    const ResultView *view = band->view;
+    double point = page->point;
+    Stroke stroke = {.color = INK, .width = FRAME_WIDTH * point};
+    map_page_draw_field(page, view, &band->map);
+
+    // The strip: a column a frame, by the logarithm of its speed.
     double range = log(band->speed_high / band->speed_low);
     for (int32_t k = 0; k + 1 < clock->frames; ++k) {
-        double slow = range > 1e-9 ? log(band->speed_high / clock->speed[k]) / range : 0;
+        float slow = range > 1e-9 ? (float)(log(band->speed_high / clock->speed[k]) / range) : 0;
+        Color color = {STRIP_PALE.red + slow * (STRIP_COLOR.red - STRIP_PALE.red),
+                       STRIP_PALE.green + slow * (STRIP_COLOR.green - STRIP_PALE.green),
+                       STRIP_PALE.blue + slow * (STRIP_COLOR.blue - STRIP_PALE.blue), 1};
         Box column = {round(axes_place(axes, (double)k / clock->rate, 0).x), band->strip.top,
                       round(axes_place(axes, (double)(k + 1) / clock->rate, 0).x),
                       band->strip.bottom};
-        draw_fill(page->canvas, between(STRIP_PALE, STRIP_COLOR, slow), &column);
+        draw_fill(page->canvas, color, &column);
     }
     draw_outline(page->canvas, &stroke, &band->strip);
-}
+    axes_draw_left(page, axes);
 
-// Handy numbers of U, less those that would touch the one before.
-static void draw_numbers(const Page *page, const FilmBand *band, const Ticks *ticks, double factor)
-{
-    double point = page->point, written = -INFINITY;
+    // U below: handy numbers, less those that would touch the one before, each where the film comes
+    // to it.
+    double first = film_moment(view, clock->t[0]).U, written = -INFINITY;
+    double last = film_moment(view, clock->t[clock->frames - 1]).U;
+    Axis U = figure_length_axis(view, "U", first, last);
+    Ticks ticks = ticks_choose(first * U.factor, last * U.factor, TICKS_WANTED);
     TextStyle style = {.size = NUMBER_SIZE * point, .color = INK, .across = 0.5, .up = 1};
-    Stroke stroke = {.color = INK, .width = FRAME_WIDTH * point};
-    int32_t k = 0;
-    for (int32_t i = 0; i < ticks->count; ++i) {
+    int32_t k = 0;   // the first frame at or behind the number
+    for (int32_t i = 0; i < ticks.count; ++i) {
         char label[TICK_LABEL_SIZE];
-
-        // Where the film, from frame k on, comes to U.
-        double U = tick_value(ticks, i) / factor;
-        const FilmClock *clock = band->clock;
-        const ResultView *view = band->view;
-        while (k + 1 < clock->frames && film_moment(view, clock->t[k]).U < U) ++k;
-        int32_t first = k > 0 ? k - 1 : 0;
-        double after = film_moment(view, clock->t[k]).U,
-               before = film_moment(view, clock->t[first]).U;
-        double part = after > before ? fmin(fmax((U - before) / (after - before), 0), 1) : 0;
-        Point foot =
-            axes_place(&band->map.axes, (first + part) / clock->rate, band->map.axes.y.low);
-
+        double wanted = tick_value(&ticks, i) / U.factor;
+        while (k + 1 < clock->frames && film_moment(view, clock->t[k]).U < wanted) ++k;
+        int32_t earlier = k > 0 ? k - 1 : 0;
+        double after = film_moment(view, clock->t[k]).U;
+        double before = film_moment(view, clock->t[earlier]).U;
+        double part = after > before ? fmin(fmax((wanted - before) / (after - before), 0), 1) : 0;
+        Point foot = axes_place(axes, (earlier + part) / clock->rate, axes->y.low);
         Point end = {foot.x, foot.y + TICK_LENGTH * point};
         draw_segment(page->canvas, &stroke, foot, end);
-        tick_label(ticks, i, label);
+        tick_label(&ticks, i, label);
         double half = NUMBER_PITCH * text_width(page->text, style.size, label) / 2;
         if (foot.x - half < written) continue;
         written = foot.x + half;
         text_draw(page->text, &style, (Point){foot.x, end.y + NUMBER_GAP * point}, label);
     }
-}
-
-static void draw_U(const Page *page, const FilmBand *band)
-{
-    const Axes *axes = &band->map.axes;
-    const FilmClock *clock = band->clock;
     char name[AXIS_LABEL_SIZE + 64], power[TICK_LABEL_SIZE] = "";
-    double point = page->point, first = film_moment(band->view, clock->t[0]).U;
-    double last = film_moment(band->view, clock->t[clock->frames - 1]).U;
-    Axis U = figure_length_axis(band->view, "U", first, last);
-    Ticks ticks = ticks_choose(first * U.factor, last * U.factor, TICKS_WANTED);
-    TextStyle style = {.size = LABEL_SIZE * point, .color = INK, .across = 0.5, .up = 1};
-    draw_numbers(page, band, &ticks, U.factor);
     if (ticks.exponent != 0) snprintf(power, sizeof power, " (\u00d710^{%d})", ticks.exponent);
     snprintf(name, sizeof name, "%s%s, stretched where slip is rapid", U.label, power);
+    style.size = LABEL_SIZE * point;
     text_draw(
         page->text, &style,
         (Point){(axes->box.left + axes->box.right) / 2, axes->box.bottom + LABEL_DROP * point},
         name);
 }
 
-void film_band_draw(const Page *page, const FilmBand *band)
-{
-    const Axes *axes = &band->map.axes;
-    map_page_draw_field(page, band->view, &band->map);
-    draw_strip(page, band);
-    axes_draw_left(page, axes);
-    draw_U(page, band);
-}
-
 // --- what moves ----------------------------------------------------------------------------------
 
-static void draw_words(const Page *page, const FilmBand *band, int32_t k)
+void film_band_now(const Page *page, const FilmBand *band, int32_t k)
 {
-    char time[FILM_WORDS_SIZE], words[FILM_WORDS_SIZE + 80], times[32];
+    const Axes *axes = &band->map.axes;
     double point = page->point, speed = band->clock->speed[k];
+    Stroke cursor = {.color = INK, .width = CURSOR_WIDTH * point};
+    double x = axes_place(axes, (double)k / band->clock->rate, 0).x;
+    double edge = FRAME_WIDTH * point;
+    Box later = {x, axes->box.top + edge, axes->box.right - edge, axes->box.bottom - edge};
+    if (later.right > later.left) draw_fill(page->canvas, TO_COME, &later);
+    draw_segment(page->canvas, &cursor, (Point){x, band->strip.top}, (Point){x, axes->box.bottom});
+
+    // "1 s of film = 0.43 t_0", and where it is slow how much.
+    char time[FILM_WORDS_SIZE], words[FILM_WORDS_SIZE + 80], times[32];
     TextStyle style = {.size = WORDS_SIZE * point, .color = INK};
     Point place = {band->strip.left, band->strip.top - 3.2 * point};
     film_time_words(band->view, speed, time);
@@ -224,16 +196,4 @@ static void draw_words(const Page *page, const FilmBand *band, int32_t k)
     style.color = STRIP_COLOR;
     place.x += 110 * point;
     text_draw(page->text, &style, place, words);
-}
-
-void film_band_now(const Page *page, const FilmBand *band, int32_t k)
-{
-    const Axes *axes = &band->map.axes;
-    Stroke cursor = {.color = INK, .width = CURSOR_WIDTH * page->point};
-    double x = axes_place(axes, (double)k / band->clock->rate, 0).x;
-    double edge = FRAME_WIDTH * page->point;
-    Box later = {x, axes->box.top + edge, axes->box.right - edge, axes->box.bottom - edge};
-    if (later.right > later.left) draw_fill(page->canvas, TO_COME, &later);
-    draw_segment(page->canvas, &cursor, (Point){x, band->strip.top}, (Point){x, axes->box.bottom});
-    draw_words(page, band, k);
 }

@@ -5,7 +5,7 @@
 #ifndef AMONTONS_RENDER_FILM_FILM_BAND_H
 #define AMONTONS_RENDER_FILM_FILM_BAND_H
 
-#include "render/figures/map_page.h"
+#include "render/figures/figure_maps.h"
 #include "render/film/film_clock.h"
 #include "render/film/film_times.h"
 

@@ -2,7 +2,7 @@
 #include "render/film/film_block.h"
 
 #include "base/memory.h"
-#include "render/figures/figures.h"
+#include "render/figures/figure_axes.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -49,12 +49,14 @@ static bool read_stored(const FilmBlock *film, int32_t index, Block *block, Erro
     return true;
 }
 
-// Colours and size hold for the whole film: they are those of some of its fields, evenly spaced in
-// its time.
-static bool fit_fields(FilmBlock *film, double extent[4], Error *err)
+bool film_block_place(const Page *page, const Box *cell, FilmBlock *film, Error *err)
 {
     Block sample[SAMPLES_MAX] = {0};
+    double extent[4] = {0};
     int32_t count = 0, frames = film->clock->frames;
+
+    // Colours and size hold for the whole film: they are those of some of its fields, evenly spaced
+    // in its time.
     for (int32_t k = 0; k < SAMPLES_MAX; ++k) {
         int32_t index = film->stored[(int64_t)k * (frames - 1) / (SAMPLES_MAX - 1)];
         if (k > 0 && index == film->stored[(int64_t)(k - 1) * (frames - 1) / (SAMPLES_MAX - 1)])
@@ -63,18 +65,8 @@ static bool fit_fields(FilmBlock *film, double extent[4], Error *err)
     }
     block_page_deform(sample, count, &film->magnification, extent);
     TRY(block_page_fit(&film->map, sample, count, film->source.quantity, err));
-cleanup:
-    for (int32_t k = 0; k < SAMPLES_MAX; ++k) block_destroy(&sample[k]);
-    return error_is_clean(err);
-}
 
-// --- layout --------------------------------------------------------------------------------------
-
-// The block in the middle of its cell.
-bool film_block_place(const Page *page, const Box *cell, FilmBlock *film, Error *err)
-{
-    double extent[4] = {0};
-    if (!fit_fields(film, extent, err)) return false;
+    // The block in the middle of its cell.
     double point = page->point, words = WORDS_HEIGHT + LEGEND_HEIGHT;
     double width = (cell->right - cell->left) / point - BAR_ROOM;
     double height = (cell->bottom - cell->top) / point - words;
@@ -92,7 +84,9 @@ bool film_block_place(const Page *page, const Box *cell, FilmBlock *film, Error 
     film->axes.box.right = film->axes.box.left + round(width * point);
     film->axes.box.top = round(top + WORDS_HEIGHT * point);
     film->axes.box.bottom = film->axes.box.top + round(needed * point);
-    return true;
+cleanup:
+    for (int32_t k = 0; k < SAMPLES_MAX; ++k) block_destroy(&sample[k]);
+    return error_is_clean(err);
 }
 
 // --- what is drawn -------------------------------------------------------------------------------
@@ -109,9 +103,12 @@ void film_block_draw(const Page *page, const FilmBlock *film)
         0);
 }
 
-// Over the block: when its field was stored, and how much the deformation is enlarged.
-static void draw_words(const Page *page, const FilmBlock *film, const Block *block, bool mixed)
+// The block, and over it when its field was stored, and how much the deformation is enlarged.
+static bool put_block(const Page *page, const FilmBlock *film, const Block *block, bool mixed,
+                      Error *err)
 {
+    draw_fill(page->canvas, PAPER, &film->axes.box);
+    if (!block_page_draw(page, &film->map, block, &film->axes, err)) return false;
     char words[WORDS_SIZE];
     double point = page->point;
     TextStyle style = {.size = SMALL_SIZE * point, .color = INK};
@@ -127,30 +124,15 @@ static void draw_words(const Page *page, const FilmBlock *film, const Block *blo
     double left = line.left + LEGEND_LEFT * point;
     text_draw_within(page->text, &style, (Point){left, line.bottom - 3 * point}, line.right - left,
                      words);
-}
-
-static bool put_block(const Page *page, const FilmBlock *film, const Block *block, bool mixed,
-                      Error *err)
-{
-    draw_fill(page->canvas, PAPER, &film->axes.box);
-    if (!block_page_draw(page, &film->map, block, &film->axes, err)) return false;
-    draw_words(page, film, block, mixed);
     return true;
 }
 
-// Only where a frame shows another stored field than the one before.
-static bool draw_stored(const Page *page, FilmBlock *film, int32_t index, Error *err)
+// Draws a mixture of two stored fields, linear in time, in the place of the first. The first field
+// itself is read again where it is wanted.
+static bool draw_mixture(const Page *page, FilmBlock *film, int32_t first, double t, Error *err)
 {
-    Block *block = &film->block;
-    if (index == film->shown) return true;
-    block_destroy(block);
-    film->shown = index;
-    return read_stored(film, index, block, err) && put_block(page, film, block, false, err);
-}
 
-// Both of a pair, the one that is there already kept.
-static bool read_pair(FilmBlock *film, int32_t first, Error *err)
-{
+    // Both of the pair, the one that is there already kept.
     if (film->pair_index[1] == first) {
         Block kept = film->pair[1];
         film->pair[1] = film->pair[0];
@@ -165,14 +147,7 @@ static bool read_pair(FilmBlock *film, int32_t first, Error *err)
         if (!read_stored(film, first + k, &film->pair[k], err)) return false;
         film->pair_index[k] = first + k;
     }
-    return true;
-}
 
-// Draws a mixture of two stored fields, linear in time, in the place of the first. The first field
-// itself is read again where it is wanted.
-static bool draw_mixture(const Page *page, FilmBlock *film, int32_t first, double t, Error *err)
-{
-    if (!read_pair(film, first, err)) return false;
     Block *a = &film->pair[0], *b = &film->pair[1];
     double part = (t - a->t) / (b->t - a->t);
     if (a->frame.node_count != b->frame.node_count)
@@ -195,8 +170,12 @@ bool film_block_show(const Page *page, FilmBlock *film, int32_t k, double t, Err
                       source->row[first + 1] == source->row[first] + 1;
     film->still = !neighbours && film->shown == film->stored[k] ? film->still + 1 : 1;
     if (film->still > film->still_most) film->still_most = film->still;
-    return neighbours ? draw_mixture(page, film, first, t, err)
-                      : draw_stored(page, film, film->stored[k], err);
+    if (neighbours) return draw_mixture(page, film, first, t, err);
+    if (film->stored[k] == film->shown) return true;   // it stands on the page
+    block_destroy(&film->block);
+    film->shown = film->stored[k];
+    return read_stored(film, film->shown, &film->block, err) &&
+           put_block(page, film, &film->block, false, err);
 }
 
 void film_block_contact(const Page *page, const FilmBlock *film, int64_t row)

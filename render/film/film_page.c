@@ -3,8 +3,8 @@
 
 #include "base/memory.h"
 #include "render/film/film_block.h"
-#include "render/film/film_plane.h"
 #include "render/figures/color_scale.h"
+#include "render/figures/figure_axes.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -48,14 +48,6 @@ static bool page_open(const FilmPage *self, Page *page, Error *err)
     return page_begin(page, &def, err);
 }
 
-// The contact, now: its slip rates along x, in space all of it.
-static bool place_contact(FilmPage *page, const Box *cell, Error *err)
-{
-    if (page->in_space) return film_plane_create(&page->base, cell, &page->plane, err);
-    film_profile_place(&page->base, cell, &page->profile);
-    return true;
-}
-
 static bool lay_out(FilmPage *page, Error *err)
 {
     double point = page->base.point;
@@ -77,7 +69,10 @@ static bool lay_out(FilmPage *page, Error *err)
         if (!film_block_place(&page->base, &left, &page->block, err)) return false;
         left = lower;
     }
-    if (!place_contact(page, &left, err)) return false;
+
+    // The contact, now: its slip rates along x, in space all of it.
+    if (page->in_space && !film_plane_create(&page->base, &left, &page->plane, err)) return false;
+    if (!page->in_space) film_profile_place(&page->base, &left, &page->profile);
     film_force_place(&page->base, &right, t, &page->force);
     if (page->block.stored && !page->in_space)   // one above the other: frames begin at one line
         page->force.axes.box.left = page->profile.axes.box.left =
@@ -140,10 +135,12 @@ static bool choose_values(FilmPage *page, Error *err)
     if (!block_quantity_find(state ? NULL : def->film->of, &page->block.source.quantity, err))
         return false;
     if (state) {
+        char name[VIEW_STATE_SIZE];
+        ValueWords words = state_words(view, name);
         const double range[2] = {film_moment(view, clock->t[0]).U,
                                  film_moment(view, clock->t[clock->frames - 1]).U};
         if (!result_view_read(view, SERIES_STATE, false, &page->states, err)) return false;
-        if (!state_scale(view, range, page->states, NULL, &bar, err)) return false;
+        if (!history_bar_fit(view, range, page->states, &words, NULL, &bar, err)) return false;
     }
     page->band.map.bar = page->profile.bar = page->plane.bar = bar;
     page->band.map.states = page->states;

@@ -7,7 +7,7 @@
 
 #include "render/figures/block_page.h"
 #include "render/film/film_band.h"
-#include "render/film/film_curves.h"
+#include "render/film/film_panels.h"
 
 typedef struct FilmPageDef {
     const char *folder;   // of the result

@@ -271,25 +271,21 @@ static void thread_end(FilmSink *sink)
     sink->running = false;
 }
 
-// Frames of a longer film of ours, in a folder of ours, would seem to be of this one.
-static void remove_rest(const FilmSink *sink)
-{
-    char path[2 * PATH_MAX];
-    for (int32_t frame = sink->filled + 1;; ++frame) {
-        frame_path(&sink->pattern, frame, path);
-        bool ours = false;
-        Error unseen = {0};
-        if (!own_list_has(path, &ours, &unseen) || !ours || unlink(path) != 0) return;
-    }
-}
-
 bool film_sink_finish(FilmSink *sink, Error *err)
 {
     thread_end(sink);
     *err = sink->failure;
     if (!error_is_clean(err)) return false;
     if (sink->video) return video_file_finish(sink->video, err);
-    if (sink->def.overwrite) remove_rest(sink);
+
+    // Frames of a longer film of ours, in a folder of ours, would seem to be of this one.
+    for (int32_t frame = sink->filled + 1; sink->def.overwrite; ++frame) {
+        char path[2 * PATH_MAX];
+        bool ours = false;
+        Error unseen = {0};
+        frame_path(&sink->pattern, frame, path);
+        if (!own_list_has(path, &ours, &unseen) || !ours || unlink(path) != 0) break;
+    }
     return true;
 }
 

@@ -52,25 +52,22 @@ static bool time_read(const ResultView *view, const char *at, double *t, Error *
     return true;
 }
 
-static bool find_cycle(const ResultView *view, const char *words, double t[2], Error *err)
-{
-    ResultView asked = *view;
-    if (!zoom_choose_cycle(&asked, words, err)) return false;
-    if (asked.cycle == VIEW_CYCLE_ALL) return true;
-    const ViewEvent *sliding = zoom_sliding(&asked);
-    if (!sliding) return REFUSE(err, "no bulk sliding is in this history, so there is no cycle");
-    Zoom zoom = zoom_choose(&asked);
-    t[0] = time_of_U(view, zoom.U_start);
-    t[1] = time_of_U(view, zoom.U_behind);
-    return true;
-}
-
 bool film_span_find(const ResultView *view, const FilmSpan *span, double t[2], Error *err)
 {
     double first = view->t[0], end = view->t[view->rows - 1];
     t[0] = first;
     t[1] = end;
-    if (span->cycle && !find_cycle(view, span->cycle, t, err)) return false;
+    if (span->cycle) {
+        ResultView asked = *view;
+        if (!zoom_choose_cycle(&asked, span->cycle, err)) return false;
+        if (asked.cycle != VIEW_CYCLE_ALL) {
+            if (!zoom_sliding(&asked))
+                return REFUSE(err, "no bulk sliding is in this history, so there is no cycle");
+            Zoom zoom = zoom_choose(&asked);
+            t[0] = time_of_U(view, zoom.U_start);
+            t[1] = time_of_U(view, zoom.U_behind);
+        }
+    }
     if (span->from && !time_read(view, span->from, &t[0], err)) return false;
     if (span->to && !time_read(view, span->to, &t[1], err)) return false;
     t[0] = fmax(t[0], first);

@@ -36,10 +36,15 @@ static int32_t insert(int32_t index, int32_t *chosen, int32_t count)
     return count + 1;
 }
 
-// The last events first, as the first ones belong to the start. Of each its first frame.
-static int32_t choose_events(const ResultView *view, const int64_t *rows, int32_t count,
-                             int32_t most, int32_t *chosen)
+int32_t frames_choose(const ResultView *view, const int64_t *rows, int32_t count, int32_t most,
+                      int32_t *chosen)
 {
+    if (count <= most) {
+        for (int32_t k = 0; k < count; ++k) chosen[k] = k;
+        return count;
+    }
+
+    // The first frame of each event; the last events first, as the first ones belong to the start.
     int32_t found = 0;
     for (int32_t e = view->rapid_count - 1; e >= 0 && found < most / EVENTS_SHARE; --e) {
         double slack = SLACK * fabs(view->rapid[e][1]);
@@ -48,17 +53,8 @@ static int32_t choose_events(const ResultView *view, const int64_t *rows, int32_
         if (k < count && view->U[rows[k]] <= view->rapid[e][1] + slack)
             found = insert(k, chosen, found);
     }
-    return found;
-}
 
-int32_t frames_choose(const ResultView *view, const int64_t *rows, int32_t count, int32_t most,
-                      int32_t *chosen)
-{
-    if (count <= most) {
-        for (int32_t k = 0; k < count; ++k) chosen[k] = k;
-        return count;
-    }
-    int32_t found = choose_events(view, rows, count, most, chosen), wanted = most - found;
+    int32_t wanted = most - found;
     Way all = way_between(view, rows[0], rows[count - 1]);
     double done = 0, before = 0, total = (all.U > 0) + (all.mu > 0);
     int32_t next = 0;   // of the frames wanted

@@ -7,8 +7,9 @@
 #include "base/memory.h"
 #include "base/order.h"
 #include "render/canvas/svg_chart.h"
+#include "render/figures/figure_field.h"
+#include "render/figures/figures.h"
 #include "render/frames/frame_choice.h"
-#include "render/frames/frame_images.h"
 #include "render/view/space_time.h"
 
 #include <math.h>
@@ -27,6 +28,8 @@ static const double RATE_LEAST = 1e-2, RATE_MOST = 1e6;   // over V: as the slip
 static const double PRESSURE_LEAST = 1e-3;   // over P_ext: of less, friction over it means nothing
 static const double LEFT_OUT = 0.01;   // of the pressures: those of singular corners
 static const double HEADROOM = 1.12;
+static const double IMAGE_WIDTH = 95, IMAGE_DPI = 160;   // mm: 600 pixels, letters 14 high
+enum { LOOKED_AT = 6 };   // blocks in memory, to find the range of all
 
 typedef enum StripId { STRIP_PRESSURE, STRIP_RATIO, STRIP_RATE } StripId;
 
@@ -42,27 +45,10 @@ typedef struct Frames {
     double *y[STRIPS];   // [count * points] owned
     uint8_t *status;   // [count * nodes] owned
     Axes strip[STRIPS], force;
+    FieldPage image;   // the pictures of the block: one size, range and magnification
+    BlockPage map;
+    double image_shape;   // height over width
 } Frames;
-
-// --- which times ---------------------------------------------------------------------------------
-
-// With some fields their times, else all steps.
-static bool choose(const char *folder, Frames *frames, Error *err)
-{
-    const ResultView *view = &frames->view;
-    frames->source = (BlockSource){.folder = folder, .view = &frames->view};
-    if (block_is_stored(folder) && !block_source_open(&frames->source, err)) return false;
-    frames->fields = frames->source.count >= FIELDS_LEAST;
-    int64_t stored = frames->fields ? frames->source.count : view->rows;
-    if (stored > INT32_MAX) return REFUSE(err, "the history has too many steps for a page");
-    frames->stored = (int32_t)stored;
-    if (!(frames->rows = NEW_ARRAY(int64_t, stored, err))) return false;
-    for (int32_t k = 0; k < frames->stored; ++k)
-        frames->rows[k] = frames->fields ? frames->source.row[k] : k;
-    frames->count =
-        frames_choose(view, frames->rows, frames->stored, RENDER_FRAMES_MAX, frames->chosen);
-    return true;
-}
 
 // --- along the contact ---------------------------------------------------------------------------
 
@@ -86,32 +72,24 @@ cleanup:
 }
 
 // A point for each node, and one that is not there between two pads.
-static bool place_points(Frames *frames, Error *err)
-{
-    const ResultView *view = &frames->view;
-    if (!(frames->x = NEW_ARRAY(double, 2 * (int64_t)view->nodes, err))) return false;
-    for (int32_t i = 0; i < view->nodes; ++i) {
-        if (i > 0 && view->pad[i] != view->pad[i - 1]) frames->x[frames->points++] = NAN;
-        frames->x[frames->points++] = view->x[i];
-    }
-    for (int32_t s = 0; s < STRIPS; ++s)
-        if (!(frames->y[s] = NEW_ARRAY(double, (int64_t)frames->count * frames->points, err)))
-            return false;
-    if (!(frames->status = NEW_ARRAY(uint8_t, (int64_t)frames->count * view->nodes, err)))
-        return false;
-    return true;
-}
-
 static bool read_contact(Frames *frames, Error *err)
 {
     const ResultView *view = &frames->view;
+    int32_t count = frames->count;
     double *pressure = NULL, *shear = NULL, *rate = NULL, *status = NULL;
     TRY(read_rows(frames, SERIES_PRESSURE, &pressure, err));
     TRY(read_rows(frames, SERIES_SHEAR, &shear, err));
     TRY(read_rows(frames, SERIES_SLIP_RATE, &rate, err));
     TRY(read_rows(frames, SERIES_STATUS, &status, err));
-    TRY(place_points(frames, err));
-    for (int32_t k = 0; k < frames->count; ++k)
+    TRY(frames->x = NEW_ARRAY(double, 2 * (int64_t)view->nodes, err));
+    for (int32_t i = 0; i < view->nodes; ++i) {
+        if (i > 0 && view->pad[i] != view->pad[i - 1]) frames->x[frames->points++] = NAN;
+        frames->x[frames->points++] = view->x[i];
+    }
+    for (int32_t strip = 0; strip < STRIPS; ++strip)
+        TRY(frames->y[strip] = NEW_ARRAY(double, (int64_t)count * frames->points, err));
+    TRY(frames->status = NEW_ARRAY(uint8_t, (int64_t)count * view->nodes, err));
+    for (int32_t k = 0; k < count; ++k)
         for (int32_t p = 0, i = 0; p < frames->points; ++p) {
             int64_t to = (int64_t)k * frames->points + p, from = (int64_t)k * view->nodes + i;
             bool gap = isnan(frames->x[p]);
@@ -148,12 +126,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-static Box strip_box(int32_t strip)
-{
-    double top = TOP + strip * (STRIP + STRIP_GAP);
-    return (Box){.left = LEFT, .right = RIGHT, .top = top, .bottom = top + STRIP};
-}
-
 static bool fit_strips(Frames *frames, Error *err)
 {
     const ResultView *view = &frames->view;
@@ -169,7 +141,9 @@ static bool fit_strips(Frames *frames, Error *err)
     if (!(last > first)) last = first + 1;
     for (int32_t s = 0; s < STRIPS; ++s) {
         Axes *axes = &frames->strip[s];
-        *axes = (Axes){.box = strip_box(s), .x = figure_length_axis(view, "x", first, last)};
+        double top = TOP + s * (STRIP + STRIP_GAP);
+        *axes = (Axes){.box = {.left = LEFT, .right = RIGHT, .top = top, .bottom = top + STRIP},
+                       .x = figure_length_axis(view, "x", first, last)};
         axes->y = (Axis){.high = high[s] * HEADROOM, .factor = 1};
         snprintf(axes->y.label, sizeof axes->y.label, "%s", names[s]);
     }
@@ -178,6 +152,25 @@ static bool fit_strips(Frames *frames, Error *err)
     rate->low = RATE_LEAST;
     rate->high = high[STRIP_RATE];
     return true;
+}
+
+// Fits the pictures of the block to some of the times.
+static bool fit_images(Frames *frames, Error *err)
+{
+    Block blocks[LOOKED_AT] = {0};
+    const PictureStyle style = {.width = IMAGE_WIDTH, .dpi = IMAGE_DPI};
+    int32_t count = frames->count, looked = count < LOOKED_AT ? count : LOOKED_AT;
+    for (int32_t k = 0; k < looked; ++k) {
+        int32_t at = looked > 1 ? (int32_t)((int64_t)k * (count - 1) / (looked - 1)) : 0;
+        TRY(block_read(&frames->source, frames->chosen[at], &blocks[k], err));
+    }
+    block_page_deform(blocks, looked, &frames->image.magnification, frames->image.extent);
+    frames->map = (BlockPage){.view = &frames->view, .share = 1};
+    TRY(block_page_fit(&frames->map, blocks, looked, frames->source.quantity, err));
+    frames->image_shape = field_page_lay_out(&frames->image, page_width(&style));
+cleanup:
+    for (int32_t k = 0; k < LOOKED_AT; ++k) block_destroy(&blocks[k]);
+    return error_is_clean(err);
 }
 
 // Writes the parts that all frames have in common; they are drawn once and used in each of them.
@@ -197,6 +190,33 @@ static void write_common(const Frames *frames, HtmlWriter *html)
 }
 
 // --- a frame -------------------------------------------------------------------------------------
+
+// The block as an <img> with the picture in it.
+static bool write_image(const Frames *frames, int32_t k, HtmlWriter *html, Error *err)
+{
+    Block block = {0};
+    Page page = {0};
+    PictureBytes picture = {0};
+    const PictureStyle style = {.format = "png", .width = IMAGE_WIDTH, .dpi = IMAGE_DPI};
+    PageDef def = {.style = &style, .height = frames->image_shape};
+    BlockWords words = block_words(frames->source.quantity);
+    TRY(block_read(&frames->source, frames->chosen[k], &block, err));
+    block_deform(&block, frames->image.magnification);
+    TRY(page_begin(&page, &def, err));
+    TRY(field_page_draw(&page, &frames->image, &frames->map, &block, err));
+    TRY(canvas_finish(page.canvas, words.name, true, &picture, err));
+    html_markup(html,
+                "<img class='paper' width='%d' height='%d' alt='The deformed block, %s in "
+                "colours, and which parts of its contact stick, slip or are open, at U = %.6g' "
+                "src='",
+                canvas_width(page.canvas), canvas_height(page.canvas), words.name, block.U);
+    html_data(html, "image/png", picture.bytes, picture.size);
+    html_markup(html, "'>");
+cleanup:
+    page_destroy(&page);
+    block_destroy(&block);
+    return error_is_clean(err);
+}
 
 // Above the strips, a colour for each part of the contact that is of one status.
 static void write_band(const Frames *frames, int32_t k, HtmlWriter *html)
@@ -242,35 +262,16 @@ static void write_chart(const Frames *frames, int32_t k, HtmlWriter *html)
     html_markup(html, "</svg>");
 }
 
-// Some frames, evenly spread, are for paper, too.
-static bool is_printed(const Frames *frames, int32_t k)
+// A figure is whole also where its picture fails. Some frames, evenly spread, are for paper, too.
+static void write_frame(const Frames *frames, int32_t k, HtmlWriter *html, Error *err)
 {
-    int32_t every = (frames->count + PRINTED - 1) / PRINTED;
-    return k % every == every / 2;
-}
-
-// A reader wants to see the last sliding first, where there is one.
-static int32_t first_shown(const Frames *frames)
-{
-    const ResultView *view = &frames->view;
-    double U = INFINITY;
-    for (int32_t e = 0; e < view->event_count; ++e)
-        if (view->events[e].kind == VIEW_LEADING) U = view->events[e].U_start;
-    for (int32_t k = 0; k < frames->count; ++k)
-        if (view->U[frames->rows[frames->chosen[k]]] >= U) return k + 1;
-    return 1;
-}
-
-// A figure is whole also where its picture fails.
-static bool write_frame(const Frames *frames, const FrameImages *images, int32_t k,
-                        HtmlWriter *html, Error *err)
-{
-    html_markup(html, "<figure class='frame%s' id='frame-%d' tabindex='-1'>",
-                is_printed(frames, k) ? " printed" : "", k + 1);
-    if (frames->fields) frame_images_html(images, frames->chosen[k], html, err);
-    write_chart(frames, k, html);
     const ResultView *view = &frames->view;
     int64_t row = frames->rows[frames->chosen[k]];
+    int32_t every = (frames->count + PRINTED - 1) / PRINTED;
+    html_markup(html, "<figure class='frame%s' id='frame-%d' tabindex='-1'>",
+                k % every == every / 2 ? " printed" : "", k + 1);
+    if (frames->fields) write_image(frames, k, html, err);
+    write_chart(frames, k, html);
     html_markup(html, "<figcaption>Frame %d of %d: ", k + 1, frames->count);
     html_words(html, frames->force.x.label);
     html_markup(html,
@@ -279,34 +280,54 @@ static bool write_frame(const Frames *frames, const FrameImages *images, int32_t
                 view->U[row] * frames->force.x.factor, view->t[row],
                 view->si ? "\u202fs" : " <i>t</i><sub>0</sub>", view->mu[row]);
     html_markup(html, "</figure>\n");
-    return error_is_clean(err);
 }
 
 __attribute__((visibility("default"))) bool
 amontons_render_frames(const char *folder, HtmlWriter *html, RenderFrames *found, Error *err)
 {
     Frames frames = {0};
-    FrameImages images = {.source = &frames.source};
-    TRY(result_view_open(folder, &frames.view, err));
-    TRY(choose(folder, &frames, err));
+    ResultView *view = &frames.view;
+    TRY(result_view_open(folder, view, err));
+
+    // Which times: with some fields theirs, else those of steps.
+    frames.source = (BlockSource){.folder = folder, .view = view};
+    if (block_is_stored(folder)) TRY(block_source_open(&frames.source, err));
+    frames.fields = frames.source.count >= FIELDS_LEAST;
+    int64_t stored = frames.fields ? frames.source.count : view->rows;
+    if (stored > INT32_MAX) FAIL(err, ERROR_INPUT, "the history has too many steps for a page");
+    frames.stored = (int32_t)stored;
+    TRY(frames.rows = NEW_ARRAY(int64_t, stored, err));
+    for (int32_t k = 0; k < frames.stored; ++k)
+        frames.rows[k] = frames.fields ? frames.source.row[k] : k;
+    frames.count =
+        frames_choose(view, frames.rows, frames.stored, RENDER_FRAMES_MAX, frames.chosen);
+
     TRY(read_contact(&frames, err));
     TRY(fit_strips(&frames, err));
     frames.force = figure_force_axes(
-        &frames.view, 1, (Box){LEFT, FORCE_TOP, RIGHT, FORCE_TOP + FORCE_HEIGHT}, HEADROOM);
-    if (frames.fields) TRY(result_view_read_status(&frames.view, err));
-    if (frames.fields) TRY(frame_images_fit(&images, frames.chosen, frames.count, err));
+        view, 1, (Box){LEFT, FORCE_TOP, RIGHT, FORCE_TOP + FORCE_HEIGHT}, HEADROOM);
+    if (frames.fields) TRY(result_view_read_status(view, err));
+    if (frames.fields) TRY(fit_images(&frames, err));
     write_common(&frames, html);
-    html_markup(html, "<div class='frames' id='frames' data-first='%d'>\n", first_shown(&frames));
+
+    // A reader wants to see the last sliding first, where there is one.
+    double U = INFINITY;
+    int32_t first = 0;
+    for (int32_t e = 0; e < view->event_count; ++e)
+        if (view->events[e].kind == VIEW_LEADING) U = view->events[e].U_start;
+    while (first < frames.count && !(view->U[frames.rows[frames.chosen[first]]] >= U)) ++first;
+    html_markup(html, "<div class='frames' id='frames' data-first='%d'>\n",
+                first < frames.count ? first + 1 : 1);
     for (int32_t k = 0; k < frames.count && error_is_clean(err); ++k) {
-        write_frame(&frames, &images, k, html, err);
-        found->U[k] = frames.view.U[frames.rows[frames.chosen[k]]];
+        write_frame(&frames, k, html, err);
+        found->U[k] = view->U[frames.rows[frames.chosen[k]]];
         found->count = k + 1;
     }
     html_markup(html, "</div>\n");
     found->stored = frames.stored;
     found->fields = frames.fields;
 cleanup:
-    result_view_close(&frames.view);
+    result_view_close(view);
     block_source_close(&frames.source);
     memory_free_all(frames.rows, frames.x, frames.status);
     memory_free_list((void *const *)frames.y, STRIPS);

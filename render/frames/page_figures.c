@@ -142,25 +142,6 @@ typedef struct Curves {
     int32_t count;
 } Curves;
 
-// A history that cannot be drawn is left out, and the page says why.
-static bool add_curve(Curves *curves, const char *folder, const char *name, HtmlWriter *html,
-                      Error *err)
-{
-    ResultView *view = &curves->views[curves->count];
-    if (result_view_open(folder, view, err)) {
-        curves->names[curves->count++] = name;
-        return true;
-    }
-    if (err->code == ERROR_MEMORY || err->code == ERROR_LIBRARY) return false;
-    html_markup(html, "<p class='note'>");
-    html_text(html, name);
-    html_markup(html, " has no curve here: ");
-    html_text(html, err->message);
-    html_markup(html, "</p>\n");
-    error_clear(err);
-    return true;
-}
-
 __attribute__((visibility("default"))) bool amontons_render_curves(const char *const *folders,
                                                                    const char *const *names,
                                                                    int32_t count, HtmlWriter *html,
@@ -169,7 +150,21 @@ __attribute__((visibility("default"))) bool amontons_render_curves(const char *c
     Curves curves = {0};
     const ResultView *views = curves.views;
     *drawn = true;
-    for (int32_t k = 0; k < count; ++k) TRY(add_curve(&curves, folders[k], names[k], html, err));
+
+    // A history that cannot be drawn is left out, and the page says why.
+    for (int32_t k = 0; k < count; ++k) {
+        if (result_view_open(folders[k], &curves.views[curves.count], err)) {
+            curves.names[curves.count++] = names[k];
+            continue;
+        }
+        TRY(err->code != ERROR_MEMORY && err->code != ERROR_LIBRARY);
+        html_markup(html, "<p class='note'>");
+        html_text(html, names[k]);
+        html_markup(html, " has no curve here: ");
+        html_text(html, err->message);
+        html_markup(html, "</p>\n");
+        error_clear(err);
+    }
     for (int32_t k = 1; k < curves.count; ++k) *drawn = *drawn && views[k].si == views[0].si;
     if (!*drawn || curves.count == 0) goto cleanup;
     Axes axes = figure_force_axes(

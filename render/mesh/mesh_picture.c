@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A mesh as it is before anything is computed: its elements, the named curves in colours with their
-// names, the strip the rod pushes. Drawn to scale from the arrays handed in.
+// A mesh as it is before anything is computed, drawn to scale from the arrays handed in: its
+// elements, the named curves in colours with their names, the strip the rod pushes; in space in
+// perspective, its outside in the colours of its groups, and below it its contact once more.
 #include "render/render.h"
 
 #include "base/memory.h"
+#include "base/order.h"
 #include "render/canvas/key.h"
-#include "render/mesh/mesh_space.h"
 #include "render/figures/rod_mark.h"
+#include "render/view/camera.h"
+#include "render/view/outer_faces.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { REGIONS = 6, CONTACTS = 6 };
@@ -94,46 +98,6 @@ static double head_points(const RenderMesh *mesh)
     return 4 + HEAD_HEIGHT * ((mesh->title && mesh->title[0]) + (mesh->note && mesh->note[0]));
 }
 
-// Surfaces with a name.
-static int32_t region_count(const RenderMesh *mesh)
-{
-    int32_t count = 0;
-    for (int32_t g = 0; g < mesh->group_count; ++g)
-        count += mesh->groups[g].dimension == 2 && mesh->groups[g].element_count > 0;
-    return count;
-}
-
-// The picture's height over its width: to scale, but no more than SIDE_MAX.
-static double picture_shape(const RenderMesh *mesh)
-{
-    Axes axes = {0};
-    if (mesh->dim > 2) {
-        double broad = page_width(&mesh->style);
-        double tall = mesh_space_shape(mesh) * (broad - 2 * RIGHT) + key_line_height();
-        return fmin((tall + head_points(mesh) + 2 * RIGHT) / broad, SIDE_MAX);
-    }
-    choose_ranges(mesh, &axes);
-    double width = page_width(&mesh->style), key = region_count(mesh) > 1 ? key_line_height() : 0;
-    double frame = (width - LEFT - RIGHT) * frame_shape(&axes);
-    return fmin((frame + key + head_points(mesh) + axes_bottom_margin(&axes)) / width, SIDE_MAX);
-}
-
-// The largest frame of the block's shape that fits, in the middle.
-static void place_frame(MeshPage *map)
-{
-    const Page *page = map->page;
-    double point = page->point;
-    Axes *axes = &map->axes;
-    choose_ranges(map->mesh, axes);
-    double width = canvas_width(page->canvas) - (LEFT + RIGHT) * point;
-    double height = page->room.bottom - (head_points(map->mesh) + axes_bottom_margin(axes)) * point;
-    double shape = frame_shape(axes), narrow = fmin(width, height / shape);
-    axes->box.left = round(LEFT * point + (width - narrow) / 2);
-    axes->box.right = axes->box.left + round(narrow);
-    axes->box.top = round(head_points(map->mesh) * point);
-    axes->box.bottom = axes->box.top + round(narrow * shape);
-}
-
 // --- elements -----------------------------------------------------------------------------------
 
 // The outline [n] of an element, through the middles of its sides where it has them.
@@ -150,19 +114,16 @@ static int32_t element_outline(const MeshPage *map, int32_t e, Point *outline)
     return count;
 }
 
-// Fine meshes get thinner edges: a tenth of the typical element at most.
-static double edge_width(const MeshPage *map)
-{
-    const Box *box = &map->axes.box;
-    double area = (box->right - box->left) * (box->bottom - box->top);
-    return fmin(EDGE_WIDTH * map->page->point, 0.1 * sqrt(area / map->mesh->element_count));
-}
-
 static void draw_elements(const MeshPage *map)
 {
     Point outline[9];
     Canvas *canvas = map->page->canvas;
-    Stroke stroke = {.color = EDGE, .width = edge_width(map)};
+    const Box *box = &map->axes.box;
+
+    // Fine meshes get thinner edges: a tenth of the typical element at most.
+    double area = (box->right - box->left) * (box->bottom - box->top);
+    double width = 0.1 * sqrt(area / map->mesh->element_count);
+    Stroke stroke = {.color = EDGE, .width = fmin(EDGE_WIDTH * map->page->point, width)};
     for (int32_t e = 0; e < map->mesh->element_count; ++e)
         draw_polygon(canvas, REGION[0], outline, element_outline(map, e, outline));
     for (int32_t g = 0, region = 0; g < map->mesh->group_count; ++g) {
@@ -218,23 +179,6 @@ static const char *group_name(const MeshGroup *group, int32_t form, char name[GR
     return name;
 }
 
-// The longest form that fits below every contact: all are called alike.
-static int32_t choose_form(const MeshPage *map)
-{
-    const Page *page = map->page;
-    char name[GROUP_NAME_SIZE + 4];
-    int32_t form = 0;
-    for (int32_t g = 0; g < map->mesh->group_count; ++g) {
-        const MeshGroup *group = &map->mesh->groups[g];
-        if (group->dimension != 1 || group->face_count == 0 || !is_contact(group)) continue;
-        Box extent = curve_extent(map, group);
-        while (form < 2 && text_width(page->text, NUMBER_SIZE * page->point,
-                                      group_name(group, form, name)) > extent.right - extent.left)
-            ++form;
-    }
-    return form;
-}
-
 // Outside the mesh, beside the middle of the curve: below or above a level one, left or right of an
 // upright one.
 static void draw_name(const MeshPage *map, const MeshGroup *group, Color color, int32_t form)
@@ -263,34 +207,35 @@ static void draw_name(const MeshPage *map, const MeshGroup *group, Color color, 
 
 static void draw_groups(const MeshPage *map)
 {
-    int32_t contact = 0, form = choose_form(map);
+    const Page *page = map->page;
+    int32_t contact = 0, form = 0;
+
+    // All contacts are called alike, by the longest form that fits below each.
+    for (int32_t g = 0; g < map->mesh->group_count; ++g) {
+        const MeshGroup *group = &map->mesh->groups[g];
+        char name[GROUP_NAME_SIZE + 4];
+        if (group->dimension != 1 || group->face_count == 0 || !is_contact(group)) continue;
+        Box extent = curve_extent(map, group);
+        while (form < 2 && text_width(page->text, NUMBER_SIZE * page->point,
+                                      group_name(group, form, name)) > extent.right - extent.left)
+            ++form;
+    }
+
     for (int32_t g = 0; g < map->mesh->group_count; ++g) {
         const MeshGroup *group = &map->mesh->groups[g];
         if (group->dimension != 1 || group->face_count == 0) continue;
         Color color = group_color(group, contact);
         contact += is_contact(group);
-        Stroke stroke = {.color = color, .width = CURVE_WIDTH_NAMED * map->page->point};
+        Stroke stroke = {.color = color, .width = CURVE_WIDTH_NAMED * page->point};
         for (int32_t k = 0; k < group->face_count; ++k) {
             const int32_t *nodes = group->face_nodes + (int64_t)k * group->nodes_per_face;
             Point from = node_place(map, nodes[0]), to = node_place(map, nodes[1]);
             Point through = group->nodes_per_face == 3 ? node_place(map, nodes[2]) : to;
             const Point line[3] = {from, through, to};
-            draw_line(map->page->canvas, &stroke, line, 3);
+            draw_line(page->canvas, &stroke, line, 3);
         }
         draw_name(map, group, color, form);
     }
-}
-
-static void draw_rod(const MeshPage *map)
-{
-    const RenderMesh *mesh = map->mesh;
-    double face = INFINITY;
-    for (int32_t node = 0; node < mesh->node_count; ++node) {
-        const double *place = mesh->position + 2 * (int64_t)node;
-        if (rod_mark_pushes(mesh->rod_low, mesh->rod_high, place[1])) face = fmin(face, place[0]);
-    }
-    RodMark rod = {face, mesh->rod_low, mesh->rod_high, 1};
-    rod_mark_draw(map->page, &map->axes, &rod);
 }
 
 static void draw_head(const MeshPage *map)
@@ -305,6 +250,174 @@ static void draw_head(const MeshPage *map)
         text_draw_within(map->page->text, &style, (Point){map->axes.box.left, y}, room, lines[k]);
         y -= HEAD_HEIGHT * point;
     }
+}
+
+// --- in space -----------------------------------------------------------------------------------
+
+enum { GROUPS_MAX = 64 };   // more are drawn as if they had no name
+
+static const double ROUNDING = 1e-6;   // of heights, over the block's
+static const double NAME_MARGIN = 1.5;   // points of paper around a contact's name
+static const Color SPACE_EDGE = {0.40f, 0.43f, 0.48f, 1};
+static const Color PLAIN = {0.93f, 0.94f, 0.96f, 1};
+static const Color SHADE = {0.86f, 0.88f, 0.92f, 1};   // faces without a name that stand upright
+
+typedef struct SeenFace {
+    double nearness;   // the smaller the farther; first, for the order
+    Point corner[FACE_CORNERS_MAX];
+    int32_t corners;
+    Color color;
+} SeenFace;
+
+typedef struct MeshView {
+    const RenderMesh *mesh;
+    const Color *color;
+    Camera camera;
+    double drop;   // from the block to its contact as drawn, length
+    double low[2], high[2];   // what the camera sees, length
+    uint64_t *groups;   // [node_count] bits of those of surfaces that a node belongs to; owned
+} MeshView;
+
+static void see(const MeshView *view, int32_t node, bool below, double seen[3])
+{
+    double place[3];
+    memcpy(place, view->mesh->position + 3 * (int64_t)node, sizeof place);
+    if (below) place[2] -= view->drop;
+    camera_see(&view->camera, place, seen);
+}
+
+static MeshView view_of(const RenderMesh *mesh)
+{
+    MeshView view = {.mesh = mesh, .low = {INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY}};
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    for (int64_t k = 0; k < 3 * (int64_t)mesh->node_count; ++k) {
+        low[k % 3] = fmin(low[k % 3], mesh->position[k]);
+        high[k % 3] = fmax(high[k % 3], mesh->position[k]);
+    }
+    double floor = low[2] + ROUNDING * (high[2] - low[2]);
+    view.camera = camera_before(low, high);
+    view.drop = camera_drop(low, high);
+    for (int32_t node = 0; node < mesh->node_count; ++node)
+        for (int32_t below = 0; below < 2; ++below) {
+            double seen[3];
+            see(&view, node, below && mesh->position[3 * (int64_t)node + 2] <= floor, seen);
+            for (int32_t d = 0; d < 2; ++d) {
+                view.low[d] = fmin(view.low[d], seen[d]);
+                view.high[d] = fmax(view.high[d], seen[d]);
+            }
+        }
+    return view;
+}
+
+// The height over the width of what the camera sees.
+static double view_shape(const RenderMesh *mesh)
+{
+    MeshView view = view_of(mesh);
+    return (view.high[1] - view.low[1]) / (view.high[0] - view.low[0]);
+}
+
+// The group of surfaces that all corners belong to; -1: none does.
+static int32_t group_of(const MeshView *view, const int32_t *nodes, int32_t corners)
+{
+    uint64_t common = ~(uint64_t)0;
+    for (int32_t k = 0; k < corners; ++k) common &= view->groups[nodes[k]];
+    for (int32_t g = 0; g < GROUPS_MAX; ++g)
+        if (common >> g & 1) return g;
+    return -1;
+}
+
+// false: it looks away; `below` it is seen from above, whichever way it looks.
+static bool see_face(const MeshView *view, const Axes *axes, const int32_t *nodes, int32_t corners,
+                     bool below, SeenFace *face)
+{
+    double turned = 0;
+    *face = (SeenFace){.corners = corners};
+    for (int32_t k = 0; k < corners; ++k) {
+        double seen[3];
+        see(view, nodes[k], below, seen);
+        face->corner[k] = axes_place(axes, seen[0], seen[1]);
+        face->nearness -= seen[2] / corners;
+    }
+    for (int32_t k = 0; k < corners; ++k) {
+        const Point *a = &face->corner[k], *b = &face->corner[(k + 1) % corners];
+        turned += a->x * b->y - b->x * a->y;
+    }
+    int32_t group = group_of(view, nodes, corners);
+    const double *first = view->mesh->position + 3 * (int64_t)nodes[0];
+    const double *third = view->mesh->position + 3 * (int64_t)nodes[2];
+    face->color = group >= 0 ? view->color[group] : first[2] == third[2] ? PLAIN : SHADE;
+    if (below) face->nearness -= 1e6 * view->camera.distance;   // behind all else
+    return below || turned < 0;   // counter-clockwise from outside; y goes down on the page
+}
+
+// The outside of the mesh in `box`, in the colours of its groups of surfaces, [group_count]: faces
+// that look away are left out, the others drawn from the farthest to the nearest.
+static bool draw_outside(const RenderMesh *mesh, const Page *page, const Box *box,
+                         const Color *color, Error *err)
+{
+    ElementList elements = {mesh->element_count, mesh->kind, mesh->first_node, mesh->element_nodes};
+    MeshView view = view_of(mesh);
+    OuterFace *outer = NULL;
+    SeenFace *faces = NULL;
+    int32_t count = 0, seen = 0;
+    Axes axes = {.box = *box,
+                 .x = {.low = view.low[0], .high = view.high[0], .factor = 1},
+                 .y = {.low = view.low[1], .high = view.high[1], .factor = 1}};
+    view.color = color;
+
+    // Marks each node with the groups of surfaces that it belongs to.
+    TRY(view.groups = NEW_ARRAY(uint64_t, mesh->node_count, err));
+    for (int32_t g = 0; g < mesh->group_count && g < GROUPS_MAX; ++g) {
+        const MeshGroup *group = &mesh->groups[g];
+        if (group->dimension != 2) continue;
+        for (int32_t k = 0; k < group->nodes_per_face * group->face_count; ++k)
+            if (group->face_nodes[k] >= 0) view.groups[group->face_nodes[k]] |= (uint64_t)1 << g;
+    }
+
+    TRY(outer_faces(&elements, &outer, &count, err));
+    TRY(faces = NEW_ARRAY(SeenFace, 2 * (int64_t)count, err));
+    for (int32_t f = 0; f < count; ++f) {
+        int32_t nodes[FACE_NODES_MAX];
+        ElementKind kind;
+        outer_face_nodes(&elements, &outer[f], &kind, nodes);
+        int32_t corners = element_corner_count(kind), group = group_of(&view, nodes, corners);
+        seen += see_face(&view, &axes, nodes, corners, false, &faces[seen]);
+        if (group >= 0 && is_contact(&mesh->groups[group]))
+            seen += see_face(&view, &axes, nodes, corners, true, &faces[seen]);
+    }
+    Stroke edge = {.color = SPACE_EDGE, .width = EDGE_WIDTH * page->point};
+    qsort(faces, (size_t)seen, sizeof *faces, order_doubles);
+    for (int32_t f = 0; f < seen; ++f) {
+        draw_polygon(page->canvas, faces[f].color, faces[f].corner, faces[f].corners);
+        for (int32_t k = 0; k < faces[f].corners; ++k)
+            draw_segment(page->canvas, &edge, faces[f].corner[k],
+                         faces[f].corner[(k + 1) % faces[f].corners]);
+    }
+
+    // The name of each contact in its middle on the floor, as colours repeat.
+    TextStyle style = {.size = SMALL_SIZE * page->point, .color = INK, .across = 0.5, .up = 0.5};
+    for (int32_t g = 0; g < mesh->group_count; ++g) {
+        const MeshGroup *group = &mesh->groups[g];
+        int32_t nodes = group->nodes_per_face * group->face_count;
+        Point middle = {0, 0};
+        if (group->dimension != 2 || !is_contact(group) || group->face_count == 0) continue;
+        for (int32_t k = 0; k < nodes; ++k) {
+            double place[3];
+            see(&view, group->face_nodes[k], true, place);
+            Point at = axes_place(&axes, place[0], place[1]);
+            middle = (Point){middle.x + at.x / nodes, middle.y + at.y / nodes};
+        }
+        const char *number = strncmp(group->name, "contact_", 8) == 0 ? group->name + 8 : "";
+        const char *name = number[0] ? number : group->name;
+        double half = text_width(page->text, style.size, name) / 2 + NAME_MARGIN * page->point;
+        double up = style.size / 2 + NAME_MARGIN * page->point / 2;
+        draw_fill(page->canvas, PAPER,
+                  &(Box){middle.x - half, middle.y - up, middle.x + half, middle.y + up});
+        text_draw(page->text, &style, middle, name);
+    }
+cleanup:
+    memory_free_all(outer, faces, view.groups);
+    return error_is_clean(err);
 }
 
 // --- the module's third entry -------------------------------------------------------------------
@@ -326,14 +439,30 @@ static void draw_page(const RenderMesh *mesh, Page *page)
     }
     if (count > 1) key_draw(map.page, entries, count);
 
-    place_frame(&map);
+    // The largest frame of the block's shape that fits, in the middle.
+    double point = page->point;
+    Axes *axes = &map.axes;
+    choose_ranges(mesh, axes);
+    double width = canvas_width(page->canvas) - (LEFT + RIGHT) * point;
+    double height = page->room.bottom - (head_points(mesh) + axes_bottom_margin(axes)) * point;
+    double shape = frame_shape(axes), narrow = fmin(width, height / shape);
+    axes->box.left = round(LEFT * point + (width - narrow) / 2);
+    axes->box.right = axes->box.left + round(narrow);
+    axes->box.top = round(head_points(mesh) * point);
+    axes->box.bottom = axes->box.top + round(narrow * shape);
+
     canvas_clip(page->canvas, &map.axes.box);
     draw_elements(&map);
     draw_groups(&map);
-    draw_rod(&map);
+    RodMark rod = {INFINITY, mesh->rod_low, mesh->rod_high, 1};
+    for (int32_t node = 0; node < mesh->node_count; ++node) {
+        const double *place = mesh->position + 2 * (int64_t)node;
+        if (rod_mark_pushes(rod.low, rod.high, place[1])) rod.face = fmin(rod.face, place[0]);
+    }
+    rod_mark_draw(page, axes, &rod);
     canvas_clip(page->canvas, NULL);
     draw_head(&map);
-    axes_draw(page, &map.axes);
+    axes_draw(page, axes);
 }
 
 // Groups of surfaces in colours, which a key names unless they have their names on them; in the
@@ -360,12 +489,12 @@ static bool draw_space(const RenderMesh *mesh, Page *page, Error *err)
     MeshPage map = {.mesh = mesh, .page = page};
     double margin = RIGHT * page->point, width = canvas_width(page->canvas) - 2 * margin;
     double top = head_points(mesh) * page->point, height = page->room.bottom - margin - top;
-    double shape = mesh_space_shape(mesh), narrow = fmin(width, height / shape);
+    double shape = view_shape(mesh), narrow = fmin(width, height / shape);
     map.axes.box.left = margin + (width - narrow) / 2;
     map.axes.box.right = map.axes.box.left + narrow;
     map.axes.box.top = top;
     map.axes.box.bottom = top + narrow * shape;
-    bool done = mesh_space_draw(mesh, page, &map.axes.box, color, err);
+    bool done = draw_outside(mesh, page, &map.axes.box, color, err);
     map.axes.box.left = margin;
     draw_head(&map);
     memory_free(color);
@@ -378,7 +507,26 @@ __attribute__((visibility("default"))) bool amontons_render_mesh(const RenderMes
     Page page = {0};
     PictureStyle style = mesh->style;
     TRY(page_style_of_name(path, &style, err));
-    PageDef def = {.style = &style, .height = picture_shape(mesh)};
+
+    // The picture's height over its width: to scale, but no more than SIDE_MAX. A single surface
+    // needs no name.
+    double width = page_width(&style), height = 0;
+    if (mesh->dim > 2) {
+        height = view_shape(mesh) * (width - 2 * RIGHT) + key_line_height();
+        height += head_points(mesh);
+        height += 2 * RIGHT;
+    } else {
+        int32_t regions = 0;
+        Axes axes = {0};
+        choose_ranges(mesh, &axes);
+        for (int32_t g = 0; g < mesh->group_count; ++g)
+            regions += mesh->groups[g].dimension == 2 && mesh->groups[g].element_count > 0;
+        height = (width - LEFT - RIGHT) * frame_shape(&axes);
+        if (regions > 1) height += key_line_height();
+        height += head_points(mesh);
+        height += axes_bottom_margin(&axes);
+    }
+    PageDef def = {.style = &style, .height = fmin(height / width, SIDE_MAX)};
     TRY(page_begin(&page, &def, err));
     if (mesh->dim > 2)
         TRY(draw_space(mesh, &page, err));

@@ -1,61 +1,149 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// One frame, perhaps with an inset, or a page of frames (plot_grid); the legend where the file or
-// legend_place puts it.
+// A plot on its page: one frame, perhaps with an inset, or a page of frames with the same axes and
+// colours; the legend where the file or render/plot/legend.h puts it.
 #include "render/plot/figure_curves.h"
 
 #include "base/memory.h"
 #include "base/order.h"
 #include "render/picture_options.h"
+#include "render/plot/figure_map.h"
 #include "render/plot/legend.h"
-#include "render/plot/panel.h"
+#include "render/plot/marks.h"
 #include "render/plot/plot_compare.h"
 #include "render/plot/plot_file.h"
-#include "render/plot/plot_grid.h"
 #include "render/render.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-static const double RIGHT_MARGIN = 6, POWER_MARGIN = 9;   // points: half a number may stand there
-static const double BELOW_MARGIN = 6;   // points beside a legend below
+// --- one frame ----------------------------------------------------------------------------------
+
 static const double BAR_GAP = 6;   // points: frame to colour bar
-static const double INSET_SHARE = 0.75;   // marks and lines of an inset over the main ones
+static const double BAR_WIDTH = 0.5, BAR_CAP = 1.4;   // points: error bars, half their caps
 
-// From parts of the frame to pixels.
-static Box inset_place(const Plot *plot, const Box *frame)
+// Lines and bars are cut off at the frame. A NaN breaks a line; so does what a logarithmic axis
+// cannot show.
+static void series_draw(const Page *page, const Axes *axes, const PlotPanel *panel, double share)
 {
-    double width = frame->right - frame->left, height = frame->bottom - frame->top;
-    return (Box){.left = frame->left + plot->place[0] * width,
-                 .top = frame->top + plot->place[1] * height,
-                 .right = frame->left + plot->place[2] * width,
-                 .bottom = frame->top + plot->place[3] * height};
+    for (int32_t k = 0; k < panel->series_count; ++k) {
+        const PlotSeries *series = &panel->series[k];
+        Stroke stroke = mark_stroke(page, series, share);
+        if (series->line != LINE_NONE)
+            axes_curve(page, axes, &stroke, series->x, series->y, series->count);
+    }
+
+    // Error bars from low to high with caps: upright, or lying where the y axis has names.
+    bool lying = axes->y.names != NULL;
+    double cap_x = lying ? 0 : BAR_CAP * page->point, cap_y = lying ? BAR_CAP * page->point : 0;
+    canvas_clip(page->canvas, &axes->box);
+    for (int32_t k = 0; k < panel->series_count; ++k) {
+        const PlotSeries *series = &panel->series[k];
+        Stroke stroke = {.color = mark_color(series), .width = BAR_WIDTH * page->point};
+        for (int32_t i = 0; i < series->count; ++i) {
+            Point end[2];
+            if (!plot_bar_ends(axes, series, i, end)) continue;
+            draw_segment(page->canvas, &stroke, end[0], end[1]);
+            for (int32_t side = 0; side < 2; ++side)
+                draw_segment(page->canvas, &stroke,
+                             (Point){end[side].x - cap_x, end[side].y - cap_y},
+                             (Point){end[side].x + cap_x, end[side].y + cap_y});
+        }
+    }
+    canvas_clip(page->canvas, NULL);
+
+    // A mark on the frame is drawn whole, one beyond it not at all.
+    for (int32_t k = 0; k < panel->series_count; ++k) {
+        const PlotSeries *series = &panel->series[k];
+        for (int32_t i = 0; i < series->count; ++i) {
+            Point at = axes_place(axes, series->x[i], series->y[i]);
+            bool inside = at.x >= axes->box.left - 1 && at.x <= axes->box.right + 1 &&
+                          at.y >= axes->box.top - 1 && at.y <= axes->box.bottom + 1;
+            if (inside) mark_draw(page, series, at, share);
+        }
+    }
 }
 
-// The inset's frame is what is left of its place when its numbers and names have their room.
-static Axes inset_axes(const Page *page, const Plot *plot, const Box *frame)
+// A panel in the frame of `axes`, and over it `common`, what all panels show; NULL: nothing. The
+// maps lie below, then lines, then error bars, then marks. share: of the usual size of marks and
+// lines.
+static bool panel_draw(const Page *page, const PlotPanel *panel, const PlotPanel *common,
+                       const MapScale *scale, double share, const Axes *axes, Error *err)
 {
-    Axes axes = {
-        .box = inset_place(plot, frame), .x = plot->inset.x, .y = plot->inset.y, .small = true};
-    axes.box.left = round(axes.box.left + axes_left_margin(page, &axes) * page->point);
-    axes.box.bottom = round(axes.box.bottom - axes_bottom_margin(&axes) * page->point);
-    axes.box.right = round(axes.box.right);
-    axes.box.top = round(axes.box.top);
-    return axes;
-}
-
-// The inset covers what lies below it: its place is cleared to paper first.
-static bool inset_draw(const Page *page, const Plot *plot, const MapScale *scale, const Box *frame,
-                       Error *err)
-{
-    Axes axes = inset_axes(page, plot, frame);
-    Box place = inset_place(plot, frame);
-    PanelDef def = {.panel = &plot->inset, .scale = scale, .share = INSET_SHARE};
-    draw_fill(page->canvas, PAPER, &place);
-    Box legend = legend_settle(page, &plot->inset, INSET_SHARE, NULL, &axes);
-    if (!panel_draw(page, &def, &axes, err)) return false;
-    legend_draw(page, &axes, &plot->inset, &legend, INSET_SHARE);
+    if (panel->has_map && !figure_map(page, axes, panel, scale, err)) return false;
+    if (common && common->has_map && !figure_map(page, axes, common, scale, err)) return false;
+    series_draw(page, axes, panel, share);
+    if (common) series_draw(page, axes, common, share);
+    axes_draw(page, axes);
     return true;
 }
+
+// --- a page of frames ---------------------------------------------------------------------------
+
+static const double BETWEEN = 7;   // points between frames side by side
+static const double TITLE_HEIGHT = 13.5, TITLE_DROP = 3;   // points: above each frame; its baseline
+static const double LAST_MARGIN = 9;   // points: beside the last frame
+static const double PANEL_SHARE = 0.8;   // marks and lines of a panel over those of one frame
+static const double WIDTH_OF[] = {86, 130, 178, 178};   // mm, of so many columns: a journal's sizes
+static const double BESIDE = 0.24, ABOVE = 0.16;   // of the page's width: axis, bar; names, legend
+
+static int32_t column_count(int32_t panels)
+{
+    if (panels <= 3) return panels;
+    if (panels == 4) return 2;
+    return panels <= 9 ? 3 : 4;
+}
+
+// Small multiples: the panels in rows and columns above the legend. Numbers stand at the left and
+// below the lowest.
+static bool panels_draw(const Page *page, const Plot *plot, const Box *below, Error *err)
+{
+    MapScale scale = map_scale_fit(plot);
+    Axes axes = {.x = plot->main.x, .y = plot->main.y};
+    double point = page->point, right = LAST_MARGIN;
+    int32_t columns = column_count(plot->panel_count);
+    int32_t rows = (plot->panel_count + columns - 1) / columns;
+    bool has_map = plot->main.has_map;
+    for (int32_t k = 0; k < plot->panel_count; k++) has_map = has_map || plot->panels[k].has_map;
+    if (has_map) right = BAR_GAP + colorbar_width(page, &scale.bar);
+
+    // Place of the first frame and size of all, pixels.
+    axes.box.bottom = (below->top - page->room.top) / 2;   // where ticks are counted
+    double left = round(axes_left_margin(page, &axes) * point);
+    double top = page->room.top + TITLE_HEIGHT * point;
+    double wide = canvas_width(page->canvas) - right * point - left;
+    double high = below->top - axes_bottom_margin(&axes) * point - page->room.top;
+    double width = floor((wide - (columns - 1) * BETWEEN * point) / columns);
+    double height = floor(high / rows - TITLE_HEIGHT * point);
+    if (width < 2 * BETWEEN * point || height < 2 * BETWEEN * point)
+        return REFUSE(err, "the page is too small for %d panels", plot->panel_count);
+
+    TextStyle style = {.size = NUMBER_SIZE * point, .color = INK, .across = 0.5};
+    Box all = {0};   // the first line's last frame, down to the last line
+    for (int32_t k = 0; k < plot->panel_count; k++) {
+        int32_t line = k / columns, column = k % columns;
+        axes.box.left = round(left + (width + BETWEEN * point) * column);
+        axes.box.top = round(top + (height + TITLE_HEIGHT * point) * line);
+        axes.box.right = axes.box.left + width;
+        axes.box.bottom = axes.box.top + height;
+        axes.bare_x = k + columns < plot->panel_count;
+        axes.bare_y = column > 0;
+        if (!panel_draw(page, &plot->panels[k], &plot->main, &scale, PANEL_SHARE, &axes, err))
+            return false;
+        Point above = {(axes.box.left + axes.box.right) / 2, axes.box.top - TITLE_DROP * point};
+        text_draw(page->text, &style, above, plot->panels[k].title);
+        if (k == columns - 1) all = axes.box;
+        all.bottom = axes.box.bottom;
+    }
+    if (has_map) colorbar_draw(page, &scale.bar, &all, BAR_GAP);
+    return true;
+}
+
+// --- the page -----------------------------------------------------------------------------------
+
+static const double RIGHT_MARGIN = 6, POWER_MARGIN = 9;   // points: half a number may stand there
+static const double BELOW_MARGIN = 6;   // points beside a legend below
+static const double FRAME_LEAST = 10;   // points: width beside a legend
+static const double INSET_SHARE = 0.75;   // marks and lines of an inset over the main ones
 
 // The frame above `bottom`, with room for what stands beside it.
 static Axes frame_axes(const Page *page, const Plot *plot, const MapScale *scale, double bottom)
@@ -69,63 +157,62 @@ static Axes frame_axes(const Page *page, const Plot *plot, const MapScale *scale
     return axes;
 }
 
-// axes: from frame_axes, narrowed by a legend beside them.
-static bool one_frame(const Page *page, const Plot *plot, Axes *axes, bool legend_is_elsewhere,
-                      Error *err)
+// From parts of the frame to pixels.
+static Box inset_place(const Plot *plot, const Box *frame)
 {
-    MapScale scale = map_scale_fit(plot);
-    PanelDef def = {.panel = &plot->main, .scale = &scale, .share = 1};
+    double width = frame->right - frame->left, height = frame->bottom - frame->top;
+    return (Box){.left = frame->left + plot->place[0] * width,
+                 .top = frame->top + plot->place[1] * height,
+                 .right = frame->left + plot->place[2] * width,
+                 .bottom = frame->top + plot->place[3] * height};
+}
+
+// A plot of one frame. axes: from frame_axes, narrowed by a legend beside them; legend_is_below: it
+// stands elsewhere.
+static bool frame_draw(const Page *page, const Plot *plot, const MapScale *scale, Axes *axes,
+                       bool legend_is_below, Error *err)
+{
     Box place = inset_place(plot, &axes->box), legend = {0};
-    if (!legend_is_elsewhere)
+    if (!legend_is_below)
         legend = legend_settle(page, &plot->main, 1, plot->has_inset ? &place : NULL, axes);
-    if (!panel_draw(page, &def, axes, err)) return false;
+    if (axes->box.right - axes->box.left < FRAME_LEAST * page->point)
+        return REFUSE(err,
+                      "the page is too narrow for its legend beside the frame: give it another "
+                      "width, or its legend another place");
+    if (!panel_draw(page, &plot->main, NULL, scale, 1, axes, err)) return false;
     legend_draw(page, axes, &plot->main, &legend, 1);
-    if (plot->main.has_map) colorbar_draw(page, &scale.bar, &axes->box, BAR_GAP);
-    if (plot->has_inset && !inset_draw(page, plot, &scale, &axes->box, err)) return false;
+    if (plot->main.has_map) colorbar_draw(page, &scale->bar, &axes->box, BAR_GAP);
+    if (!plot->has_inset) return true;
+
+    // The inset covers what lies below it: its place is cleared to paper first. Its frame is what
+    // is left of that when its numbers and names have their room.
+    place = inset_place(plot, &axes->box);
+    Axes inset = {.box = place, .x = plot->inset.x, .y = plot->inset.y, .small = true};
+    inset.box.left = round(place.left + axes_left_margin(page, &inset) * page->point);
+    inset.box.bottom = round(place.bottom - axes_bottom_margin(&inset) * page->point);
+    inset.box.right = round(place.right);
+    inset.box.top = round(place.top);
+    draw_fill(page->canvas, PAPER, &place);
+    legend = legend_settle(page, &plot->inset, INSET_SHARE, NULL, &inset);
+    if (!panel_draw(page, &plot->inset, NULL, scale, INSET_SHARE, &inset, err)) return false;
+    legend_draw(page, &inset, &plot->inset, &legend, INSET_SHARE);
     return true;
 }
 
-bool figure_curves(const Page *page, const Plot *plot, Error *err)
+// Puts the ends of the colours where the style asks for them.
+static bool limit_colors(Plot *plot, const PictureStyle *style, Error *err)
 {
-    double margin = BELOW_MARGIN * page->point, bottom = page->room.bottom;
-    MapScale scale = map_scale_fit(plot);
-    Axes axes = frame_axes(page, plot, &scale, bottom);
-    Box below = {margin, bottom, canvas_width(page->canvas) - margin, bottom};
-    bool is_below = legend_is_below(page, plot, &axes);
-    if (is_below) {
-        below.top -= round(legend_below_height(page, &plot->main, &below));
-        axes = frame_axes(page, plot, &scale, below.top);
-    }
-    if (!(plot->panel_count > 0 ? plot_grid_draw(page, plot, &below, err)
-                                : one_frame(page, plot, &axes, is_below, err)))
-        return false;
-    if (is_below) legend_below_draw(page, &plot->main, &below);
-    return true;
-}
-
-static bool sort_values(const Plot *plot, double **sorted, int64_t *count, Error *err)
-{
-    int64_t all = plot->main.map.count;
-    *count = 0;
+    double *sorted = NULL, *end[2] = {&plot->color.low, &plot->color.high};
+    int64_t count = 0, all = plot->main.map.count;
+    if (!style->limits) return true;
     for (int32_t k = 0; k < plot->panel_count; k++) all += plot->panels[k].map.count;
-    if (!(*sorted = NEW_ARRAY(double, all, err))) return false;
+    TRY(sorted = NEW_ARRAY(double, all, err));
     for (int32_t k = -1; k < plot->panel_count; k++) {
         const PlotMap *map = k < 0 ? &plot->main.map : &plot->panels[k].map;
         for (int32_t i = 0; i < map->count; i++)
-            if (isfinite(map->value[i])) (*sorted)[(*count)++] = map->value[i];
+            if (isfinite(map->value[i])) sorted[count++] = map->value[i];
     }
-    qsort(*sorted, (size_t)*count, sizeof **sorted, order_doubles);
-    return true;
-}
-
-// Legend and ends of the colours as the style asks.
-static bool take_style(Plot *plot, const PictureStyle *style, Error *err)
-{
-    double *sorted = NULL, *end[2] = {&plot->color.low, &plot->color.high};
-    int64_t count = 0;
-    if (style->legend) plot->main.legend = plot_corner_find(style->legend);
-    if (!style->limits) return true;
-    TRY(sort_values(plot, &sorted, &count, err));
+    qsort(sorted, (size_t)count, sizeof *sorted, order_doubles);
     for (int32_t k = 0; k < 2 && count > 0; k++) {
         bool is_part = false;
         double limit = picture_limit(style, k, &is_part);
@@ -139,16 +226,36 @@ cleanup:
 
 bool figure_plot(Page *page, Plot *plot, const PictureStyle *style, const char *title, Error *err)
 {
+    // The style, and the size of the page.
     PictureStyle used = *style;
-    double width = 0;
     picture_style_complete(&used, &plot->style);
     PageDef def = {.style = &used, .title = page_title(&used, title, true)};
     def.height = page_shape(&used, plot->height_over_width);
-    if (plot->panel_count > 0) plot_grid_size(plot, &def.height, &width);
-    if (!(used.width > 0) && !used.style) used.width = width;
-    if (!take_style(plot, &used, err)) return false;
+    if (plot->panel_count > 0) {
+        int32_t columns = column_count(plot->panel_count);
+        int32_t rows = (plot->panel_count + columns - 1) / columns;
+        def.height = rows * plot->height_over_width * (1 - BESIDE) / columns + ABOVE;
+        if (!(used.width > 0) && !used.style) used.width = WIDTH_OF[columns - 1];
+    }
+    if (used.legend) plot->main.legend = plot_corner_find(used.legend);
+    if (!limit_colors(plot, &used, err)) return false;
     if (used.compare && !plot_compare(plot, used.compare, err)) return false;
-    return page_begin(page, &def, err) && figure_curves(page, plot, err);
+    if (!page_begin(page, &def, err)) return false;
+
+    // The frames, above a legend in lines below them.
+    double margin = BELOW_MARGIN * page->point, bottom = page->room.bottom;
+    MapScale scale = map_scale_fit(plot);
+    Axes axes = frame_axes(page, plot, &scale, bottom);
+    Box below = {margin, bottom, canvas_width(page->canvas) - margin, bottom};
+    bool is_below = legend_is_below(page, plot, &axes);
+    if (is_below) {
+        below.top -= round(legend_below_height(page, &plot->main, &below));
+        axes = frame_axes(page, plot, &scale, below.top);
+    }
+    bool drawn = plot->panel_count > 0 ? panels_draw(page, plot, &below, err)
+                                       : frame_draw(page, plot, &scale, &axes, is_below, err);
+    if (drawn && is_below) legend_below_draw(page, &plot->main, &below);
+    return drawn;
 }
 
 // The module's second entry: one plot from its description to its file.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Draws a plot read by plot_file. Called by figure_plot and
-// page_figures.
+// Draws a plot read by plot_file. Called by page_figures.
 #ifndef AMONTONS_RENDER_PLOT_FIGURE_CURVES_H
 #define AMONTONS_RENDER_PLOT_FIGURE_CURVES_H
 
@@ -9,7 +8,5 @@
 // Begins the page, as high as the plot asks for, and draws. A style without a width gets one that
 // suits. title: NULL is fine.
 bool figure_plot(Page *page, Plot *plot, const PictureStyle *style, const char *title, Error *err);
-
-bool figure_curves(const Page *page, const Plot *plot, Error *err);
 
 #endif

@@ -66,59 +66,39 @@ static void edges_place(const Axis *axis, const double *edges, int32_t count, do
         placed[k] = (float)(length * (edges[k] - low) / (high - low));
 }
 
-// Two triangles a cell, all corners of its value. x, y: of the edges.
-static int64_t grid_corners(const MapDrawing *drawing, const float *x, const float *y,
-                            GlCorner *corners)
+// Two triangles a cell, all corners of its value; in a file of shapes each cell is a shape of its
+// own.
+static bool grid_draw(const MapDrawing *drawing, Error *err)
 {
     static const uint8_t order[6][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};
     const MapGrid *grid = &drawing->grid;
-    int64_t count = 0;
-    for (int64_t k = 0; k < (int64_t)grid->rows * grid->columns; k++) {
-        int32_t point = grid->point[k], column = (int32_t)(k % grid->columns);
-        int32_t row = (int32_t)(k / grid->columns);
+    const Box *box = &drawing->axes->box;
+    Canvas *canvas = drawing->page->canvas;
+    int64_t cells = (int64_t)grid->rows * grid->columns, count = 0;
+    bool shapes = canvas_is_vector(canvas) && cells <= VECTOR_MOST;
+    float *x = NULL;
+    GlCorner *corners = NULL;
+    TRY(x = NEW_ARRAY(float, (int64_t)grid->columns + grid->rows + 2, err));
+    TRY(corners = NEW_ARRAY(GlCorner, 6 * cells, err));
+    float *y = x + grid->columns + 1;
+    double height = box->bottom - box->top;
+    edges_place(&drawing->axes->x, grid->x, grid->columns + 1, box->right - box->left, x);
+    edges_place(&drawing->axes->y, grid->y, grid->rows + 1, height, y);
+    for (int32_t k = 0; k <= grid->rows; k++) y[k] = (float)height - y[k];
+    for (int64_t k = 0; k < cells; k++) {
+        int32_t row = (int32_t)(k / grid->columns), column = (int32_t)(k % grid->columns);
+        int32_t point = grid->point[k];
         if (point < 0 || !isfinite(drawing->map->value[point])) continue;
         float value = color_value(drawing, point);
+        Box cell = {box->left + (double)x[column], box->top + (double)y[row + 1],
+                    box->left + (double)x[column + 1], box->top + (double)y[row]};
+        if (shapes) canvas_heat_cell(canvas, &cell, value);
         for (int32_t i = 0; i < 6; i++)
             corners[count++] = (GlCorner){x[column + order[i][0]], y[row + order[i][1]], value};
     }
-    return count;
-}
-
-// Each cell a shape of its own, in a file of shapes.
-static void cells_draw(const MapDrawing *drawing, const float *x, const float *y)
-{
-    const MapGrid *grid = &drawing->grid;
-    const Box *box = &drawing->axes->box;
-    for (int32_t k = 0; k < grid->rows * grid->columns; k++) {
-        int32_t point = grid->point[k], row = k / grid->columns, column = k % grid->columns;
-        if (point < 0 || !isfinite(drawing->map->value[point])) continue;
-        Box cell = {box->left + (double)x[column], box->top + (double)y[row + 1],
-                    box->left + (double)x[column + 1], box->top + (double)y[row]};
-        canvas_heat_cell(drawing->page->canvas, &cell, color_value(drawing, point));
-    }
-}
-
-static bool grid_draw(const MapDrawing *drawing, Error *err)
-{
-    const MapGrid *grid = &drawing->grid;
-    const Box *box = &drawing->axes->box;
-    float *edges = NULL;
-    GlCorner *corners = NULL;
-    TRY(edges = NEW_ARRAY(float, (int64_t)grid->columns + grid->rows + 2, err));
-    TRY(corners = NEW_ARRAY(GlCorner, 6 * (int64_t)grid->rows * grid->columns, err));
-    float *y = edges + grid->columns + 1;
-    double height = box->bottom - box->top;
-    edges_place(&drawing->axes->x, grid->x, grid->columns + 1, box->right - box->left, edges);
-    edges_place(&drawing->axes->y, grid->y, grid->rows + 1, height, y);
-    for (int32_t k = 0; k <= grid->rows; k++) y[k] = (float)height - y[k];
-    if (canvas_is_vector(drawing->page->canvas) && grid->rows * grid->columns <= VECTOR_MOST) {
-        cells_draw(drawing, edges, y);
-    } else {
-        int64_t count = grid_corners(drawing, edges, y, corners);
-        canvas_heat_triangles(drawing->page->canvas, box, corners, count);
-    }
+    if (!shapes) canvas_heat_triangles(canvas, box, corners, count);
 cleanup:
-    memory_free_all(edges, corners);
+    memory_free_all(x, corners);
     return error_is_clean(err);
 }
 
@@ -157,31 +137,6 @@ static double point_distance(const MapDrawing *drawing)
 
 // --- lines --------------------------------------------------------------------------------------
 
-// Where lines are sought: the points and triangles of the map, or of its grid made finer.
-typedef struct LineField {
-    const double *value;
-    const Point *place;
-    const MapTriangles *triangles;
-} LineField;
-
-// Where the level crosses a triangle: 2 points, or none (false).
-static bool cross_triangle(const LineField *field, const int32_t corner[3], double level,
-                           Point crossing[3])
-{
-    const double *value = field->value;
-    int32_t found = 0;
-    for (int32_t k = 0; k < 3; k++) {
-        double a = value[corner[k]], b = value[corner[(k + 1) % 3]];
-        Point from = field->place[corner[k]], to = field->place[corner[(k + 1) % 3]];
-        if (!isfinite(a + b)) return false;
-        if ((a < level) == (b < level)) continue;
-        double part = (level - a) / (b - a);
-        crossing[found++] =
-            (Point){from.x + part * (to.x - from.x), from.y + part * (to.y - from.y)};
-    }
-    return found == 2;
-}
-
 static double least_distance(Point at, const Point *others, int32_t count)
 {
     double least = INFINITY;
@@ -190,33 +145,27 @@ static double least_distance(Point at, const Point *others, int32_t count)
     return least;
 }
 
-// How well a number stands there: its distance to the frame and to other numbers; little where it
-// hides the mark of a point.
-static double label_worth(const MapDrawing *drawing, Point at, const Point *labels, int32_t count)
-{
-    const Box *frame = &drawing->axes->box;
-    double worth = fmin(fmin(at.x - frame->left, frame->right - at.x),
-                        fmin(at.y - frame->top, frame->bottom - at.y));
-    worth = fmin(worth, least_distance(at, labels, count));
-    bool hides = drawing->map->count <= MARKS_MINDED &&
-                 least_distance(at, drawing->place, drawing->map->count) <
-                     LABEL_CLEARANCE * drawing->page->point;
-    return hides ? HIDING_WORTH * worth : worth;
-}
-
-// The level's number where it is farthest from other numbers and the frame; none where all of the
-// line is near. pieces: [count] as draw_line takes them. labels: [*labelled] places of others.
+// The level's number where it stands best, far from other numbers and the frame, and not where it
+// hides the mark of a point; none where all of the line is near. pieces: [count] as draw_line takes
+// them. labels: [*labelled] places of others.
 static void level_label(const MapDrawing *drawing, double level, const Point *pieces, int64_t count,
                         Point *labels, int32_t *labelled)
 {
     const Page *page = drawing->page;
+    const PlotMap *map = drawing->map;
+    const Box *frame = &drawing->axes->box;
     TextStyle style = {.size = SMALL_SIZE * page->point, .color = INK, .across = 0.5, .up = 0.5};
     double best = LABEL_DISTANCE * page->point;
     Point place = {NAN, NAN};
     char words[TICK_LABEL_SIZE];
     for (int64_t k = 0; k + 1 < count; k += 3) {
         Point at = {(pieces[k].x + pieces[k + 1].x) / 2, (pieces[k].y + pieces[k + 1].y) / 2};
-        double worth = label_worth(drawing, at, labels, *labelled);
+        double worth = fmin(fmin(at.x - frame->left, frame->right - at.x),
+                            fmin(at.y - frame->top, frame->bottom - at.y));
+        worth = fmin(worth, least_distance(at, labels, *labelled));
+        if (map->count <= MARKS_MINDED &&
+            least_distance(at, drawing->place, map->count) < LABEL_CLEARANCE * page->point)
+            worth *= HIDING_WORTH;
         if (worth > best) place = at;
         best = fmax(best, worth);
     }
@@ -231,60 +180,71 @@ static void level_label(const MapDrawing *drawing, double level, const Point *pi
     labels[(*labelled)++] = place;
 }
 
-static bool levels_draw(const MapDrawing *drawing, const LineField *field, Error *err)
-{
-    const Axis *range = &drawing->scale->contours;
-    Ticks ticks = ticks_choose(range->low, range->high, LEVELS_WANTED);
-    Point labels[LEVELS_WANTED + 1];
-    int32_t labelled = 0;
-    Point *pieces = NEW_ARRAY(Point, 3 * (int64_t)field->triangles->count + 3, err);
-    if (!pieces) return false;
-    for (int32_t t = 0; t < ticks.count; t++) {
-        double level = tick_value(&ticks, t), slack = LEVEL_INSIDE * (range->high - range->low);
-        int64_t count = 0;
-        if (level < range->low + slack || level > range->high - slack) continue;
-        for (int64_t k = 0; k < field->triangles->count; k++) {
-            const int32_t *corner = field->triangles->points + 3 * k;
-            if (!cross_triangle(field, corner, level, pieces + count)) continue;
-            pieces[count + 2] = (Point){NAN, NAN};
-            count += 3;
-        }
-
-        // Dark on a pale band, to be seen on every colour.
-        const Page *page = drawing->page;
-        Stroke halo = {.color = HALO, .width = HALO_WIDTH * page->point};
-        Stroke line = {.color = INK, .width = CONTOUR_WIDTH * page->point};
-        draw_line(page->canvas, &halo, pieces, count);
-        draw_line(page->canvas, &line, pieces, count);
-
-        level_label(drawing, level, pieces, count, labels, &labelled);
-    }
-    memory_free(pieces);
-    return true;
-}
-
-// Cells that are wide in print are made finer first.
+// Lines where the contours' quantity has handy values, dark on a pale band, to be seen on every
+// colour. They are sought in the triangles of the map's points, or where cells are wide in print in
+// those of its grid made finer.
 static bool contours_draw(const MapDrawing *drawing, Error *err)
 {
+    const Page *page = drawing->page;
     const MapGrid *grid = &drawing->grid;
     const double *values = drawing->map->contour;
+    const Point *places = drawing->place;
+    const MapTriangles *triangles = &drawing->triangles;
     double *medians = NULL;
+    Point *pieces = NULL;
     SmoothGrid smooth = {0};
     if (drawing->map->count > MAP_MANY && grid->columns > 0) {
         TRY(values = medians = NEW_ARRAY(double, drawing->map->count, err));
         map_medians(grid, drawing->map->contour, medians);
     }
-    LineField field = {values, drawing->place, &drawing->triangles};
     double cell = grid->columns > 0 ? point_distance(drawing) : 0;
-    int32_t parts = (int32_t)fmin(ceil(cell / (FINE_CELL * drawing->page->point)), PARTS_MOST);
+    int32_t parts = (int32_t)fmin(ceil(cell / (FINE_CELL * page->point)), PARTS_MOST);
     if (parts > 1 && grid->columns > 1 && grid->rows > 1) {
         TRY(map_smooth(grid, values, drawing->place, parts, &smooth, err));
-        field = (LineField){smooth.value, smooth.place, &smooth.triangles};
+        values = smooth.value;
+        places = smooth.place;
+        triangles = &smooth.triangles;
     }
-    TRY(levels_draw(drawing, &field, err));
+
+    const Axis *range = &drawing->scale->contours;
+    double slack = LEVEL_INSIDE * (range->high - range->low);
+    Ticks ticks = ticks_choose(range->low, range->high, LEVELS_WANTED);
+    Point labels[LEVELS_WANTED + 1];
+    int32_t labelled = 0;
+    Stroke halo = {.color = HALO, .width = HALO_WIDTH * page->point};
+    Stroke line = {.color = INK, .width = CONTOUR_WIDTH * page->point};
+    TRY(pieces = NEW_ARRAY(Point, 3 * (int64_t)triangles->count + 3, err));
+    for (int32_t t = 0; t < ticks.count; t++) {
+        double level = tick_value(&ticks, t);
+        int64_t count = 0;
+        if (level < range->low + slack || level > range->high - slack) continue;
+
+        // Where the level crosses a triangle, at two of its sides.
+        for (int64_t k = 0; k < triangles->count; k++) {
+            const int32_t *corner = triangles->points + 3 * k;
+            Point *crossing = pieces + count;
+            int32_t found = 0;
+            if (!isfinite(values[corner[0]] + values[corner[1]] + values[corner[2]])) continue;
+            for (int32_t i = 0; i < 3; i++) {
+                int32_t from = corner[i], to = corner[(i + 1) % 3];
+                double a = values[from], b = values[to];
+                if ((a < level) == (b < level)) continue;
+                double part = (level - a) / (b - a);
+                crossing[found++] =
+                    (Point){places[from].x + part * (places[to].x - places[from].x),
+                            places[from].y + part * (places[to].y - places[from].y)};
+            }
+            if (found != 2) continue;
+            crossing[2] = (Point){NAN, NAN};
+            count += 3;
+        }
+        draw_line(page->canvas, &halo, pieces, count);
+        draw_line(page->canvas, &line, pieces, count);
+        level_label(drawing, level, pieces, count, labels, &labelled);
+    }
 cleanup:
     smooth_destroy(&smooth);
-    memory_free(medians);
+    memory_free_all(medians, pieces);
     return error_is_clean(err);
 }
 
@@ -345,33 +305,23 @@ static void points_draw(const MapDrawing *drawing)
     }
 }
 
-static bool find_shape(MapDrawing *drawing, Error *err)
-{
-    const PlotMap *map = drawing->map;
-    const Axes *axes = drawing->axes;
-    if (!map_grid_find(map, axes->x.is_log, axes->y.is_log, &drawing->grid, err)) return false;
-    if (!(drawing->place = NEW_ARRAY(Point, map->count, err))) return false;
-    for (int32_t k = 0; k < map->count; k++)
-        drawing->place[k] = axes_place(axes, map->x[k], map->y[k]);
-    bool joined = drawing->grid.columns == 0 || map->contour;
-    if (joined)
-        if (!map_triangles_find(&drawing->grid, drawing->place, map->count, &drawing->triangles,
-                                err))
-            return false;
-    return true;
-}
-
 bool figure_map(const Page *page, const Axes *axes, const PlotPanel *panel, const MapScale *scale,
                 Error *err)
 {
     MapDrawing drawing = {.page = page, .axes = axes, .map = &panel->map, .scale = scale};
-    TRY(find_shape(&drawing, err));
+    const PlotMap *map = &panel->map;
+    TRY(map_grid_find(map, axes->x.is_log, axes->y.is_log, &drawing.grid, err));
+    TRY(drawing.place = NEW_ARRAY(Point, map->count, err));
+    for (int32_t k = 0; k < map->count; k++)
+        drawing.place[k] = axes_place(axes, map->x[k], map->y[k]);
+    if (drawing.grid.columns == 0 || map->contour)
+        TRY(map_triangles_find(&drawing.grid, drawing.place, map->count, &drawing.triangles, err));
     if (drawing.grid.columns > 0)
         TRY(grid_draw(&drawing, err));
     else
         TRY(triangles_draw(&drawing, err));
     canvas_clip(page->canvas, &axes->box);
-    if (panel->map.contour) TRY(contours_draw(&drawing, err));
+    if (map->contour) TRY(contours_draw(&drawing, err));
     points_draw(&drawing);
 cleanup:
     canvas_clip(page->canvas, NULL);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The map of a plot's panel: values in colours, lines at equal values of something else, marks at
-// the points. Called by figure_curves, plot_grid and
-// panel.
+// the points. Called by figure_curves.
 #ifndef AMONTONS_RENDER_PLOT_FIGURE_MAP_H
 #define AMONTONS_RENDER_PLOT_FIGURE_MAP_H
 

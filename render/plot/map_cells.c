@@ -3,10 +3,14 @@
 
 #include "base/memory.h"
 #include "base/order.h"
-#include "render/plot/triangulate.h"
+
+#include <libqhull_r/libqhull_r.h>
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
+
+enum { POINTS_MIN = 3, DIMENSIONS = 2 };
 
 static const double SAME = 1e-9;   // of the range: values nearer than this are one
 static const double TAKEN_LEAST = 0.5;   // of a grid's places
@@ -54,57 +58,48 @@ static int32_t nearest_line(const double *lines, int32_t count, double value)
     return low;
 }
 
-// From [count] lines to [count + 1] edges in the same array.
-static void lines_to_edges(double *lines, int32_t count)
-{
-    if (count == 1) {
-        double half = LONE_WIDTH / 2;
-        lines[1] = lines[0] + half;
-        lines[0] -= half;
-        return;
-    }
-    double first = lines[0] - (lines[1] - lines[0]) / 2;
-    double last = lines[count - 1] + (lines[count - 1] - lines[count - 2]) / 2;
-    for (int32_t k = count - 1; k > 0; k--) lines[k] = (lines[k - 1] + lines[k]) / 2;
-    lines[0] = first;
-    lines[count] = last;
-}
-
-// false: two points at one place, or no memory.
-static bool fill_cells(const PlotMap *map, const bool is_log[2], MapGrid *grid, Error *err)
-{
-    int64_t places = (int64_t)grid->columns * grid->rows;
-    if (!(grid->point = NEW_ARRAY(int32_t, places, err))) return false;
-    for (int64_t k = 0; k < places; k++) grid->point[k] = -1;
-    for (int32_t k = 0; k < map->count; k++) {
-        double x = scaled(map->x[k], is_log[0]), y = scaled(map->y[k], is_log[1]);
-        if (!isfinite(x) || !isfinite(y)) continue;
-        int32_t *cell = &grid->point[(int64_t)nearest_line(grid->y, grid->rows, y) * grid->columns +
-                                     nearest_line(grid->x, grid->columns, x)];
-        if (*cell >= 0) return false;
-        *cell = k;
-    }
-    return true;
-}
-
 bool map_grid_find(const PlotMap *map, bool x_is_log, bool y_is_log, MapGrid *grid, Error *err)
 {
-    const bool is_log[2] = {x_is_log, y_is_log};
     *grid = (MapGrid){0};
     int32_t columns = find_lines(map->x, map->count, x_is_log, &grid->x, err);
-    if (!(columns >= 0)) return false;
+    if (columns < 0) return false;
     int32_t rows = find_lines(map->y, map->count, y_is_log, &grid->y, err);
-    if (!(rows >= 0)) return false;
+    if (rows < 0) return false;
     grid->columns = columns;
     grid->rows = rows;
-    bool full = columns > 0 && map->count >= TAKEN_LEAST * columns * rows &&
-                fill_cells(map, is_log, grid, err);
-    if (!error_is_clean(err)) return false;
-    if (full) {
-        lines_to_edges(grid->x, columns);
-        lines_to_edges(grid->y, rows);
-    } else {
+
+    // Each point has a cell to itself, and most cells a point.
+    int64_t places = (int64_t)columns * rows;
+    bool is_grid = columns > 0 && map->count >= TAKEN_LEAST * columns * rows;
+    if (is_grid && !(grid->point = NEW_ARRAY(int32_t, places, err))) return false;
+    for (int64_t k = 0; is_grid && k < places; k++) grid->point[k] = -1;
+    for (int32_t k = 0; is_grid && k < map->count; k++) {
+        double x = scaled(map->x[k], x_is_log), y = scaled(map->y[k], y_is_log);
+        if (!isfinite(x) || !isfinite(y)) continue;
+        int32_t *cell = &grid->point[(int64_t)nearest_line(grid->y, rows, y) * columns +
+                                     nearest_line(grid->x, columns, x)];
+        is_grid = *cell < 0;
+        *cell = k;
+    }
+    if (!is_grid) {
         map_grid_destroy(grid);
+        return true;
+    }
+
+    // From [count] lines to [count + 1] edges in the same array.
+    for (int32_t d = 0; d < 2; d++) {
+        double *lines = d ? grid->y : grid->x, half = LONE_WIDTH / 2;
+        int32_t count = d ? rows : columns;
+        if (count == 1) {
+            lines[1] = lines[0] + half;
+            lines[0] -= half;
+            continue;
+        }
+        double first = lines[0] - (lines[1] - lines[0]) / 2;
+        double last = lines[count - 1] + (lines[count - 1] - lines[count - 2]) / 2;
+        for (int32_t k = count - 1; k > 0; k--) lines[k] = (lines[k - 1] + lines[k]) / 2;
+        lines[0] = first;
+        lines[count] = last;
     }
     return true;
 }
@@ -113,6 +108,83 @@ void map_grid_destroy(MapGrid *grid)
 {
     memory_free_all(grid->x, grid->y, grid->point);
     *grid = (MapGrid){0};
+}
+
+// --- Delaunay's triangles, by Qhull --------------------------------------------------------------
+
+// Facets of the paraboloid's lower side, cut into triangles (Qt) where points lie on one circle.
+static bool take_triangles(qhT *qh, const int32_t *index, int32_t **corners, int32_t *triangles,
+                           Error *err)
+{
+    int64_t count = 0;
+    facetT *facet;
+    FORALLfacets
+    {
+        if (facet->upperdelaunay) continue;
+        count++;
+    }
+    if (!(*corners = NEW_ARRAY(int32_t, 3 * count + 1, err))) return false;
+    FORALLfacets
+    {
+        vertexT *vertex, **vertexp;
+        int32_t k = 0;
+        if (facet->upperdelaunay) continue;
+        FOREACHvertex_(facet->vertices)
+        {
+            int32_t point = qh_pointid(qh, vertex->point);
+            if (k < 3) (*corners)[3 * *triangles + k++] = index[point];
+        }
+        *triangles += k == 3;
+    }
+    return true;
+}
+
+// Qhull changes none of `places`. What it says of a flat set of points is not passed on.
+static bool hull_make(double *places, const int32_t *index, int32_t count, int32_t **corners,
+                      int32_t *triangles, Error *err)
+{
+    // Qbb scales the last coordinate, Qc Qz: points on one circle; Q12: allows wide facets.
+    char options[] = "qhull d Qt Qbb Qc Qz Q12";
+    int left = 0, bytes = 0;
+    qhT hull;
+    FILE *ignored = fopen("/dev/null", "w");
+    if (!ignored) FAIL(err, ERROR_FILE, "cannot open /dev/null");
+    qh_zero(&hull, ignored);
+    int status = qh_new_qhull(&hull, DIMENSIONS, count, places, False, options, NULL, ignored);
+    bool flat = status == qh_ERRsingular || status == qh_ERRinput;
+    if (status == 0)
+        take_triangles(&hull, index, corners, triangles, err);
+    else if (!flat)
+        error_set(err, ERROR_LIBRARY, __FILE__, __LINE__,
+                  "Qhull cannot join the points of a map (its error %d)", status);
+    qh_freeqhull(&hull, qh_ALL);
+    qh_memfreeshort(&hull, &left, &bytes);
+cleanup:
+    if (ignored) fclose(ignored);
+    return error_is_clean(err);
+}
+
+// By Qhull (Barber, Dobkin and Huhdanpaa, ACM Trans. Math. Softw. 22, 1996). Joins points; those
+// that are not finite are in no triangle, and where all lie on one line there is none.
+static bool triangulate(const Point *points, int32_t count, MapTriangles *triangles, Error *err)
+{
+    int32_t kept = 0;
+    double *places = NULL;
+    int32_t *index = NULL;
+    TRY(places = NEW_ARRAY(double, DIMENSIONS *(int64_t)count, err));
+    TRY(index = NEW_ARRAY(int32_t, (int64_t)count + 1, err));
+    for (int32_t k = 0; k < count; k++) {
+        if (!isfinite(points[k].x) || !isfinite(points[k].y)) continue;
+        places[DIMENSIONS * kept] = points[k].x;
+        places[DIMENSIONS * kept + 1] = points[k].y;
+        index[kept++] = k;
+    }
+    if (kept >= POINTS_MIN)
+        TRY(hull_make(places, index, kept, &triangles->points, &triangles->count, err));
+    if (!triangles->points) TRY(triangles->points = NEW_ARRAY(int32_t, 1, err));
+cleanup:
+    memory_free_all(places, index);
+    return error_is_clean(err);
 }
 
 // --- triangles ----------------------------------------------------------------------------------
@@ -135,22 +207,13 @@ static bool grid_triangles(const MapGrid *grid, MapTriangles *triangles, Error *
     return true;
 }
 
-static double longest_side(const Point *place, const int32_t corner[3])
+// Leaves out triangles that span a gap: a side is far longer than the geometric mean of those that
+// end in its corners; a few long ones change that little.
+static bool drop_long(const Point *place, int32_t count, MapTriangles *triangles, Error *err)
 {
-    double longest = 0;
-    for (int32_t k = 0; k < 3; k++) {
-        Point a = place[corner[k]], b = place[corner[(k + 1) % 3]];
-        longest = fmax(longest, hypot(b.x - a.x, b.y - a.y));
-    }
-    return longest;
-}
-
-// Into near[point]: the geometric mean of its triangles' sides; a few long ones change it little.
-static bool find_near(const Point *place, int32_t count, const MapTriangles *triangles,
-                      double *near, Error *err)
-{
-    int32_t *sides = NEW_ARRAY(int32_t, count, err);
-    if (!sides) return false;
+    int32_t kept = 0, *sides = NEW_ARRAY(int32_t, count, err);
+    double *near = NEW_ARRAY(double, (int64_t)count + 1, err);
+    TRY(sides && near);
     for (int32_t k = 0; k < 3 * triangles->count; k++) {
         int32_t a = triangles->points[k], b = triangles->points[k % 3 == 2 ? k - 2 : k + 1];
         double length = log(hypot(place[b].x - place[a].x, place[b].y - place[a].y));
@@ -160,27 +223,20 @@ static bool find_near(const Point *place, int32_t count, const MapTriangles *tri
         sides[b]++;
     }
     for (int32_t k = 0; k < count; k++) near[k] = exp(near[k] / sides[k]);
-    memory_free(sides);
-    return true;
-}
-
-// Leaves out triangles that span a gap.
-static bool drop_long(const Point *place, int32_t count, MapTriangles *triangles, Error *err)
-{
-    int32_t kept = 0;
-    double *near = NEW_ARRAY(double, (int64_t)count + 1, err);
-    TRY(near);
-    TRY(find_near(place, count, triangles, near, err));
     for (int32_t k = 0; k < triangles->count; k++) {
         const int32_t *corner = triangles->points + 3 * k;
-        double usual = fmax(near[corner[0]], fmax(near[corner[1]], near[corner[2]]));
-        if (longest_side(place, corner) > SIDE_MAX * usual) continue;
+        double usual = fmax(near[corner[0]], fmax(near[corner[1]], near[corner[2]])), longest = 0;
+        for (int32_t i = 0; i < 3; i++) {
+            Point a = place[corner[i]], b = place[corner[(i + 1) % 3]];
+            longest = fmax(longest, hypot(b.x - a.x, b.y - a.y));
+        }
+        if (longest > SIDE_MAX * usual) continue;
         for (int32_t i = 0; i < 3; i++) triangles->points[3 * kept + i] = corner[i];
         kept++;
     }
     triangles->count = kept;
 cleanup:
-    memory_free(near);
+    memory_free_all(sides, near);
     return error_is_clean(err);
 }
 
@@ -189,8 +245,7 @@ bool map_triangles_find(const MapGrid *grid, const Point *place, int32_t count,
 {
     *triangles = (MapTriangles){0};
     if (grid->columns > 0) return grid_triangles(grid, triangles, err);
-    return triangulate(place, count, &triangles->points, &triangles->count, err) &&
-           drop_long(place, count, triangles, err);
+    return triangulate(place, count, triangles, err) && drop_long(place, count, triangles, err);
 }
 
 void map_triangles_destroy(MapTriangles *triangles)

@@ -61,64 +61,49 @@ static double fine_line(const double *lines, int32_t count, int32_t parts, int32
     return lines[at] + (double)(k % parts) / parts * (lines[next] - lines[at]);
 }
 
-// First along each row, then along each finer column. x, y: lines of the grid; half: [rows * finer
-// columns], from: [columns, or rows], to: [finer rows], all work.
-static void smooth_both(const MapGrid *grid, const double *values, int32_t parts, double *work,
-                        SmoothGrid *smooth)
+bool map_smooth(const MapGrid *grid, const double *values, const Point *place, int32_t parts,
+                SmoothGrid *smooth, Error *err)
 {
-    const double *x = work, *y = x + grid->columns;
-    double *half = work + grid->columns + grid->rows;
-    double *from = half + (int64_t)grid->rows * smooth->columns;
-    double *to = from + grid->columns + grid->rows;
+    double *work = NULL;
+    int32_t columns = (grid->columns - 1) * parts + 1, rows = (grid->rows - 1) * parts + 1;
+    MapGrid cells = {.columns = columns, .rows = rows};   // each finer point in one of its own
+    int64_t count = (int64_t)columns * rows, lines = grid->columns + grid->rows;
+    *smooth = (SmoothGrid){.columns = columns, .rows = rows};
+    TRY(smooth->place = NEW_ARRAY(Point, count, err));
+    TRY(smooth->value = NEW_ARRAY(double, count, err));
+    TRY(work = NEW_ARRAY(double, 2 * lines + (int64_t)grid->rows * columns + rows, err));
+    double *x = work, *y = x + grid->columns;   // lines of the grid
+    double *half = y + grid->rows;   // [grid->rows * columns] finer along x alone
+    double *from = half + (int64_t)grid->rows * columns;   // [columns, or rows, of the grid]
+    double *to = from + lines;   // [rows]
+    find_lines(grid, place, true, x);
+    find_lines(grid, place, false, y);
+
+    // First along each row, then along each finer column.
     for (int32_t row = 0; row < grid->rows; ++row) {
         for (int32_t k = 0; k < grid->columns; ++k) {
             int32_t point = grid->point[row * grid->columns + k];
             from[k] = point < 0 ? NAN : values[point];
         }
-        line_smooth(x, from, grid->columns, parts, half + (int64_t)row * smooth->columns);
+        line_smooth(x, from, grid->columns, parts, half + (int64_t)row * columns);
     }
-    for (int32_t column = 0; column < smooth->columns; ++column) {
+    for (int32_t column = 0; column < columns; ++column) {
         for (int32_t row = 0; row < grid->rows; ++row)
-            from[row] = half[(int64_t)row * smooth->columns + column];
+            from[row] = half[(int64_t)row * columns + column];
         line_smooth(y, from, grid->rows, parts, to);
-        for (int32_t row = 0; row < smooth->rows; ++row) {
-            int64_t k = (int64_t)row * smooth->columns + column;
+        for (int32_t row = 0; row < rows; ++row) {
+            int64_t k = (int64_t)row * columns + column;
             smooth->value[k] = to[row];
             smooth->place[k] = (Point){fine_line(x, grid->columns, parts, column),
                                        -fine_line(y, grid->rows, parts, row)};
         }
     }
-}
 
-// Each point of the finer grid is a cell of its own.
-static bool find_triangles(SmoothGrid *smooth, Error *err)
-{
-    int64_t count = (int64_t)smooth->columns * smooth->rows;
-    MapGrid cells = {.columns = smooth->columns, .rows = smooth->rows};
-    if (!(cells.point = NEW_ARRAY(int32_t, count, err))) return false;
+    TRY(cells.point = NEW_ARRAY(int32_t, count, err));
     for (int32_t k = 0; k < count; ++k) cells.point[k] = k;
-    bool found = map_triangles_find(&cells, smooth->place, (int32_t)count, &smooth->triangles, err);
-    memory_free(cells.point);
-    return found;
-}
-
-bool map_smooth(const MapGrid *grid, const double *values, const Point *place, int32_t parts,
-                SmoothGrid *smooth, Error *err)
-{
-    double *work = NULL;
-    *smooth = (SmoothGrid){.columns = (grid->columns - 1) * parts + 1,
-                           .rows = (grid->rows - 1) * parts + 1};
-    int64_t count = (int64_t)smooth->columns * smooth->rows, lines = grid->columns + grid->rows;
-    TRY(smooth->place = NEW_ARRAY(Point, count, err));
-    TRY(smooth->value = NEW_ARRAY(double, count, err));
-    TRY(work = NEW_ARRAY(double, 2 * lines + (int64_t)grid->rows * smooth->columns + smooth->rows,
-                         err));
-    find_lines(grid, place, true, work);
-    find_lines(grid, place, false, work + grid->columns);
-    smooth_both(grid, values, parts, work, smooth);
-    TRY(find_triangles(smooth, err));
+    TRY(map_triangles_find(&cells, smooth->place, (int32_t)count, &smooth->triangles, err));
 cleanup:
-    memory_free(work);
+    memory_free_all(work, cells.point);
     if (!error_is_clean(err)) smooth_destroy(smooth);
     return error_is_clean(err);
 }

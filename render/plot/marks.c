@@ -14,6 +14,16 @@ static const Color COLORS[PLOT_COLORS] = {{0.08f, 0.08f, 0.10f, 1}, {0.00f, 0.29
                                           {0.47f, 0.19f, 0.48f, 1}, {0.78f, 0.68f, 0.10f, 1},
                                           {0.07f, 0.77f, 0.97f, 1}, {0.50f, 0.50f, 0.52f, 1}};
 
+bool plot_bar_ends(const Axes *axes, const PlotSeries *series, int32_t k, Point end[2])
+{
+    bool lying = axes->y.names != NULL;
+    if (!series->low || !series->high) return false;
+    double low = series->low[k], high = series->high[k];
+    end[0] = lying ? axes_place(axes, low, series->y[k]) : axes_place(axes, series->x[k], low);
+    end[1] = lying ? axes_place(axes, high, series->y[k]) : axes_place(axes, series->x[k], high);
+    return isfinite(end[0].x + end[0].y + end[1].x + end[1].y);
+}
+
 // Sizes are chosen so that circle, square and triangle cover the same area: none looks heavier.
 static void marker_shape(Canvas *canvas, PlotMarker marker, Color color, Point at, double radius)
 {

@@ -28,7 +28,7 @@ typedef enum PlotMarker {
 typedef enum PlotLine { LINE_NONE, LINE_SOLID, LINE_THIN, LINE_DASHED } PlotLine;
 
 typedef enum PlotCorner {
-    CORNER_AUTO,   // render/plot/legend_place.h chooses
+    CORNER_AUTO,   // render/plot/legend.h chooses
     CORNER_NONE,
     CORNER_UPPER_RIGHT,
     CORNER_UPPER_LEFT,
@@ -85,11 +85,5 @@ typedef struct Plot {
     double *computed;   // [count] at main's last series, which is measured; NULL: nothing is; owned
     double place[4];   // of the inset in the frame: left, top, right, bottom; 0 to 1
 } Plot;
-
-void plot_destroy(Plot *plot);   // zeroed is fine
-
-// Where the error bar of point k begins and ends on the picture: upright, or lying where the y axis
-// has names. false: it has none, or one that the axes cannot show.
-bool plot_bar_ends(const Axes *axes, const PlotSeries *series, int32_t k, Point end[2]);
 
 #endif

@@ -93,39 +93,7 @@ static double computed_at(const PlotSeries *curve, const Axis *axis, double x)
     return NAN;
 }
 
-static bool find_computed(Plot *plot, PlotSeries *curve, const PlotSeries *series, Error *err)
-{
-    if (!curve) return true;
-    if (!curve->label[0]) snprintf(curve->label, sizeof curve->label, "computed");
-    if (!(plot->computed = NEW_ARRAY(double, series->count, err))) return false;
-    for (int32_t k = 0; k < series->count; ++k)
-        plot->computed[k] = computed_at(curve, &plot->main.x, series->x[k]);
-    return true;
-}
-
-static void label(const Plot *plot, const char *path, PlotSeries *series)
-{
-    const char *slash = strrchr(path, '/');
-    double sum = 0, parts = 0;
-    int32_t count = 0;
-    int length = snprintf(series->label, sizeof series->label, "%.40s", slash ? slash + 1 : path);
-    for (int32_t k = 0; plot->computed && k < series->count; ++k) {
-        double away = series->y[k] - plot->computed[k];
-        double error = (series->high[k] - series->low[k]) / 2;
-        if (!isfinite(away)) continue;
-        sum += away * away;
-        parts += away * away / (error * error);
-        ++count;
-    }
-    if (count == 0) return;
-    length += snprintf(series->label + length, sizeof series->label - (size_t)length,
-                       ": misfit %.3g", sqrt(sum / count));
-    if (isfinite(parts))
-        snprintf(series->label + length, sizeof series->label - (size_t)length,
-                 ", %.3g of its errors", sqrt(parts / count));
-}
-
-// The ends were those of what was computed.
+// Widens an axis to values outside of it.
 static void widen(Axis *axis, const double *values, int32_t count)
 {
     double low = on_axis(axis, axis->low), high = on_axis(axis, axis->high);
@@ -154,8 +122,34 @@ bool plot_compare(Plot *plot, const char *path, Error *err)
     plot->main.series_count++;
     *series = (PlotSeries){.marker = MARKER_CROSS, .filled = true, .line = LINE_NONE};
     TRY(read_points(plot, &table, series, err));
-    TRY(find_computed(plot, curve, series, err));
-    label(plot, path, series);
+
+    // Name of the file and misfit, where there is one curve.
+    const char *slash = strrchr(path, '/');
+    int length = snprintf(series->label, sizeof series->label, "%.40s", slash ? slash + 1 : path);
+    if (curve) {
+        double sum = 0, parts = 0;
+        int32_t count = 0;
+        if (!curve->label[0]) snprintf(curve->label, sizeof curve->label, "computed");
+        TRY(plot->computed = NEW_ARRAY(double, series->count, err));
+        for (int32_t k = 0; k < series->count; ++k) {
+            plot->computed[k] = computed_at(curve, &plot->main.x, series->x[k]);
+            double away = series->y[k] - plot->computed[k];
+            double error = (series->high[k] - series->low[k]) / 2;
+            if (!isfinite(away)) continue;
+            sum += away * away;
+            parts += away * away / (error * error);
+            ++count;
+        }
+        size_t room = sizeof series->label;
+        if (count > 0)
+            length += snprintf(series->label + length, room - (size_t)length, ": misfit %.3g",
+                               sqrt(sum / count));
+        if (count > 0 && isfinite(parts))
+            snprintf(series->label + length, room - (size_t)length, ", %.3g of its errors",
+                     sqrt(parts / count));
+    }
+
+    // The ends of the axes were those of what was computed.
     widen(&plot->main.x, series->x, series->count);
     widen(&plot->main.y, series->y, series->count);
     widen(&plot->main.y, series->low, series->count);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The file is read key by key; what is given twice, unknown or of the wrong kind is refused with
-// its place. Ends of the axes that the file leaves open are found last, from all series.
+// its place. Ends of the axes that the file leaves open are found last: a little beyond the data of
+// all panels, and at the outer edges of a map's cells.
 #include "render/plot/plot_file.h"
 
 #include "base/memory.h"
 #include "render/picture_options.h"
-#include "render/plot/plot_fit.h"
+#include "render/plot/map_cells.h"
 #include "render/plot/plot_reader.h"
 
 #include <math.h>
@@ -56,21 +57,6 @@ static bool read_series(const PlotReader *reader, YamlNode map, PlotSeries *seri
     return true;
 }
 
-// Reads the names that stand at y = 1, 2, ...
-static bool read_names(const PlotReader *reader, YamlNode list, PlotPanel *panel)
-{
-    int32_t count = yaml_count(reader->file, list), k = 0;
-    if (yaml_kind(reader->file, list) != YAML_LIST || count == 0 || count > PLOT_NAMES_MAX)
-        return plot_refuse(reader, list, "names", "a list of at most 100 texts");
-    panel->names = memory_array(count, sizeof *panel->names, reader->err);
-    if (!panel->names) return false;
-    YAML_EACH (item, reader->file, list)
-        snprintf(panel->names[k++], AXIS_LABEL_SIZE, "%s", yaml_text(reader->file, item));
-    panel->y.names = (const char(*)[AXIS_LABEL_SIZE])panel->names;
-    panel->y.name_count = count;
-    return true;
-}
-
 // known: as in check_keys.
 static bool read_axis(const PlotReader *reader, YamlNode panel, const char *name, const char *known,
                       Axis *axis)
@@ -95,42 +81,26 @@ static bool read_axis(const PlotReader *reader, YamlNode panel, const char *name
                                "[low, high], rising, and above 0 on a logarithmic axis");
 }
 
-// --- the whole ----------------------------------------------------------------------------------
-
-// An axis with a unit of its own has its prefix; its ends are known.
-static bool read_unit(const PlotReader *reader, YamlNode panel, const char *name, Axis *axis)
-{
-    char unit[UNIT_SIZE] = "", label[AXIS_LABEL_SIZE];
-    YamlNode map = plot_child(reader, panel, name);
-    if (map == YAML_NO_NODE) return true;
-    if (!plot_read_text(reader, map, "unit", unit, sizeof unit)) return false;
-    snprintf(label, sizeof label, "%s", axis->label);
-    if (unit[0]) axis_set_unit(axis, label, unit);
-    return true;
-}
-
-static bool read_map(const PlotReader *reader, YamlNode node, PlotPanel *panel)
-{
-    PlotMap *map = &panel->map;
-    if (!plot_check_keys(reader, node, "map", "x y value contour open ")) return false;
-    panel->has_map = true;
-    map->count = -1;
-    if (!plot_read_array(reader, node, "x", &map->count, &map->x) ||
-        !plot_read_array(reader, node, "y", &map->count, &map->y) ||
-        !plot_read_array(reader, node, "value", &map->count, &map->value) ||
-        !plot_read_array(reader, node, "contour", &map->count, &map->contour) ||
-        !plot_read_array(reader, node, "open", &map->count, &map->open))
-        return false;
-    if (map->x && map->y && map->value) return true;
-    yaml_error(reader->file, node, reader->err, "a map needs its `x`, `y` and `value`");
-    return false;
-}
-
 // Reads the data of a panel; each part may be missing.
 static bool read_data(const PlotReader *reader, YamlNode map, PlotPanel *panel)
 {
     YamlNode list = plot_child(reader, map, "series"), colors = plot_child(reader, map, "map");
-    if (colors != YAML_NO_NODE && !read_map(reader, colors, panel)) return false;
+    if (colors != YAML_NO_NODE) {
+        PlotMap *data = &panel->map;
+        if (!plot_check_keys(reader, colors, "map", "x y value contour open ")) return false;
+        panel->has_map = true;
+        data->count = -1;
+        if (!plot_read_array(reader, colors, "x", &data->count, &data->x) ||
+            !plot_read_array(reader, colors, "y", &data->count, &data->y) ||
+            !plot_read_array(reader, colors, "value", &data->count, &data->value) ||
+            !plot_read_array(reader, colors, "contour", &data->count, &data->contour) ||
+            !plot_read_array(reader, colors, "open", &data->count, &data->open))
+            return false;
+        if (!data->x || !data->y || !data->value) {
+            yaml_error(reader->file, colors, reader->err, "a map needs its `x`, `y` and `value`");
+            return false;
+        }
+    }
     if (list == YAML_NO_NODE) return true;
     if (yaml_kind(reader->file, list) != YAML_LIST ||
         yaml_count(reader->file, list) > PLOT_SERIES_MAX)
@@ -150,7 +120,18 @@ static bool read_panel(const PlotReader *reader, YamlNode map, PlotPanel *panel)
         return false;
     YamlNode y = plot_child(reader, map, "y");
     YamlNode names = y == YAML_NO_NODE ? y : plot_child(reader, y, "names");
-    if (names != YAML_NO_NODE && !read_names(reader, names, panel)) return false;
+    if (names != YAML_NO_NODE) {
+        // They stand at y = 1, 2, ...
+        int32_t count = yaml_count(reader->file, names), k = 0;
+        if (yaml_kind(reader->file, names) != YAML_LIST || count == 0 || count > PLOT_NAMES_MAX)
+            return plot_refuse(reader, names, "names", "a list of at most 100 texts");
+        panel->names = memory_array(count, sizeof *panel->names, reader->err);
+        if (!panel->names) return false;
+        YAML_EACH (item, reader->file, names)
+            snprintf(panel->names[k++], AXIS_LABEL_SIZE, "%s", yaml_text(reader->file, item));
+        panel->y.names = (const char(*)[AXIS_LABEL_SIZE])panel->names;
+        panel->y.name_count = count;
+    }
     panel->legend = (PlotCorner)corner;
     bool shows = plot_child(reader, map, "series") != YAML_NO_NODE ||
                  plot_child(reader, map, "map") != YAML_NO_NODE ||
@@ -199,35 +180,6 @@ static bool read_inset(const PlotReader *reader, YamlNode map, Plot *plot)
     return read_panel(reader, map, &plot->inset);
 }
 
-static bool read_height(const PlotReader *reader, Plot *plot)
-{
-    YamlNode height = plot_child(reader, YAML_ROOT, "height");
-    plot->height_over_width = HEIGHT_STANDARD;
-    if (height == YAML_NO_NODE) return true;
-    if (!plot_read_number(reader, height, "height", &plot->height_over_width)) return false;
-    bool good = plot->height_over_width >= 0.3 && plot->height_over_width <= 3;
-    return good || plot_refuse(reader, height, "height", "a number from 0.3 to 3");
-}
-
-// The scale of maps: of values and of lines.
-static bool read_scales(const PlotReader *reader, Plot *plot)
-{
-    return read_axis(reader, YAML_ROOT, "color", "label unit range ", &plot->color) &&
-           read_axis(reader, YAML_ROOT, "contours", "label unit ", &plot->contours);
-}
-
-// The names of columns are asked of the plot as a whole: panels share its axes.
-static bool read_columns(const PlotReader *reader, Plot *plot)
-{
-    static const char *const axes[2] = {"x", "y"};
-    for (int32_t k = 0; k < 2; ++k) {
-        YamlNode axis = plot_child(reader, YAML_ROOT, axes[k]);
-        if (axis == YAML_NO_NODE) continue;
-        if (!plot_read_text(reader, axis, "column", plot->column[k], PLOT_LABEL_SIZE)) return false;
-    }
-    return true;
-}
-
 // Options as the command has them; those that it is given go before these.
 static bool read_page(const PlotReader *reader, Plot *plot)
 {
@@ -265,15 +217,128 @@ static bool read_plot(const PlotReader *reader, Plot *plot)
 {
     static const char known[] =
         "title height x y color contours legend series map panels inset page ";
-    if (!plot_check_keys(reader, YAML_ROOT, "plot", known) ||
-        !plot_read_text(reader, YAML_ROOT, "title", plot->title, sizeof plot->title) ||
-        !read_height(reader, plot) || !read_scales(reader, plot) || !read_page(reader, plot))
-        return false;
+    static const char *const axes[2] = {"x", "y"};
+    YamlNode height = plot_child(reader, YAML_ROOT, "height");
     YamlNode inset = plot_child(reader, YAML_ROOT, "inset");
     YamlNode panels = plot_child(reader, YAML_ROOT, "panels");
-    return read_panel(reader, YAML_ROOT, &plot->main) &&
-           (panels == YAML_NO_NODE || read_panels(reader, panels, plot)) &&
-           read_columns(reader, plot) && (inset == YAML_NO_NODE || read_inset(reader, inset, plot));
+    if (!plot_check_keys(reader, YAML_ROOT, "plot", known) ||
+        !plot_read_text(reader, YAML_ROOT, "title", plot->title, sizeof plot->title))
+        return false;
+    plot->height_over_width = HEIGHT_STANDARD;
+    if (height != YAML_NO_NODE) {
+        if (!plot_read_number(reader, height, "height", &plot->height_over_width)) return false;
+        if (!(plot->height_over_width >= 0.3 && plot->height_over_width <= 3))
+            return plot_refuse(reader, height, "height", "a number from 0.3 to 3");
+    }
+    if (!read_axis(reader, YAML_ROOT, "color", "label unit range ", &plot->color) ||
+        !read_axis(reader, YAML_ROOT, "contours", "label unit ", &plot->contours) ||
+        !read_page(reader, plot) || !read_panel(reader, YAML_ROOT, &plot->main))
+        return false;
+    if (panels != YAML_NO_NODE && !read_panels(reader, panels, plot)) return false;
+
+    // The names of columns are asked of the plot as a whole: panels share its axes.
+    for (int32_t k = 0; k < 2; ++k) {
+        YamlNode axis = plot_child(reader, YAML_ROOT, axes[k]);
+        if (axis != YAML_NO_NODE &&
+            !plot_read_text(reader, axis, "column", plot->column[k], PLOT_LABEL_SIZE))
+            return false;
+    }
+    return inset == YAML_NO_NODE || read_inset(reader, inset, plot);
+}
+
+// --- ends of the axes ---------------------------------------------------------------------------
+
+static const double MARGIN = 0.05;   // of the data's range, beside the data
+
+// Range of data in the scale of an axis: logarithms on a logarithmic one.
+typedef struct Ends {
+    double low, high;   // of marks and lines: a margin goes beside them
+    double edge_low, edge_high;   // of cells: none
+} Ends;
+
+// NaN and what the axis cannot show are left out.
+static void widen(const Axis *axis, const double *values, int32_t count, Ends *ends)
+{
+    for (int32_t k = 0; values && k < count; k++) {
+        if (!isfinite(values[k]) || (axis->is_log && values[k] <= 0)) continue;
+        double value = axis->is_log ? log10(values[k]) : values[k];
+        ends->low = fmin(ends->low, value);
+        ends->high = fmax(ends->high, value);
+    }
+}
+
+// axes: x and y, of which one is looked for.
+static bool widen_by_panel(const PlotPanel *panel, const Axis axes[2], int32_t which, Ends *ends,
+                           Error *err)
+{
+    const PlotMap *map = &panel->map;
+    bool has_bars = which == (axes[1].names ? 0 : 1);
+    for (int32_t k = 0; k < panel->series_count; k++) {
+        const PlotSeries *series = &panel->series[k];
+        widen(&axes[which], which ? series->y : series->x, series->count, ends);
+        if (has_bars) widen(&axes[which], series->low, series->count, ends);
+        if (has_bars) widen(&axes[which], series->high, series->count, ends);
+    }
+    if (!panel->has_map) return true;
+    MapGrid grid = {0};
+    bool done = map_grid_find(map, axes[0].is_log, axes[1].is_log, &grid, err);
+    if (done && grid.columns > 0) {
+        ends->edge_low = fmin(ends->edge_low, which ? grid.y[0] : grid.x[0]);
+        ends->edge_high = fmax(ends->edge_high, which ? grid.y[grid.rows] : grid.x[grid.columns]);
+    } else if (done) {
+        widen(&axes[which], which ? map->y : map->x, map->count, ends);
+    }
+    map_grid_destroy(&grid);
+    return done;
+}
+
+// panels: those that share the axes of `panel`, [count]; none for an inset.
+static bool fit_axes(PlotPanel *panel, const PlotPanel *panels, int32_t count, Error *err)
+{
+    Axis axes[2] = {panel->x, panel->y}, *both[2] = {&panel->x, &panel->y};
+    for (int32_t which = 0; which < 2; which++) {
+        Ends ends = {INFINITY, -INFINITY, INFINITY, -INFINITY};
+        Axis *axis = both[which];
+        if (isfinite(axis->low)) continue;
+        if (axis->names) {
+            axis->low = 0.5;
+            axis->high = axis->name_count + 0.5;
+            continue;
+        }
+        if (!widen_by_panel(panel, axes, which, &ends, err)) return false;
+        for (int32_t k = 0; k < count; k++)
+            if (!widen_by_panel(&panels[k], axes, which, &ends, err)) return false;
+        double low = ends.low, high = ends.high;
+        if (!(high >= low) && !(ends.edge_high > ends.edge_low)) low = high = 0;
+        if (high >= low) {
+            double margin = MARGIN * (high - low);
+            if (!(margin > 0)) margin = fmax(0.1, 0.1 * fabs(low));
+            low -= margin;
+            high += margin;
+        }
+        low = fmin(low, ends.edge_low);
+        high = fmax(high, ends.edge_high);
+        axis->low = axis->is_log ? pow(10, low) : low;
+        axis->high = axis->is_log ? pow(10, high) : high;
+    }
+    return true;
+}
+
+// Least and largest of a quantity of all maps: their values, or what their lines show. They are the
+// ends of its axis, unless the file gives these.
+static void fit_values(const Plot *plot, bool of_contours, Axis *axis, double found[2])
+{
+    const Axis plain = {0};
+    Ends ends = {INFINITY, -INFINITY, 0, 0};
+    for (int32_t k = -1; k < plot->panel_count; k++) {
+        const PlotMap *map = k < 0 ? &plot->main.map : &plot->panels[k].map;
+        widen(&plain, of_contours ? map->contour : map->value, map->count, &ends);
+    }
+    found[0] = ends.low <= ends.high ? ends.low : 0;
+    found[1] = ends.low <= ends.high ? ends.high : 0;
+    if (isfinite(axis->low)) return;
+    axis->low = found[0];
+    axis->high = found[1];
 }
 
 // Ranks, numbers of pads: all that stands along an axis are whole numbers.
@@ -298,6 +363,18 @@ static bool is_counted(const Plot *plot, bool along_x)
     return true;
 }
 
+// An axis with a unit of its own has its prefix; its ends are known.
+static bool read_unit(const PlotReader *reader, YamlNode panel, const char *name, Axis *axis)
+{
+    char unit[UNIT_SIZE] = "", label[AXIS_LABEL_SIZE];
+    YamlNode map = plot_child(reader, panel, name);
+    if (map == YAML_NO_NODE) return true;
+    if (!plot_read_text(reader, map, "unit", unit, sizeof unit)) return false;
+    snprintf(label, sizeof label, "%s", axis->label);
+    if (unit[0]) axis_set_unit(axis, label, unit);
+    return true;
+}
+
 // plot is half filled after a failure: plot_destroy frees it.
 bool plot_file_read(const char *path, Plot *plot, Error *err)
 {
@@ -305,7 +382,11 @@ bool plot_file_read(const char *path, Plot *plot, Error *err)
     *plot = (Plot){0};
     TRY(yaml_read(path, &reader.file, err));
     TRY(read_plot(&reader, plot));
-    TRY(plot_fit_axes(plot, err));
+    double levels[2];
+    fit_values(plot, false, &plot->color, plot->found);
+    fit_values(plot, true, &plot->contours, levels);
+    TRY(fit_axes(&plot->main, plot->panels, plot->panel_count, err));
+    if (plot->has_inset) TRY(fit_axes(&plot->inset, NULL, 0, err));
     plot->main.x.whole = is_counted(plot, true);
     plot->main.y.whole = is_counted(plot, false);
 
@@ -320,4 +401,23 @@ bool plot_file_read(const char *path, Plot *plot, Error *err)
 cleanup:
     yaml_destroy(reader.file);
     return error_is_clean(err);
+}
+
+static void panel_destroy(PlotPanel *panel)
+{
+    memory_free_all(panel->names, panel->map.x, panel->map.y, panel->map.value, panel->map.contour,
+                    panel->map.open);
+    for (int32_t k = 0; k < PLOT_SERIES_MAX; k++) {
+        memory_free_all(panel->series[k].x, panel->series[k].y, panel->series[k].low,
+                        panel->series[k].high);
+    }
+}
+
+void plot_destroy(Plot *plot)
+{
+    panel_destroy(&plot->main);
+    panel_destroy(&plot->inset);
+    for (int32_t k = 0; k < plot->panel_count; k++) panel_destroy(&plot->panels[k]);
+    memory_free_all(plot->panels, plot->computed);
+    *plot = (Plot){0};
 }

@@ -49,6 +49,8 @@
 // ERROR_INPUT gives file:line:column, the key and what is allowed.
 bool plot_file_read(const char *path, Plot *plot, Error *err);
 
+void plot_destroy(Plot *plot);   // zeroed is fine
+
 // The corner of that name, one of those that `legend` may have.
 PlotCorner plot_corner_find(const char *name);
 

@@ -144,46 +144,41 @@ void block_destroy(Block *block)
 static const uint8_t strain_axes[2][6][2] = {{{0, 0}, {1, 1}, {0, 1}},
                                              {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
 
-// Adds the strain of `vectors` at the nodes of element e to theirs, shear twice.
-static void element_strains(const FieldFrame *frame, int32_t e, const double *vectors,
-                            double *strain)
-{
-    const int32_t *nodes = frame->element_nodes + frame->first_node[e];
-    ElementKind kind = (ElementKind)frame->kind[e];
-    int32_t count = element_node_count(kind), dim = frame->dim;
-    MeshPlace position[ELEMENT_NODES_MAX], gradient[ELEMENT_NODES_MAX];
-    for (int32_t a = 0; a < count; ++a)
-        memcpy(position[a], frame->position + 3 * (int64_t)nodes[a], sizeof position[a]);
-    for (int32_t at = 0; at < count; ++at) {
-        double slope[3][3] = {{0}};   // of component, along axis
-        ShapeValues shape = shape_at(kind, shape_node(kind, at));
-        shape_gradients(kind, &shape, (const MeshPlace *)position, gradient);
-        for (int32_t a = 0; a < count; ++a)
-            for (int32_t d = 0; d < dim; ++d)
-                for (int32_t k = 0; k < dim; ++k)
-                    slope[d][k] += gradient[a][k] * vectors[3 * (int64_t)nodes[a] + d];
-        for (int32_t k = 0; k < frame->stresses; ++k) {
-            int32_t a = strain_axes[dim - 2][k][0], b = strain_axes[dim - 2][k][1];
-            strain[(int64_t)frame->stresses * nodes[at] + k] += a == b ? slope[a][a]
-                                                                       : slope[a][b] + slope[b][a];
-        }
-    }
-}
-
 // factor * (stress less `other`) : strain of `vectors`, the mean over elements. other: NULL: 0.
 static bool take_work(Block *block, const double *stress, const double *other,
                       const double *vectors, double factor, Error *err)
 {
     const FieldFrame *frame = &block->frame;
-    int64_t width = frame->stresses;
-    double *strain = NEW_ARRAY(double, width * frame->node_count, err);
+    int32_t width = frame->stresses, dim = frame->dim;
+    double *strain = NEW_ARRAY(double, (int64_t)width * frame->node_count, err);
     int32_t *shares = NEW_ARRAY(int32_t, frame->node_count, err);
     TRY(strain && shares);
+
+    // The strain at the nodes of each element is added to theirs, shear twice.
     for (int32_t e = 0; e < frame->element_count; ++e) {
-        element_strains(frame, e, vectors, strain);
-        for (int32_t k = frame->first_node[e]; k < frame->first_node[e + 1]; ++k)
-            ++shares[frame->element_nodes[k]];
+        const int32_t *nodes = frame->element_nodes + frame->first_node[e];
+        ElementKind kind = (ElementKind)frame->kind[e];
+        int32_t count = element_node_count(kind);
+        MeshPlace position[ELEMENT_NODES_MAX], gradient[ELEMENT_NODES_MAX];
+        for (int32_t a = 0; a < count; ++a)
+            memcpy(position[a], frame->position + 3 * (int64_t)nodes[a], sizeof position[a]);
+        for (int32_t at = 0; at < count; ++at) {
+            double slope[3][3] = {{0}};   // of component, along axis
+            ShapeValues shape = shape_at(kind, shape_node(kind, at));
+            shape_gradients(kind, &shape, (const MeshPlace *)position, gradient);
+            for (int32_t a = 0; a < count; ++a)
+                for (int32_t d = 0; d < dim; ++d)
+                    for (int32_t k = 0; k < dim; ++k)
+                        slope[d][k] += gradient[a][k] * vectors[3 * (int64_t)nodes[a] + d];
+            for (int32_t k = 0; k < width; ++k) {
+                int32_t a = strain_axes[dim - 2][k][0], b = strain_axes[dim - 2][k][1];
+                strain[(int64_t)width * nodes[at] + k] += a == b ? slope[a][a]
+                                                                 : slope[a][b] + slope[b][a];
+            }
+            ++shares[nodes[at]];
+        }
     }
+
     for (int64_t i = 0; i < frame->node_count; ++i) {
         double work = 0;
         for (int64_t k = width * i; k < width * (i + 1); ++k)
@@ -273,26 +268,6 @@ static double mean_along_x(const FieldFrame *frame)
     return sum / frame->node_count;
 }
 
-// By how far the block moves: SHOWN of its extent.
-static double wanted_magnification(const Block *block)
-{
-    const FieldFrame *frame = &block->frame;
-    static const double handy[] = {5, 2, 1};
-    double mean = mean_along_x(frame), moved = 0, low[3], high[3], extent = 0;
-    frame_extent(frame, low, high);
-    for (int32_t d = 0; d < frame->dim; ++d) {
-        extent = fmax(extent, high[d] - low[d]);
-        for (int64_t i = 0; i < frame->node_count; ++i)
-            moved = fmax(moved, fabs(frame->displacement[3 * i + d] - (d == 0 ? mean : 0)));
-    }
-    double most = SHOWN * extent / moved;
-    if (!(most > 1) || !isfinite(most)) return 1;
-    double power = pow(10, floor(log10(most)));
-    for (int32_t k = 0; k < 3; ++k)
-        if (handy[k] * power <= most) return handy[k] * power;
-    return power;
-}
-
 // The determinant at a place of an element, deformed.
 static double size_at(const FieldFrame *frame, int32_t e, const ShapeValues *shape,
                       double magnification)
@@ -326,17 +301,28 @@ static bool deformation_folds(const FieldFrame *frame, double magnification)
     return false;
 }
 
-// The next smaller one of 1, 2, 5, 10, ...
-static double next_smaller(double magnification)
-{
-    double power = pow(10, floor(log10(magnification) + 0.1));
-    return round(magnification / power) >= 5 ? 2 * power : magnification / 2;
-}
-
+// The largest number of 1, 2, 5, 10, ... with which the block moves by SHOWN of its extent at most,
+// or the next smaller one with which nothing folds.
 double block_magnification(const Block *block)
 {
-    double wanted = wanted_magnification(block);
-    while (wanted > 1 && deformation_folds(&block->frame, wanted)) wanted = next_smaller(wanted);
+    static const double handy[] = {5, 2, 1};
+    const FieldFrame *frame = &block->frame;
+    double mean = mean_along_x(frame), moved = 0, low[3], high[3], extent = 0;
+    frame_extent(frame, low, high);
+    for (int32_t d = 0; d < frame->dim; ++d) {
+        extent = fmax(extent, high[d] - low[d]);
+        for (int64_t i = 0; i < frame->node_count; ++i)
+            moved = fmax(moved, fabs(frame->displacement[3 * i + d] - (d == 0 ? mean : 0)));
+    }
+    double most = SHOWN * extent / moved;
+    if (!(most > 1) || !isfinite(most)) return 1;
+    double power = pow(10, floor(log10(most))), wanted = power;
+    for (int32_t k = 2; k >= 0; --k)
+        if (handy[k] * power <= most) wanted = handy[k] * power;
+    while (wanted > 1 && deformation_folds(frame, wanted)) {
+        power = pow(10, floor(log10(wanted) + 0.1));
+        wanted = round(wanted / power) >= 5 ? 2 * power : wanted / 2;
+    }
     return wanted;
 }
 

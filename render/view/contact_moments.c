@@ -39,23 +39,8 @@ static bool take_asked(const ResultView *view, const char *at, ContactMoments *m
     return true;
 }
 
-// Finds the rapid event nearest to `wanted`; without a wish the last that carried the whole block,
-// or else the last.
-static const ViewEvent *find_event(const ResultView *view, const double *wanted)
-{
-    const ViewEvent *best = NULL;
-    double least = INFINITY;
-    for (int32_t k = 0; k < view->event_count; ++k) {
-        const ViewEvent *event = &view->events[k];
-        if (event->kind <= VIEW_QUASI_STATIC || !isfinite(event->U_start + event->U_stop)) continue;
-        double away = wanted ? fabs(event->U_start - *wanted) : event->kind == VIEW_LEADING ? 0 : 1;
-        if (!(away <= least)) continue;
-        least = away;
-        best = event;
-    }
-    return best;
-}
-
+// The event is the rapid one nearest to what is asked for; without a wish the sliding of the cycle
+// that is asked for, else the last that carried the whole block, or else the last.
 static bool take_event(const ResultView *view, const char *at, ContactMoments *moments, Error *err)
 {
     bool by_U = true;
@@ -65,7 +50,17 @@ static bool take_event(const ResultView *view, const char *at, ContactMoments *m
         if (!by_U) wanted = view->U[result_view_nearest_row(view, view->t, wanted)];
     }
     const ViewEvent *event = at ? NULL : zoom_sliding(view);
-    if (!event || !isfinite(event->U_stop)) event = find_event(view, at ? &wanted : NULL);
+    if (event && !isfinite(event->U_stop)) event = NULL;
+    bool chosen = event != NULL;
+    double least = INFINITY;
+    for (int32_t k = 0; k < view->event_count && !chosen; ++k) {
+        const ViewEvent *seen = &view->events[k];
+        if (seen->kind <= VIEW_QUASI_STATIC || !isfinite(seen->U_start + seen->U_stop)) continue;
+        double away = at ? fabs(seen->U_start - wanted) : seen->kind == VIEW_LEADING ? 0 : 1;
+        if (!(away <= least)) continue;
+        least = away;
+        event = seen;
+    }
     if (!event)
         return REFUSE(err,
                       "no rapid slip has been seen from start to end: say when, as --at U=%.4g",
@@ -79,24 +74,6 @@ static bool take_event(const ResultView *view, const char *at, ContactMoments *m
     return true;
 }
 
-// Fills moments->arrival with the time of the first rapid step of each node in the event.
-static bool find_arrival(const ResultView *view, const ContactPlane *plane, const double *rates,
-                         ContactMoments *moments, Error *err)
-{
-    double rapid = RAPID * fabs(view->number[NUMBER_ROD_VELOCITY]);
-    double *arrival = moments->arrival = NEW_ARRAY(double, plane->nodes, err);
-    if (!arrival) return false;
-    moments->start = INFINITY;
-    for (int32_t i = 0; i < plane->nodes; ++i) {
-        int64_t row = moments->first;
-        while (row <= moments->last && !(rates[row * plane->nodes + i] >= rapid)) ++row;
-        arrival[i] = row <= moments->last ? view->t[row] : NAN;
-        moments->start = fmin(moments->start, arrival[i]);
-    }
-    for (int32_t i = 0; i < plane->nodes; ++i) arrival[i] -= moments->start;
-    return true;
-}
-
 // How much of the contact rapid slip had come to at a step.
 static double area_reached(const ResultView *view, const ContactPlane *plane,
                            const ContactMoments *moments, int64_t row)
@@ -105,22 +82,6 @@ static double area_reached(const ResultView *view, const ContactPlane *plane,
     for (int32_t i = 0; i < plane->nodes; ++i)
         if (moments->arrival[i] <= view->t[row] - moments->start) area += plane->weight[i];
     return area;
-}
-
-// The step of the event in which the contact is fastest in the mean.
-static int64_t fastest_row(const ContactPlane *plane, const double *rates,
-                           const ContactMoments *moments)
-{
-    double most = -INFINITY;
-    int64_t best = moments->first;
-    for (int64_t row = moments->first; row <= moments->last; ++row) {
-        double sum = 0;
-        for (int32_t i = 0; i < plane->nodes; ++i)
-            sum += plane->weight[i] * rates[row * plane->nodes + i];
-        if (sum > most) best = row;
-        most = fmax(most, sum);
-    }
-    return best;
 }
 
 // Each row once; they come in order but for the last.
@@ -140,19 +101,41 @@ static double area_slipping(const ResultView *view, const ContactPlane *plane, c
     return area;
 }
 
-// Between the events slip begins anew where less than the first part slips.
-static void choose_rows(const ResultView *view, const ContactPlane *plane, const double *rates,
-                        ContactMoments *moments)
+bool contact_moments_find(const ResultView *view, const double *rates, const char *at, bool whole,
+                          ContactMoments *moments, Error *err)
 {
+    const ContactPlane *plane = &view->plane;
+    int32_t nodes = plane->nodes;
+    *moments = (ContactMoments){0};
+    if (at && !whole) return take_asked(view, at, moments, err);
+    if (!take_event(view, at, moments, err)) return false;
+
+    // When each node was first rapid in the event, from when the first of them was.
+    double rapid_rate = RAPID * fabs(view->number[NUMBER_ROD_VELOCITY]);
+    double *arrival = moments->arrival = NEW_ARRAY(double, nodes, err);
+    if (!arrival) return false;
+    moments->start = INFINITY;
+    for (int32_t i = 0; i < nodes; ++i) {
+        int64_t row = moments->first;
+        while (row <= moments->last && !(rates[row * nodes + i] >= rapid_rate)) ++row;
+        arrival[i] = row <= moments->last ? view->t[row] : NAN;
+        moments->start = fmin(moments->start, arrival[i]);
+    }
+    for (int32_t i = 0; i < nodes; ++i) arrival[i] -= moments->start;
+
+    // Two moments while slow slip grows. Between the events it begins anew where less than the
+    // first part slips.
     double all = 0, rapid = area_reached(view, plane, moments, moments->last);
     int64_t row = moments->before;
-    for (int32_t i = 0; i < plane->nodes; ++i) all += plane->weight[i];
+    for (int32_t i = 0; i < nodes; ++i) all += plane->weight[i];
     while (row < moments->first && area_slipping(view, plane, rates, row) > all / SLOW_PARTS) ++row;
     for (int32_t part = 1; part < SLOW_PARTS; ++part) {
         double wanted = (double)part / SLOW_PARTS * all;
         while (row < moments->first && area_slipping(view, plane, rates, row) < wanted) ++row;
         if (row < moments->first) add_row(moments, row);
     }
+
+    // The step before the event, and when rapid slip had come to half and to all that it reached.
     add_row(moments, moments->first);
     row = moments->first;
     for (int32_t part = 1; part <= RAPID_PARTS; ++part) {
@@ -160,18 +143,17 @@ static void choose_rows(const ResultView *view, const ContactPlane *plane, const
         while (row < moments->last && area_reached(view, plane, moments, row) < wanted) ++row;
         add_row(moments, row);
     }
-    add_row(moments, fastest_row(plane, rates, moments));
-}
 
-bool contact_moments_find(const ResultView *view, const double *rates, const char *at, bool whole,
-                          ContactMoments *moments, Error *err)
-{
-    const ContactPlane *plane = &view->plane;
-    *moments = (ContactMoments){0};
-    if (at && !whole) return take_asked(view, at, moments, err);
-    if (!take_event(view, at, moments, err)) return false;
-    if (!find_arrival(view, plane, rates, moments, err)) return false;
-    choose_rows(view, plane, rates, moments);
+    // The step in which the contact is fastest in the mean.
+    double most = -INFINITY;
+    int64_t fastest = moments->first;
+    for (int64_t k = moments->first; k <= moments->last; ++k) {
+        double sum = 0;
+        for (int32_t i = 0; i < nodes; ++i) sum += plane->weight[i] * rates[k * nodes + i];
+        if (sum > most) fastest = k;
+        most = fmax(most, sum);
+    }
+    add_row(moments, fastest);
     return true;
 }
 

@@ -26,19 +26,6 @@ typedef struct Face {
     MeshPlace place[FACE_NODES_MAX];
 } Face;
 
-// A face's point by the number of its node; -1: there is none such.
-static bool take_point(const ContactPlane *plane, const Faces *faces, double stored, int32_t *point,
-                       MeshPlace place)
-{
-    int32_t all = plane->nodes + faces->corners;
-    if (!(stored >= 0 && stored < all)) return false;
-    *point = (int32_t)stored;
-    int32_t k = *point - plane->nodes;
-    place[0] = k < 0 ? plane->x[*point] : faces->corner[2 * k];
-    place[1] = k < 0 ? plane->y[*point] : faces->corner[2 * k + 1];
-    return true;
-}
-
 static bool take_face(const ContactPlane *plane, const Faces *faces, int32_t f, Face *face,
                       Error *err)
 {
@@ -48,18 +35,17 @@ static bool take_face(const ContactPlane *plane, const Faces *faces, int32_t f, 
     int32_t kind = element_kind_of(2, count);
     if (kind < 0) return FAULT(err, ERROR_FILE, "a face of the contact has %d points", count);
     face->kind = (ElementKind)kind;
-    for (int32_t a = 0; a < count; ++a)
-        if (!take_point(plane, faces, stored[a], &face->point[a], face->place[a]))
-            return FAULT(err, ERROR_FILE, "a face of the contact has a point that is none");
-    return true;
-}
 
-static void place_at(const Face *face, const double at[2], double place[2])
-{
-    ShapeValues shape = shape_at(face->kind, at);
-    place[0] = place[1] = 0;
-    for (int32_t a = 0; a < element_node_count(face->kind); ++a)
-        for (int32_t d = 0; d < 2; ++d) place[d] += shape.value[a] * face->place[a][d];
+    // Points are contact nodes, then corners that touch nothing.
+    for (int32_t a = 0; a < count; ++a) {
+        if (!(stored[a] < plane->nodes + faces->corners))
+            return FAULT(err, ERROR_FILE, "a face of the contact has a point that is none");
+        int32_t point = (int32_t)stored[a], k = point - plane->nodes;
+        face->point[a] = point;
+        face->place[a][0] = k < 0 ? plane->x[point] : faces->corner[2 * k];
+        face->place[a][1] = k < 0 ? plane->y[point] : faces->corner[2 * k + 1];
+    }
+    return true;
 }
 
 static void middle_of(const double a[2], const double b[2], double middle[2])
@@ -67,22 +53,11 @@ static void middle_of(const double a[2], const double b[2], double middle[2])
     for (int32_t d = 0; d < 2; ++d) middle[d] = (a[d] + b[d]) / 2;
 }
 
-// Half way to the nodes beside it, or to the end of the face.
-static void square_patch(const Face *face, int32_t a, double at[PATCH_CORNERS][2])
-{
-    static const int32_t turn[PATCH_CORNERS][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-    double half = face->kind == ELEMENT_Q9 ? 0.5 : 1, range[2][2];
-    for (int32_t d = 0; d < 2; ++d) {
-        double node = shape_node(face->kind, a)[d];
-        range[0][d] = fmax(-1, node - half);
-        range[1][d] = fmin(1, node + half);
-    }
-    for (int32_t k = 0; k < PATCH_CORNERS; ++k)
-        for (int32_t d = 0; d < 2; ++d) at[k][d] = range[turn[k][d]][d];
-}
-
+// The part of a face that is nearest to each of its nodes.
 static void add_patches(const Face *face, ContactPlane *plane)
 {
+    static const int32_t turn[PATCH_CORNERS][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    static const double centre[2] = {1.0 / 3, 1.0 / 3};
     bool triangle = element_corner_count(face->kind) == 3;
     int32_t own = triangle ? 3 : element_node_count(face->kind);
     for (int32_t k = 0; k < own; ++k) {
@@ -92,7 +67,6 @@ static void add_patches(const Face *face, ContactPlane *plane)
         if (patch->node >= plane->nodes) continue;
         if (triangle) {
             // Patch of corner k of a triangle; in a T6, of the node on side k.
-            static const double centre[2] = {1.0 / 3, 1.0 / 3};
             const double *here = shape_node(face->kind, k),
                          *next = shape_node(face->kind, (k + 1) % 3);
             const double *last = shape_node(face->kind, (k + 2) % 3);
@@ -103,9 +77,21 @@ static void add_patches(const Face *face, ContactPlane *plane)
                 memcpy(at[2], next, sizeof at[2]), memcpy(at[3], centre, sizeof centre);
             else
                 middle_of(last, here, at[3]);
-        } else
-            square_patch(face, k, at);
-        for (int32_t c = 0; c < PATCH_CORNERS; ++c) place_at(face, at[c], patch->corner[c]);
+        } else {
+            // Half way to the nodes beside it, or to the end of the face.
+            double half = face->kind == ELEMENT_Q9 ? 0.5 : 1;
+            const double *node = shape_node(face->kind, k);
+            for (int32_t c = 0; c < PATCH_CORNERS; ++c)
+                for (int32_t d = 0; d < 2; ++d)
+                    at[c][d] = turn[c][d] ? fmin(1, node[d] + half) : fmax(-1, node[d] - half);
+        }
+        for (int32_t c = 0; c < PATCH_CORNERS; ++c) {
+            ShapeValues shape = shape_at(face->kind, at[c]);
+            double *place = patch->corner[c];
+            place[0] = place[1] = 0;
+            for (int32_t a = 0; a < element_node_count(face->kind); ++a)
+                for (int32_t d = 0; d < 2; ++d) place[d] += shape.value[a] * face->place[a][d];
+        }
         ++plane->patch_count;
     }
 }
@@ -135,23 +121,6 @@ static void add_sides(const Face *face, KnownSide *sides, int32_t *count)
 
 // --- reading -------------------------------------------------------------------------------------
 
-static bool read_nodes(ArrayFile *file, ContactPlane *plane, Error *err)
-{
-    struct {
-        ResultNodes nodes;
-        double **values;
-    } arrays[] = {{NODES_X, &plane->x}, {NODES_Y, &plane->y}, {NODES_WEIGHT, &plane->weight}};
-    for (size_t k = 0; k < sizeof arrays / sizeof *arrays; ++k) {
-        int32_t count = 0;
-        if (!result_file_read_nodes(file, arrays[k].nodes, arrays[k].values, &count, err))
-            return false;
-        if (count != plane->nodes)
-            return FAULT(err, ERROR_FILE, "%d of %d contact nodes have a place", count,
-                         plane->nodes);
-    }
-    return true;
-}
-
 static bool read_faces(ArrayFile *file, Faces *faces, Error *err)
 {
     int32_t two = 0;
@@ -179,7 +148,14 @@ bool contact_plane_read(ArrayFile *file, int32_t nodes, ContactPlane *plane, Err
     KnownSide *sides = NULL;
     int32_t count = 0;
     *plane = (ContactPlane){.nodes = nodes};
-    TRY(read_nodes(file, plane, err));
+    double **const arrays[] = {&plane->x, &plane->y, &plane->weight};
+    const ResultNodes names[] = {NODES_X, NODES_Y, NODES_WEIGHT};
+    for (size_t k = 0; k < sizeof names / sizeof *names; ++k) {
+        TRY(result_file_read_nodes(file, names[k], arrays[k], &count, err));
+        if (count != nodes)
+            FAIL(err, ERROR_FILE, "%d of %d contact nodes have a place", count, nodes);
+    }
+    count = 0;   // of sides
     TRY(read_faces(file, &faces, err));
     TRY(plane->patches = NEW_ARRAY(ContactPatch, (int64_t)FACE_PATCHES_MAX * faces.count, err));
     TRY(plane->sides = NEW_ARRAY(ContactSide, (int64_t)FACE_CORNERS_MAX * faces.count, err));

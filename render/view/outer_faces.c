@@ -23,17 +23,18 @@ int32_t outer_face_nodes(const ElementList *elements, const OuterFace *face, Ele
     return count;
 }
 
-// All faces, sorted; those of two elements stand side by side.
-static bool list_faces(const ElementList *elements, OuterFace **faces, int32_t *count, Error *err)
+bool outer_faces(const ElementList *elements, OuterFace **faces, int32_t *count, Error *err)
 {
     int64_t all = 0;
+    int32_t listed = 0;
+    *count = 0;
     for (int32_t e = 0; e < elements->count; ++e)
         all += element_face_count((ElementKind)elements->kind[e]);
-    *count = 0;
-    if (!(*faces = NEW_ARRAY(OuterFace, all, err))) return false;
+    OuterFace *list = *faces = NEW_ARRAY(OuterFace, all, err);
+    if (!list) return false;
     for (int32_t e = 0; e < elements->count; ++e)
         for (int32_t side = 0; side < element_face_count((ElementKind)elements->kind[e]); ++side) {
-            OuterFace *face = &(*faces)[(*count)++];
+            OuterFace *face = &list[listed++];
             int32_t nodes[FACE_NODES_MAX];
             ElementKind kind;
             *face = (OuterFace){{-1, -1, -1, -1}, e, side};
@@ -41,20 +42,13 @@ static bool list_faces(const ElementList *elements, OuterFace **faces, int32_t *
             memcpy(face->key, nodes, (size_t)element_corner_count(kind) * sizeof *nodes);
             qsort(face->key, (size_t)element_corner_count(kind), sizeof *nodes, order_int32);
         }
-    qsort(*faces, (size_t)*count, sizeof **faces, compare_faces);
-    return true;
-}
 
-bool outer_faces(const ElementList *elements, OuterFace **faces, int32_t *count, Error *err)
-{
-    int32_t kept = 0;
-    if (!list_faces(elements, faces, count, err)) return false;
-    for (int32_t k = 0; k < *count; ++k) {
-        OuterFace *face = &(*faces)[k];
-        if (k > 0 && compare_faces(face - 1, face) == 0) continue;   // its twin was looked at
-        if (k + 1 < *count && compare_faces(face, face + 1) == 0) continue;
-        (*faces)[kept++] = *face;
+    // Sorted, those of two elements stand side by side.
+    qsort(list, (size_t)listed, sizeof *list, compare_faces);
+    for (int32_t k = 0; k < listed; ++k) {
+        if (k > 0 && compare_faces(&list[k - 1], &list[k]) == 0) continue;   // its twin was met
+        if (k + 1 < listed && compare_faces(&list[k], &list[k + 1]) == 0) continue;
+        list[(*count)++] = list[k];
     }
-    *count = kept;
     return true;
 }

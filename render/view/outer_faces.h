@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The faces of a mesh in space that one sees from outside. Called by surface and mesh_space.
+// The faces of a mesh in space that one sees from outside. Called by surface and mesh_picture.
 #ifndef AMONTONS_RENDER_VIEW_OUTER_FACES_H
 #define AMONTONS_RENDER_VIEW_OUTER_FACES_H
 

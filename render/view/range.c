@@ -9,16 +9,6 @@
 
 enum { SLIDINGS_MOST = 40, SLIDINGS_SHOWN = 20 };   // each has 3 mm of a column then
 
-// The end of the sliding behind which the last SLIDINGS_SHOWN of `count` lie.
-static double find_start(const ResultView *view, int32_t count)
-{
-    int32_t seen = 0;
-    for (int32_t k = 0; k < view->event_count; ++k)
-        if (view->events[k].kind == VIEW_LEADING && ++seen == count - SLIDINGS_SHOWN)
-            return view->events[k].U_stop;
-    return NAN;
-}
-
 // "U=0.01" as it is; of "t=100" where the rod was then.
 static bool read_moment(const ResultView *view, const char *at, double *U, Error *err)
 {
@@ -40,7 +30,13 @@ bool view_range_find(const ResultView *view, const PictureStyle *style, ViewRang
     *shown = (ViewRange){.low = low, .high = high};
     for (int32_t k = 0; k < view->event_count; ++k)
         if (view->events[k].kind == VIEW_LEADING) ++count;
-    double start = count > SLIDINGS_MOST ? find_start(view, count) : NAN;
+
+    // The last of many slidings are shown, from the end of the one before them.
+    double start = NAN;
+    int32_t seen = 0;
+    for (int32_t k = 0; k < view->event_count && count > SLIDINGS_MOST; ++k)
+        if (view->events[k].kind == VIEW_LEADING && ++seen == count - SLIDINGS_SHOWN)
+            start = view->events[k].U_stop;
     Zoom zoom = view->cycle != VIEW_CYCLE_CHOSEN ? zoom_choose(view) : (Zoom){0};
     if (zoom.found) {
         shown->low = zoom.U_start;

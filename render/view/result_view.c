@@ -138,49 +138,32 @@ static bool range_check(const ResultView *view, Error *err)
 
 enum { SLIP_COMPONENTS = 2 };   // in space
 
-// Magnitude of a vector; for slip its component along the drive.
-static double vector_value(ResultSeries series, const double *vector)
-{
-    return series == SERIES_SLIP ? vector[0] : hypot(vector[0], vector[1]);
-}
-
-// In place: of each vector one value, of several states one.
-static void take_values(const ResultView *view, ResultSeries series, int32_t components,
-                        double *values, int64_t count)
-{
-    for (int64_t k = 0; k < count; ++k)
-        values[k] = series == SERIES_STATE ? values[components * k + view->state]
-                                           : vector_value(series, values + components * k);
-}
-
-// One value a row and contact node; `rows` shrinks likewise.
-static bool nodes_series_read(ResultView *view, ResultSeries series, double **values, Error *err)
+bool result_view_read(ResultView *view, ResultSeries series, bool whole, double **values,
+                      Error *err)
 {
     int64_t rows = 0;
     int32_t width = 0, nodes = view->all_nodes;
-    if (!result_file_read_series(view->file, series, values, &rows, &width, err)) return false;
+    if (series == SERIES_STATE && view->states == 0)
+        return REFUSE(err, "the friction of this result remembers nothing: there is no state");
+    TRY(result_file_read_series(view->file, series, values, &rows, &width, err));
     int32_t components = series == SERIES_STATE         ? view->states
                          : view->line && width != nodes ? SLIP_COMPONENTS
                                                         : 1;
     if (width != (int64_t)components * nodes)
-        return FAULT(err, ERROR_FILE, "%s has %d columns, but there are %d contact nodes",
-                     result_series_name(series), width, nodes);
-    if (components > 1) take_values(view, series, components, *values, rows * nodes);
-    if (rows < view->rows) view->rows = rows;
-    return true;
-}
+        FAIL(err, ERROR_FILE, "%s has %d columns, but there are %d contact nodes",
+             result_series_name(series), width, nodes);
+    if (rows < view->rows) view->rows = rows;   // a killed run may have flushed some series only
 
-bool result_view_read(ResultView *view, ResultSeries series, bool whole, double **values,
-                      Error *err)
-{
-    if (series == SERIES_STATE && view->states == 0)
-        return REFUSE(err, "the friction of this result remembers nothing: there is no state");
-    TRY(nodes_series_read(view, series, values, err));
-    if (view->line && !whole) {
-        for (int64_t row = 0; row < view->rows; ++row)
-            for (int32_t k = 0; k < view->nodes; ++k)
-                (*values)[row * view->nodes + k] = (*values)[row * view->all_nodes + view->line[k]];
+    // In place, of several states one; of a vector its size, of slip its component along the drive.
+    for (int64_t k = 0; components > 1 && k < rows * nodes; ++k) {
+        const double *all = *values + components * k;
+        (*values)[k] = series == SERIES_STATE  ? all[view->state]
+                       : series == SERIES_SLIP ? all[0]
+                                               : hypot(all[0], all[1]);
     }
+    for (int64_t row = 0; view->line && !whole && row < view->rows; ++row)
+        for (int32_t k = 0; k < view->nodes; ++k)
+            (*values)[row * view->nodes + k] = (*values)[row * nodes + view->line[k]];
     TRY(range_check(view, err));
 cleanup:
     if (!error_is_clean(err)) {
@@ -264,17 +247,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Older histories name the states of one's own formulas alone.
-static bool states_read(ResultView *view, Error *err)
-{
-    if (!lines_read(view, "states", &view->state_names, err)) return false;
-    if (!lines_read(view, "state_unit", &view->state_unit, err)) return false;
-    if (!result_file_remembers(view->file)) return true;
-    view->states = 1;
-    for (const char *at = view->state_names; *at; ++at) view->states += *at == '\n';
-    return true;
-}
-
 void result_view_state_name(const ResultView *view, char name[VIEW_STATE_SIZE])
 {
     const char *at = view->state_names;
@@ -320,7 +292,11 @@ bool result_view_open(const char *folder, ResultView *view, Error *err)
     TRY(lines_read(view, "title", &view->title, err));
     TRY(lines_read(view, "pads", &view->pad_names, err));
     TRY(lines_read(view, "warnings", &view->warnings, err));
-    TRY(states_read(view, err));
+    TRY(lines_read(view, "states", &view->state_names, err));
+    TRY(lines_read(view, "state_unit", &view->state_unit, err));
+    view->states = result_file_remembers(view->file);   // older histories may not name them
+    for (const char *at = view->state_names; view->states > 0 && *at; ++at)
+        view->states += *at == '\n';
     TRY(lines_read(view, "probes", &view->probe_names, err));
     view->probes = view->probe_names[0] != 0;
     for (const char *at = view->probe_names; *at; ++at) view->probes += *at == '\n';
@@ -361,36 +337,6 @@ bool result_view_read_plane(ResultView *view, Error *err)
             result_view_read(view, SERIES_STATUS, true, &view->contact_status, err));
 }
 
-// y of the node nearest to `wanted`.
-static double nearest_y(const ContactPlane *plane, double wanted)
-{
-    double nearest = INFINITY;
-    for (int32_t i = 0; i < plane->nodes; ++i)
-        if (fabs(plane->y[i] - wanted) < fabs(nearest - wanted)) nearest = plane->y[i];
-    return nearest;
-}
-
-// The nodes within half a mean cell of y, one for each x: that nearest to y. As the run itself
-// finds its line.
-static void take_nodes_at(ResultView *view, double y)
-{
-    const ContactPlane *plane = &view->plane;
-    double area = 0;
-    for (int32_t i = 0; i < plane->nodes; ++i) area += plane->weight[i];
-    double cell = sqrt(area / plane->nodes), rounding = LINE_ROUNDING * cell;
-    view->nodes = 0;
-    for (int32_t i = 0; i < plane->nodes; ++i) {
-        double off = fabs(plane->y[i] - y);
-        if (off > 0.5 * cell + rounding) continue;
-        int32_t last = view->nodes - 1;
-        bool beside = last >= 0 && plane->x[i] - view->x[last] <= rounding;
-        if (beside && off >= fabs(plane->y[view->line[last]] - y)) continue;
-        int32_t at = beside ? last : view->nodes++;
-        view->line[at] = i;
-        view->x[at] = plane->x[i];
-    }
-}
-
 bool result_view_choose_line(ResultView *view, const char *words, Error *err)
 {
     double *pad = NULL, y = NAN;
@@ -404,7 +350,28 @@ bool result_view_choose_line(ResultView *view, const char *words, Error *err)
     memory_free(view->x);
     view->x = NULL;
     TRY(view->x = NEW_ARRAY(double, view->all_nodes, err));
-    take_nodes_at(view, nearest_y(&view->plane, y));
+
+    // y of the node nearest to what is asked for.
+    const ContactPlane *plane = &view->plane;
+    double nearest = INFINITY, area = 0;
+    for (int32_t i = 0; i < plane->nodes; ++i)
+        if (fabs(plane->y[i] - y) < fabs(nearest - y)) nearest = plane->y[i];
+
+    // The nodes within half a mean cell of it, one for each x: that nearest to it. As the run
+    // itself finds its line.
+    for (int32_t i = 0; i < plane->nodes; ++i) area += plane->weight[i];
+    double cell = sqrt(area / plane->nodes), rounding = LINE_ROUNDING * cell;
+    view->nodes = 0;
+    for (int32_t i = 0; i < plane->nodes; ++i) {
+        double off = fabs(plane->y[i] - nearest);
+        if (off > 0.5 * cell + rounding) continue;
+        int32_t last = view->nodes - 1;
+        bool beside = last >= 0 && plane->x[i] - view->x[last] <= rounding;
+        if (beside && off >= fabs(plane->y[view->line[last]] - nearest)) continue;
+        int32_t at = beside ? last : view->nodes++;
+        view->line[at] = i;
+        view->x[at] = plane->x[i];
+    }
     for (int32_t k = 0; k < view->nodes; ++k) view->pad[k] = pad[view->line[k]];
 cleanup:
     memory_free(pad);

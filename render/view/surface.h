@@ -1,10 +1,38 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The boundary of a block in space, cut open where that is asked, and the cut itself. Numbers only;
-// called by space_page.
+// The boundary of a block in space, cut open where that is asked, and the cut itself, as small
+// triangles and lines. Numbers only; called by block_page and space_page.
 #ifndef AMONTONS_RENDER_VIEW_SURFACE_H
 #define AMONTONS_RENDER_VIEW_SURFACE_H
 
-#include "render/view/surface_parts.h"
+#include "render/view/block.h"
+
+// Planes x, y or z = value through the block as it was; what lies before all of them, as seen from
+// the camera, is taken away.
+typedef struct SpaceCut {
+    int32_t count;
+    int32_t axis[3];   // 0 to 2
+    double value[3];   // length
+} SpaceCut;
+
+typedef struct SurfacePoint {
+    double was[3], at[3];   // before anything moved, and as drawn; length
+    double value;
+} SurfacePoint;
+
+typedef struct SurfaceParts {
+    SurfacePoint *points;   // [each * count] owned
+    int32_t count, room;
+} SurfaceParts;
+
+typedef struct Surface {
+    SurfaceParts triangles;   // three points each
+    SurfaceParts outline;   // two: where faces meet at an angle, and around the cut
+    bool with_edges;
+    SurfaceParts edges;   // two: of elements, where they were asked for
+} Surface;
+
+// "y=0.25", or several, as in "x=0.2,y=0.25"; NULL: none. ERROR_INPUT: not so.
+bool space_cut_read(const char *words, SpaceCut *cut, Error *err);
 
 bool surface_build(const Block *block, const SpaceCut *cut, bool edges, Surface *surface,
                    Error *err);

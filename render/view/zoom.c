@@ -36,38 +36,6 @@ typedef struct Cycle {
     bool periodic;   // its peak counts for mu_M
 } Cycle;
 
-// Counts the bounded precursors of a cycle and finds where the first of the last few starts; in the
-// first loading the first of all.
-static void cycle_count_events(const ResultView *view, Cycle *cycle)
-{
-    cycle->bounded = 0;
-    for (int32_t k = 0; k < view->event_count; ++k) {
-        const ViewEvent *event = &view->events[k];
-        if (event->kind == VIEW_BOUNDED && event->U_start >= cycle->U_start &&
-            event->U_start < cycle->U_slide)
-            ++cycle->bounded;
-    }
-    int32_t passed = cycle->number == 1 ? 0 : cycle->bounded - PRECURSORS_SHOWN;
-    for (int32_t k = 0; k < view->event_count && cycle->bounded > 0; ++k) {
-        const ViewEvent *event = &view->events[k];
-        if (event->kind != VIEW_BOUNDED || event->U_start < cycle->U_start) continue;
-        if (passed-- > 0) continue;
-        cycle->U_precursor = event->U_start;
-        break;
-    }
-}
-
-// A cycle is periodic when a peak of mu inside it counts for mu_M.
-static void cycle_match_peak(const ResultView *view, Cycle *cycle)
-{
-    cycle->periodic = false;
-    for (int32_t k = 0; k < view->peak_count; ++k) {
-        const ViewPeak *peak = &view->peaks[k];
-        bool inside = peak->U > cycle->U_start && peak->U <= cycle->U_stop;
-        if (inside && peak->counts) cycle->periodic = true;
-    }
-}
-
 // The figures are about precursors: a cycle with them comes before one without, a periodic
 // one before others. Of those that are not periodic the first loading is what people measure.
 static int32_t cycle_merit(const Cycle *cycle)
@@ -93,8 +61,32 @@ static bool cycle_from_events(const ResultView *view, Cycle *best, int32_t *slid
         ++cycle.number;
         cycle.U_slide = event->U_start;
         cycle.U_stop = isfinite(event->U_stop) ? event->U_stop : high;
-        cycle_count_events(view, &cycle);
-        cycle_match_peak(view, &cycle);
+
+        // Its bounded precursors, and where the first of the last few starts; in the first loading
+        // the first of all.
+        cycle.bounded = 0;
+        for (int32_t i = 0; i < view->event_count; ++i) {
+            const ViewEvent *inside = &view->events[i];
+            cycle.bounded += inside->kind == VIEW_BOUNDED && inside->U_start >= cycle.U_start &&
+                             inside->U_start < cycle.U_slide;
+        }
+        int32_t passed = cycle.number == 1 ? 0 : cycle.bounded - PRECURSORS_SHOWN;
+        for (int32_t i = 0; i < view->event_count && cycle.bounded > 0; ++i) {
+            const ViewEvent *inside = &view->events[i];
+            if (inside->kind != VIEW_BOUNDED || inside->U_start < cycle.U_start) continue;
+            if (passed-- > 0) continue;
+            cycle.U_precursor = inside->U_start;
+            break;
+        }
+
+        // It is periodic when a peak of mu inside it counts for mu_M.
+        cycle.periodic = false;
+        for (int32_t i = 0; i < view->peak_count; ++i) {
+            const ViewPeak *peak = &view->peaks[i];
+            bool inside = peak->U > cycle.U_start && peak->U <= cycle.U_stop;
+            if (inside && peak->counts) cycle.periodic = true;
+        }
+
         bool better = asked > 0 ? cycle.number == asked
                                 : !found || cycle_merit(&cycle) >= cycle_merit(best);
         if (cycle.U_slide > cycle.U_start && better) {

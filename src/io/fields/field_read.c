@@ -16,16 +16,6 @@ enum { LINE_SIZE = 400, COUNT_MAX = 100000000 };
 
 // --- the list of times ---------------------------------------------------------------------------
 
-// A line of the list as io/fields/field_file writes it; false: it names no block.
-static bool read_entry(const char *line, FieldTime *time)
-{
-    const char *start = strstr(line, "timestep=\"");
-    return start && strstr(line, "name=\"bulk\"") &&
-           sscanf(start, "timestep=\"%lf\"", &time->t) == 1 && (start = strstr(line, "file=\"")) &&
-           sscanf(start, "file=\"%63[^\"]\"", time->file) == 1 && !strstr(time->file, "..") &&
-           time->file[0] != '/';
-}
-
 bool field_times_read(const char *folder, FieldTime **times, int32_t *count, Error *err)
 {
     char path[PATH_MAX], line[LINE_SIZE];
@@ -40,8 +30,14 @@ bool field_times_read(const char *folder, FieldTime **times, int32_t *count, Err
              strerror(errno));
     TRY(list = open_stream(path, err));
     while (fgets(line, sizeof line, list)) {
+        // A line as io/fields/field_file writes it; others name no block.
         FieldTime time;
-        if (!read_entry(line, &time)) continue;
+        const char *step = strstr(line, "timestep=\""), *file = strstr(line, "file=\"");
+        if (!step || !strstr(line, "name=\"bulk\"") || !file ||
+            sscanf(step, "timestep=\"%lf\"", &time.t) != 1 ||
+            sscanf(file, "file=\"%63[^\"]\"", time.file) != 1 || strstr(time.file, "..") ||
+            time.file[0] == '/')
+            continue;
         TRY(memory_grow(times, *count, &room, sizeof time, err));
         (*times)[(*count)++] = time;
     }
@@ -57,17 +53,6 @@ cleanup:
 
 // --- one time ------------------------------------------------------------------------------------
 
-// VTK's numbers of the cells that record/fields writes.
-static bool find_kind(double type, uint8_t *kind)
-{
-    for (int k = 0; k < ELEMENT_KIND_COUNT; k++) {
-        *kind = (uint8_t)k;
-        const ElementInfo *info = &ELEMENTS[(ElementKind)k];
-        if (info->dim > 1 && info->vtk_type == type) return true;
-    }
-    return false;
-}
-
 // Indices from 0 to below `end`, into a new array.
 static bool take_indices(const FieldPart *part, int64_t end, int32_t **indices, Error *err)
 {
@@ -81,24 +66,26 @@ static bool take_indices(const FieldPart *part, int64_t end, int32_t **indices, 
     return true;
 }
 
+// VTK's numbers of the cells that record/fields writes, all of one dimension; nodes go from VTK's
+// order to gmsh's.
 static bool take_kinds(const FieldPart *part, FieldFrame *frame, Error *err)
 {
     memory_free(frame->kind);
     if (!(frame->kind = NEW_ARRAY(uint8_t, part->count, err))) return false;
-    for (int64_t k = 0; k < part->count; k++)
-        if (!find_kind(part->values[k], &frame->kind[k]))
-            return FAULT(err, ERROR_FILE, "it has cells that are no elements of a block");
+    for (int64_t k = 0; k < part->count; k++) {
+        bool found = false;
+        for (int kind = 0; kind < ELEMENT_KIND_COUNT && !found; kind++) {
+            const ElementInfo *info = &ELEMENTS[(ElementKind)kind];
+            frame->kind[k] = (uint8_t)kind;
+            found = info->dim > 1 && info->vtk_type == part->values[k];
+        }
+        if (!found) return FAULT(err, ERROR_FILE, "it has cells that are no elements of a block");
+    }
     for (int32_t e = 0; e < frame->element_count; e++)
         if (part->count != frame->element_count ||
             frame->first_node[e + 1] - frame->first_node[e] !=
                 element_node_count((ElementKind)frame->kind[e]))
             return FAULT(err, ERROR_FILE, "its cells have the wrong number of nodes");
-    return true;
-}
-
-// All elements have the dimension of the first one; from VTK's order of nodes to gmsh's.
-static bool take_order(FieldFrame *frame, Error *err)
-{
     frame->dim = frame->element_count > 0 ? element_dim((ElementKind)frame->kind[0]) : 2;
     for (int32_t e = 0; e < frame->element_count; e++) {
         ElementKind kind = (ElementKind)frame->kind[e];
@@ -157,7 +144,6 @@ static bool take_part(void *context, const FieldPart *part, Error *err)
     }
     if (strcmp(part->name, "types") == 0) {
         if (!take_kinds(part, frame, err)) return false;
-        if (!take_order(frame, err)) return false;
         frame->stresses = frame->dim > 2 ? 2 * PLANE_STRESSES : PLANE_STRESSES;
     }
     return error_is_clean(err);

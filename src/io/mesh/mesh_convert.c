@@ -51,18 +51,6 @@ void mesh_raw_destroy(MeshRaw *raw)
 
 // --- nodes --------------------------------------------------------------------------------------
 
-// All nodes, none marked yet: index is -1 throughout.
-static bool table_build(const MeshRaw *raw, const char *path, NodeTable *table, Error *err)
-{
-    if (raw->node_count > INT32_MAX / 3)
-        return REFUSE(err, "%s: %lld nodes are too many", path, (long long)raw->node_count);
-    if (!(table->node = NEW_ARRAY(Node, raw->node_count, err))) return false;
-    table->count = (int32_t)raw->node_count;
-    for (int32_t k = 0; k < table->count; k++) table->node[k] = (Node){raw->node_number[k], k, -1};
-    qsort(table->node, (size_t)table->count, sizeof *table->node, order_int64);
-    return true;
-}
-
 // The node of a tag; NULL: none. Tags mostly have no holes: that is tried first.
 static Node *table_find(const NodeTable *table, int64_t number)
 {
@@ -73,35 +61,35 @@ static Node *table_find(const NodeTable *table, int64_t number)
     return bsearch(&number, table->node, (size_t)table->count, sizeof *table->node, order_int64);
 }
 
-// Marks the nodes of the body's elements. A tag that no node has is an error: gmsh lets some of
-// those files pass.
-static bool mark_elements(const RawElements *elements, const char *path, NodeTable *table,
-                          Error *err)
+// Marks the nodes to keep, by an index of 0.
+static bool mark_nodes(const MeshRaw *raw, const RawElements *body, const char *path, int32_t dim,
+                       NodeTable *table, Error *err)
 {
-    for (int32_t e = 0; e < elements->count; e++)
-        for (int32_t a = 0; a < elements->items[e].count; a++) {
-            Node *node = table_find(table, elements->items[e].nodes[a]);
+    bool *attached = NULL;
+
+    // Those of the body's elements. A tag that no node has is an error: gmsh lets some of those
+    // files pass.
+    for (int32_t e = 0; e < body->count; e++)
+        for (int32_t a = 0; a < body->items[e].count; a++) {
+            Node *node = table_find(table, body->items[e].nodes[a]);
             if (!node)
                 return REFUSE(err, "%s: element %lld uses node %lld, which the file lacks", path,
-                              (long long)elements->items[e].number,
-                              (long long)elements->items[e].nodes[a]);
+                              (long long)body->items[e].number, (long long)body->items[e].nodes[a]);
             node->index = 0;
         }
-    return true;
-}
 
-// Marks nodes on a surface or curve that are on no element of any kind, which fem/mesh_build
-// refuses. Nodes of points, and of curves and surfaces outside the physical groups, only help to
-// draw the geometry (centres of arcs) and are left out.
-static bool mark_orphans(const MeshRaw *raw, NodeTable *table, Error *err)
-{
-    bool *attached = NEW_ARRAY(bool, table->count, err);
-    if (!attached) goto cleanup;
+    // Those on a surface or curve that are on no element of any kind, which fem/mesh_build refuses;
+    // and those of the boundary groups: on no element of the body they are refused likewise. Nodes
+    // of points, and of curves and surfaces outside the physical groups, only help to draw the
+    // geometry (centres of arcs) and are left out.
+    TRY(attached = NEW_ARRAY(bool, table->count, err));
     for (int32_t k = 0; k < raw->block_count; k++) {
         const RawBlock *block = &raw->blocks[k];
+        bool boundary = block->dimension == dim - 1 && raw_block_groups(raw, block) > 0;
         for (int64_t i = 0; i < block->count * block->nodes_per_element; i++) {
-            const Node *node = table_find(table, block->nodes[i]);
+            Node *node = table_find(table, block->nodes[i]);
             if (node) attached[node - table->node] = true;
+            if (node && boundary) node->index = 0;
         }
     }
     for (int32_t k = 0; k < table->count; k++)
@@ -110,19 +98,6 @@ static bool mark_orphans(const MeshRaw *raw, NodeTable *table, Error *err)
 cleanup:
     memory_free(attached);
     return error_is_clean(err);
-}
-
-// Marks the nodes of the boundary groups: those on no element of the body are refused likewise.
-static void mark_boundaries(const MeshRaw *raw, int32_t dim, NodeTable *table)
-{
-    for (int32_t k = 0; k < raw->block_count; k++) {
-        const RawBlock *block = &raw->blocks[k];
-        if (block->dimension != dim - 1 || raw_block_groups(raw, block) == 0) continue;
-        for (int64_t i = 0; i < block->count * block->nodes_per_element; i++) {
-            Node *node = table_find(table, block->nodes[i]);
-            if (node) node->index = 0;
-        }
-    }
 }
 
 // Numbers the marked nodes and copies their positions, mesh->dim numbers each.
@@ -246,14 +221,6 @@ static bool store_group_faces(const char *path, const RawElements *faces, const 
     return true;
 }
 
-// The element with gmsh's number, which ascend; -1: none, a copy that was dropped.
-static int32_t find_element(const MeshFile *mesh, int64_t number)
-{
-    const int64_t *found = bsearch(&number, mesh->element_number, (size_t)mesh->element_count,
-                                   sizeof number, order_int64);
-    return found ? (int32_t)(found - mesh->element_number) : -1;
-}
-
 // The elements of a region, by the entities that it is made of: copies of an element are on the
 // same entity as the one that was kept.
 static bool store_group_elements(const MeshRaw *raw, const RawGroup *from, const MeshFile *mesh,
@@ -266,9 +233,12 @@ static bool store_group_elements(const MeshRaw *raw, const RawGroup *from, const
     for (int32_t k = 0; k < raw->block_count; k++) {
         const RawBlock *block = &raw->blocks[k];
         for (int64_t i = 0; raw_group_holds(from, block) && i < block->count; i++) {
-            int32_t e = find_element(mesh, block->number[i]);
-            if (e < 0) continue;
-            group->elements[group->element_count++] = e;
+            // By gmsh's numbers, which ascend; a copy that was dropped is not found.
+            const int64_t *found = bsearch(&block->number[i], mesh->element_number,
+                                           (size_t)mesh->element_count, sizeof *block->number,
+                                           order_int64);
+            if (found)
+                group->elements[group->element_count++] = (int32_t)(found - mesh->element_number);
         }
     }
     qsort(group->elements, (size_t)group->element_count, sizeof(int32_t), order_int32);
@@ -323,36 +293,37 @@ static bool convert_groups(const MeshRaw *raw, const char *path, const NodeTable
     return true;
 }
 
-// gmsh reads numbers of format 2.2 into ints, where larger ones run over, and takes negative ones
-// as they are; messages name nodes and elements by them.
-static bool check_numbers(const MeshRaw *raw, const char *path, Error *err)
+bool mesh_raw_convert(const MeshRaw *raw, const char *path, MeshFile *mesh, Error *err)
 {
     static const char *const how =
         "numbers are from 1 to 2147483647 in format 2.2 (gmsh and meshio renumber a mesh that they "
         "save again)";
-    for (int64_t i = 0; i < raw->node_count; i++)
-        if (raw->node_number[i] < 1 || raw->node_number[i] > NUMBER_MAX)
-            return REFUSE(err, "%s: a node has the number %lld as gmsh reads it; %s", path,
-                          (long long)raw->node_number[i], how);
-    for (int32_t k = 0; k < raw->block_count; k++)
-        for (int64_t i = 0; i < raw->blocks[k].count; i++)
-            if (raw->blocks[k].number[i] < 1 || raw->blocks[k].number[i] > NUMBER_MAX)
-                return REFUSE(err, "%s: an element has the number %lld as gmsh reads it; %s", path,
-                              (long long)raw->blocks[k].number[i], how);
-    return true;
-}
-
-bool mesh_raw_convert(const MeshRaw *raw, const char *path, MeshFile *mesh, Error *err)
-{
     RawElements body = {0};
     NodeTable table = {0};
     *mesh = (MeshFile){.dim = raw_dimension(raw)};
-    TRY(check_numbers(raw, path, err));
+
+    // gmsh reads numbers of format 2.2 into ints, where larger ones run over, and takes negative
+    // ones as they are; messages name nodes and elements by them.
+    for (int64_t i = 0; i < raw->node_count; i++)
+        if (raw->node_number[i] < 1 || raw->node_number[i] > NUMBER_MAX)
+            FAIL(err, ERROR_INPUT, "%s: a node has the number %lld as gmsh reads it; %s", path,
+                 (long long)raw->node_number[i], how);
+    for (int32_t k = 0; k < raw->block_count; k++)
+        for (int64_t i = 0; i < raw->blocks[k].count; i++)
+            if (raw->blocks[k].number[i] < 1 || raw->blocks[k].number[i] > NUMBER_MAX)
+                FAIL(err, ERROR_INPUT, "%s: an element has the number %lld as gmsh reads it; %s",
+                     path, (long long)raw->blocks[k].number[i], how);
     TRY(raw_pick_body(raw, mesh->dim, path, &body, err));
-    TRY(table_build(raw, path, &table, err));
-    TRY(mark_elements(&body, path, &table, err));
-    TRY(mark_orphans(raw, &table, err));
-    mark_boundaries(raw, mesh->dim, &table);
+
+    // All nodes by their tags, none marked yet.
+    if (raw->node_count > INT32_MAX / 3)
+        FAIL(err, ERROR_INPUT, "%s: %lld nodes are too many", path, (long long)raw->node_count);
+    TRY(table.node = NEW_ARRAY(Node, raw->node_count, err));
+    table.count = (int32_t)raw->node_count;
+    for (int32_t k = 0; k < table.count; k++) table.node[k] = (Node){raw->node_number[k], k, -1};
+    qsort(table.node, (size_t)table.count, sizeof *table.node, order_int64);
+
+    TRY(mark_nodes(raw, &body, path, mesh->dim, &table, err));
     TRY(number_nodes(raw, path, &table, mesh, err));
     TRY(store_elements(&body, &table, mesh, err));
     TRY(convert_groups(raw, path, &table, mesh, err));

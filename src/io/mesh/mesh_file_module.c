@@ -86,28 +86,6 @@ static bool gmsh_complained(void)
 #define INITIALIZE gmshInitialize
 #endif
 
-// Starts gmsh without its configuration files (a user's must not change our mesh), silent, with one
-// thread (so that the same .geo gives the same mesh), and with a log.
-static bool gmsh_begin(Error *err)
-{
-    char name[] = "gmsh", *argv[] = {name, NULL};
-    int status = 0;
-    INITIALIZE(1, argv, 0, &status);
-    if (status) return FAULT(err, ERROR_LIBRARY, "gmsh does not start (status %d)", status);
-    gmshOptionSetNumber("General.Terminal", 0, &status);
-    gmshOptionSetNumber("General.NumThreads", 1, &status);
-    gmshLoggerStart(&status);
-    return true;
-}
-
-// Ends the session; the next one finds no model, no options and no log of this one.
-static void gmsh_end(void)
-{
-    int status = 0;
-    gmshLoggerStop(&status);
-    gmshFinalize(&status);
-}
-
 // A script in memory that sets the parameters, all in its first line, and is or includes the .geo:
 // DefineConstant does not change what has a value. (gmsh would keep -setnumber for every later
 // session of the process.)
@@ -242,11 +220,6 @@ static bool gmsh_load(const MeshRawRequest *request, MeshRaw *raw, Error *err)
     return error_is_clean(err);
 }
 
-static bool is_linear(int type)
-{
-    return type >= MSH_TRI_3 && type <= MSH_PRI_6;
-}
-
 // Halves every edge `splits` times. gmsh makes linear elements of it, which get their order back;
 // new nodes are put onto the geometry where there is one (a .geo).
 static bool gmsh_split(const MeshRawRequest *request, const MeshRaw *raw, Error *err)
@@ -256,7 +229,7 @@ static bool gmsh_split(const MeshRawRequest *request, const MeshRaw *raw, Error 
     if (request->splits == 0) return true;
     gmshModelMeshGetElementTypes(&types, &count, model_dimension(), -1, &status);
     for (size_t k = 0; k < count; k++) {
-        if (!is_linear(types[k])) order = 2;
+        if (types[k] < MSH_TRI_3 || types[k] > MSH_PRI_6) order = 2;   // not linear
         if (types[k] == MSH_QUA_8) gmshOptionSetNumber("Mesh.SecondOrderIncomplete", 1, &status);
     }
     for (int32_t k = 0; k < request->splits && status == 0; k++) gmshModelMeshRefine(&status);
@@ -403,47 +376,50 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Applies the options that gmsh applies when it writes a mesh, because these numbers are taken from
-// its memory.
-static void apply_options(MeshRaw *raw)
-{
-    double factor = 1, all = 0;
-    int status = 0;
-    gmshOptionGetNumber("Mesh.ScalingFactor", &factor, &status);
-    for (int64_t k = 0; status == 0 && factor != 1 && k < 3 * raw->node_count; k++)
-        raw->node_position[k] *= factor;
-    gmshOptionGetNumber("Mesh.SaveAll", &all, &status);
-    raw->all_elements = status == 0 && all != 0;
-}
-
 // gmsh has one session a process.
 static pthread_mutex_t session = PTHREAD_MUTEX_INITIALIZER;
-
-// gmsh sets LC_NUMERIC to "C" and leaves it so. before: setlocale's answer before it started.
-static void restore_numeric_locale(const char *before)
-{
-    const char *now = setlocale(LC_NUMERIC, NULL);
-    if (now && strcmp(now, before) != 0) setlocale(LC_NUMERIC, before);
-}
 
 __attribute__((visibility("default"))) bool amontons_gmsh_read(const MeshRawRequest *request,
                                                                MeshRaw *raw, Error *err)
 {
+    char name[] = "gmsh", *argv[] = {name, NULL}, locale[LOCALE_SIZE];
+    int status = 0;
     bool begun = false;
-    char locale[LOCALE_SIZE];
+    double factor = 1, all = 0;
     *raw = (MeshRaw){0};
     pthread_mutex_lock(&session);
     snprintf(locale, sizeof locale, "%s", setlocale(LC_NUMERIC, NULL));
-    TRY(begun = gmsh_begin(err));
+
+    // Without its configuration files (a user's must not change our mesh), silent, with one thread
+    // (so that the same .geo gives the same mesh), and with a log.
+    INITIALIZE(1, argv, 0, &status);
+    if (status) FAIL(err, ERROR_LIBRARY, "gmsh does not start (status %d)", status);
+    begun = true;
+    gmshOptionSetNumber("General.Terminal", 0, &status);
+    gmshOptionSetNumber("General.NumThreads", 1, &status);
+    gmshLoggerStart(&status);
+
     TRY(gmsh_load(request, raw, err));
     TRY(gmsh_split(request, raw, err));
     for (int dimension = 0; dimension <= 3; dimension++) TRY(fetch_nodes(dimension, raw, err));
     TRY(fetch_all_elements(raw, err));
     TRY(fetch_groups(request->path, raw, err));
-    if (request->generate) apply_options(raw);
+    if (request->generate) {
+        // The options that gmsh applies when it writes a mesh, as these numbers are taken from its
+        // memory.
+        gmshOptionGetNumber("Mesh.ScalingFactor", &factor, &status);
+        for (int64_t k = 0; status == 0 && factor != 1 && k < 3 * raw->node_count; k++)
+            raw->node_position[k] *= factor;
+        gmshOptionGetNumber("Mesh.SaveAll", &all, &status);
+        raw->all_elements = status == 0 && all != 0;
+    }
 cleanup:
-    if (begun) gmsh_end();
-    restore_numeric_locale(locale);
+    // The next session finds no model, no options and no log of this one.
+    if (begun) gmshLoggerStop(&status);
+    if (begun) gmshFinalize(&status);
+
+    // gmsh sets LC_NUMERIC to "C" and leaves it so.
+    if (strcmp(setlocale(LC_NUMERIC, NULL), locale) != 0) setlocale(LC_NUMERIC, locale);
     pthread_mutex_unlock(&session);
     return error_is_clean(err);
 }

@@ -109,25 +109,6 @@ static const VideoKind *find_kind(const char *path)
     return NULL;
 }
 
-// The name is asked once more, to move the index of an .mp4 to its front; "file:" keeps a colon in
-// it from being taken for a protocol.
-static bool format_open(VideoFile *film, const VideoKind *kind, Error *err)
-{
-    char url[4200];
-    snprintf(url, sizeof url, "file:%s", film->part.part);
-    if (!check(film, avformat_alloc_output_context2(&film->format, NULL, kind->format, url),
-               "makes no such file", err))
-        return false;
-    uint8_t *buffer = av_malloc(BUFFER_SIZE);
-    if (buffer)
-        film->io = avio_alloc_context(buffer, BUFFER_SIZE, 1, film, NULL, bytes_write, place_seek);
-    if (!film->io) av_free(buffer);
-    if (!check(film, film->io ? 0 : AVERROR(ENOMEM), "", err)) return false;
-    film->format->pb = film->io;
-    film->format->flags |= AVFMT_FLAG_BITEXACT;
-    return true;
-}
-
 // Colours of video are those of BT.709, which is what players take for granted of HD.
 static bool codec_open(VideoFile *film, const VideoKind *kind, const VideoDef *def, Error *err)
 {
@@ -184,24 +165,6 @@ static bool frame_create(VideoFile *film, const VideoKind *kind, const VideoDef 
     return true;
 }
 
-static bool track_open(VideoFile *film, const VideoDef *def, Error *err)
-{
-    AVDictionary *options = NULL;
-    film->track = avformat_new_stream(film->format, NULL);
-    TRY(check(film, film->track ? 0 : AVERROR(ENOMEM), "", err));
-    film->track->time_base = film->codec->time_base;
-    film->track->avg_frame_rate = film->codec->framerate;
-    TRY(check(film, avcodec_parameters_from_context(film->track->codecpar, film->codec),
-              "describes no stream", err));
-    av_dict_set(&options, "movflags", "+faststart", 0);   // others do not know it
-    av_dict_set(&film->format->metadata, "comment", "made by amontons " AMONTONS_VERSION, 0);
-    if (def->title && def->title[0]) av_dict_set(&film->format->metadata, "title", def->title, 0);
-    TRY(check(film, avformat_write_header(film->format, &options), "writes no header", err));
-cleanup:
-    av_dict_free(&options);
-    return error_is_clean(err);
-}
-
 // The nearest entry of the palette to the middle of each of SIDE^3 cubes of colours.
 static bool palette_fill(VideoFile *film, const uint8_t *colors, Error *err)
 {
@@ -242,6 +205,8 @@ static void film_destroy(VideoFile *film)
 
 static VideoFile *film_create(const VideoDef *def, Error *err)
 {
+    char url[4200];
+    AVDictionary *options = NULL;
     const VideoKind *kind = find_kind(def->path);
     VideoFile *film = NEW_ARRAY(VideoFile, 1, err);
     TRY(film);
@@ -255,12 +220,37 @@ static VideoFile *film_create(const VideoDef *def, Error *err)
              def->rate);
     if (kind->pixels == AV_PIX_FMT_PAL8) TRY(palette_fill(film, def->palette, err));
     TRY(part_file_replace(&film->part, def->path, def->overwrite, err));
-    TRY(format_open(film, kind, err));
+
+    // The file. Its name is asked once more, to move the index of an .mp4 to its front; "file:"
+    // keeps a colon in it from being taken for a protocol.
+    snprintf(url, sizeof url, "file:%s", film->part.part);
+    TRY(check(film, avformat_alloc_output_context2(&film->format, NULL, kind->format, url),
+              "makes no such file", err));
+    uint8_t *buffer = av_malloc(BUFFER_SIZE);
+    if (buffer)
+        film->io = avio_alloc_context(buffer, BUFFER_SIZE, 1, film, NULL, bytes_write, place_seek);
+    if (!film->io) av_free(buffer);
+    TRY(check(film, film->io ? 0 : AVERROR(ENOMEM), "", err));
+    film->format->pb = film->io;
+    film->format->flags |= AVFMT_FLAG_BITEXACT;
+
     TRY(codec_open(film, kind, def, err));
     TRY(frame_create(film, kind, def, err));
-    TRY(track_open(film, def, err));
-    return film;
+
+    // The one stream in it, and the header.
+    film->track = avformat_new_stream(film->format, NULL);
+    TRY(check(film, film->track ? 0 : AVERROR(ENOMEM), "", err));
+    film->track->time_base = film->codec->time_base;
+    film->track->avg_frame_rate = film->codec->framerate;
+    TRY(check(film, avcodec_parameters_from_context(film->track->codecpar, film->codec),
+              "describes no stream", err));
+    av_dict_set(&options, "movflags", "+faststart", 0);   // others do not know it
+    av_dict_set(&film->format->metadata, "comment", "made by amontons " AMONTONS_VERSION, 0);
+    if (def->title && def->title[0]) av_dict_set(&film->format->metadata, "title", def->title, 0);
+    TRY(check(film, avformat_write_header(film->format, &options), "writes no header", err));
 cleanup:
+    av_dict_free(&options);
+    if (error_is_clean(err)) return film;
     film_destroy(film);
     return NULL;
 }
@@ -283,28 +273,23 @@ static bool packets_write(VideoFile *film, Error *err)
     return true;
 }
 
-static void frame_index(VideoFile *film, const uint8_t *pixels, int32_t stride)
-{
-    enum { DROP = 8 - SIDE_BITS };   // bits of a colour's part
-    memcpy(film->frame->data[1], film->palette, sizeof film->palette);
-    for (int32_t row = 0; row < film->frame->height; ++row) {
-        const uint8_t *from = pixels + (int64_t)row * stride;
-        uint8_t *to = film->frame->data[0] + (int64_t)row * film->frame->linesize[0];
-        for (int32_t k = 0; k < film->frame->width; ++k, from += 4)
-            to[k] = film->nearest[(from[2] >> DROP) << 2 * SIDE_BITS |
-                                  (from[1] >> DROP) << SIDE_BITS | from[0] >> DROP];
-    }
-}
-
 static bool film_add(VideoFile *film, const uint8_t *pixels, int32_t stride, Error *err)
 {
+    enum { DROP = 8 - SIDE_BITS };   // bits of a colour's part
     AVFrame *frame = film->frame;
     if (!check(film, av_frame_make_writable(frame), "has no frame", err)) return false;
     if (film->scaler)
         sws_scale(film->scaler, (const uint8_t *const[]){pixels}, &stride, 0, frame->height,
                   frame->data, frame->linesize);
     else
-        frame_index(film, pixels, stride);
+        memcpy(frame->data[1], film->palette, sizeof film->palette);
+    for (int32_t row = 0; !film->scaler && row < frame->height; ++row) {
+        const uint8_t *from = pixels + (int64_t)row * stride;
+        uint8_t *to = frame->data[0] + (int64_t)row * frame->linesize[0];
+        for (int32_t k = 0; k < frame->width; ++k, from += 4)
+            to[k] = film->nearest[(from[2] >> DROP) << 2 * SIDE_BITS |
+                                  (from[1] >> DROP) << SIDE_BITS | from[0] >> DROP];
+    }
     frame->pts = film->frames++;
     return check(film, avcodec_send_frame(film->codec, frame), "cannot encode a frame", err) &&
            packets_write(film, err);

@@ -5,7 +5,6 @@
 
 #include "cases.h"
 #include "render/figures/depth_image.h"
-#include "render/view/surface_cut.h"
 #include "space_mesh.h"
 
 enum { KINDS = 5 };

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Where legends go: curves that leave one corner free, or none; on the picture, an outer legend
 // stands beside the frame. What a legend hides is checked by walking along the curves.
-#include "render/plot/legend_place.h"
+#include "render/plot/legend.h"
 
 #include "near.h"
 #include "render/plot/figure_curves.h"
 
 #include "base/memory.h"
 #include "canvas_read.h"
+
+#include <string.h>
 
 static const LegendSize SIZE = {.width = 30, .height = 20, .margin = 4, .clearance = 2, .mark = 3};
 
@@ -118,12 +120,12 @@ static int32_t frame_right(Plot *plot)
     Error err = {0};
     enum { WIDTH = 860, HEIGHT = 645 };
     const PictureStyle style = {.dpi = 254};   // 10 pixels a millimetre
-    const PageDef def = {.style = &style, .height = (double)HEIGHT / WIDTH};
     Page page = {0};
     uint8_t *pixels = NULL;
     int32_t right = -1;
-    assert_true(page_begin(&page, &def, &err));
-    assert_true(figure_curves(&page, plot, &err) && canvas_read(page.canvas, &pixels, &err));
+    plot->height_over_width = (double)HEIGHT / WIDTH;
+    assert_true(figure_plot(&page, plot, &style, NULL, &err));
+    assert_true(canvas_read(page.canvas, &pixels, &err));
     for (int32_t column = 0; column < WIDTH; column++) {
         int32_t dark = 0;
         for (int32_t row = 0; row < HEIGHT; row++) dark += pixels[3 * (row * WIDTH + column)] < 128;
@@ -155,5 +157,28 @@ TEST(an_outer_legend_narrows_the_frame)
     assert_int_equal(frame_right(plot), beside);
     plot->main.series[0].count = 2;   // along the top alone
     assert_int_equal(frame_right(plot), whole);
+    memory_free(plot);
+}
+
+// A legend that leaves the frame no width is refused, where a map would have no pixels to be in.
+TEST(an_outer_legend_leaves_a_frame)
+{
+    Error err = {0};
+    double x[4] = {1, 2, 1, 2}, y[4] = {1, 1, 2, 2}, value[4] = {1, 2, 3, 4};
+    const PictureStyle style = {.dpi = 254};
+    Page page = {0};
+    Plot *plot = NEW_ARRAY(Plot, 1, &err);
+    assert_non_null(plot);
+    *plot = (Plot){.height_over_width = 0.75, .color = {.low = 1, .high = 4, .factor = 1}};
+    plot->main = (PlotPanel){.x = {.high = 3, .factor = 1}, .y = {.high = 3, .factor = 1}};
+    plot->main.has_map = true;
+    plot->main.map = (PlotMap){.count = 4, .x = x, .y = y, .value = value};
+    plot->main.series_count = 1;
+    plot->main.series[0] = (PlotSeries){.count = 1, .x = x, .y = y};
+    memset(plot->main.series[0].label, 'm', PLOT_LABEL_SIZE - 1);
+    plot->main.legend = CORNER_OUTSIDE;
+    assert_false(figure_plot(&page, plot, &style, NULL, &err));
+    assert_int_equal(err.code, ERROR_INPUT);
+    page_destroy(&page);
     memory_free(plot);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The contact along x at chosen moments. Called by figure_profile and figure_data.
-#ifndef AMONTONS_RENDER_FIGURES_PROFILE_DATA_H
-#define AMONTONS_RENDER_FIGURES_PROFILE_DATA_H
+// The contact along x at chosen moments, as numbers. Called by figure_data.
+#ifndef AMONTONS_RENDER_FIGURES_FIGURE_PROFILE_H
+#define AMONTONS_RENDER_FIGURES_FIGURE_PROFILE_H
 
 #include "render/view/result_view.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Which pad lets go first, and when: in each cycle, read off the statuses of a history. Called by
-// figure_data and figure_pads.
-#ifndef AMONTONS_RENDER_FIGURES_PAD_DATA_H
-#define AMONTONS_RENDER_FIGURES_PAD_DATA_H
+// figure_data.
+#ifndef AMONTONS_RENDER_FIGURES_FIGURE_PADS_H
+#define AMONTONS_RENDER_FIGURES_FIGURE_PADS_H
 
 #include "render/view/result_view.h"
 

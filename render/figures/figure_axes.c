@@ -1,11 +1,24 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "render/figures/stack.h"
+#include "render/figures/figure_axes.h"
 
 #include <math.h>
+#include <stdio.h>
 
 static const double RIGHT_MARGIN = 8;   // points: half a number of the x axis
 static const double FRAME_SHAPE = 0.27, ENDS_SHAPE = 0.16;   // over the width: a frame; all else
 static const double ROOM = 0.06;   // of the range, above and below the curves
+
+Axis figure_length_axis(const ResultView *view, const char *symbol, double low, double high)
+{
+    char name[16];
+    Axis axis = {.low = low, .high = high, .factor = 1};
+    snprintf(name, sizeof name, "~{%.8s}", symbol);
+    if (view->si)
+        axis_set_unit(&axis, name, "m");
+    else
+        snprintf(axis.label, sizeof axis.label, "%s / ~{L}_{0}", name);
+    return axis;
+}
 
 Color stack_color(int32_t k)
 {

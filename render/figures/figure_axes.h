@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Frames below each other over one x axis, whose numbers stand below the last. Called by
-// figure_probes and figure_profile.
-#ifndef AMONTONS_RENDER_FIGURES_STACK_H
-#define AMONTONS_RENDER_FIGURES_STACK_H
+// Axes that figures share: lengths of a result, and frames below each other over one x axis, whose
+// numbers stand below the last. Called by the figures and the film.
+#ifndef AMONTONS_RENDER_FIGURES_FIGURE_AXES_H
+#define AMONTONS_RENDER_FIGURES_FIGURE_AXES_H
 
 #include "render/canvas/axes.h"
+#include "render/view/result_view.h"
 
 enum { STACK_COLORS = 8 };
+
+// An axis of lengths from low to high: "~{U} / ~{L}_{0}", or in SI "~{U} (mm)".
+Axis figure_length_axis(const ResultView *view, const char *symbol, double low, double high);
 
 // Colour of curve number k: any two of the first eight are told apart, also without one of the
 // three kinds of cones.

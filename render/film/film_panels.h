@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Two parts of a film's page: F_T/F_N against U with a dot that runs along, and the slip rate, or a
-// state, along the contact as it is now. Called by film_page.
-#ifndef AMONTONS_RENDER_FILM_FILM_CURVES_H
-#define AMONTONS_RENDER_FILM_FILM_CURVES_H
+// Parts of a film's page: F_T/F_N against U with a dot that runs along, and the slip rate, or a
+// state, as it is now: along the contact, or in space over all of it. Called by film_page.
+#ifndef AMONTONS_RENDER_FILM_FILM_PANELS_H
+#define AMONTONS_RENDER_FILM_FILM_PANELS_H
 
 #include "render/canvas/colorbar.h"
 #include "render/canvas/page.h"
@@ -32,5 +32,20 @@ typedef struct FilmProfile {
 void film_profile_place(const Page *page, const Box *cell, FilmProfile *profile);
 void film_profile_draw(const Page *page, const FilmProfile *profile);   // what stands
 void film_profile_now(const Page *page, const FilmProfile *profile, const FilmMoment *now);
+
+typedef struct FilmPlane {
+    ResultView *view;   // in space, with faces
+    bool state;   // the view's is shown in the place of slip rates
+    Colorbar bar;   // of what is shown
+    Axes axes;
+    double *values;   // [rows * all_nodes]; owned, like the next
+    float *level;   // [all_nodes] work
+} FilmPlane;
+
+// To scale in `cell`, pixels. Reads what it needs.
+bool film_plane_create(const Page *page, const Box *cell, FilmPlane *plane, Error *err);
+void film_plane_destroy(FilmPlane *plane);   // zeroed is fine
+void film_plane_draw(const Page *page, const FilmPlane *plane);   // what stands
+bool film_plane_now(const Page *page, const FilmPlane *plane, const FilmMoment *now, Error *err);
 
 #endif

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A page with one field of the block: its size, and what is drawn on it. Called by figure_field and
-// frame_images.
-#ifndef AMONTONS_RENDER_FIGURES_FIELD_PAGE_H
-#define AMONTONS_RENDER_FIGURES_FIELD_PAGE_H
+// A page with one field of the block: its size, and what is drawn on it. Called by frames.
+#ifndef AMONTONS_RENDER_FIGURES_FIGURE_FIELD_H
+#define AMONTONS_RENDER_FIGURES_FIGURE_FIELD_H
 
 #include "render/figures/block_page.h"
-#include "render/figures/figures.h"
 
 typedef struct FieldPage {
     double magnification;   // of the deformation
