@@ -48,7 +48,6 @@ typedef struct Pool {
     Sweep *sweep;
     int32_t size;   // workers at a time
     Worker *workers;   // [size]; owned
-    struct pollfd *polled;   // [size]; owned
     int32_t next, step;   // point to look at for the next worker; to the one behind it
 } Pool;
 
@@ -105,26 +104,6 @@ static bool start_worker(Pool *pool, Worker *worker, Error *err)
     return true;
 }
 
-// Takes what a point left, or else says why it left nothing: the message of its child, or how that
-// ended (as process_wait has it).
-static bool note_result(Pool *pool, const Worker *of, const Reply *reply, int ending, Error *err)
-{
-    const char *said = reply->message, *failure = *said ? "not begun" : "crashed";
-    if (*said && (reply->code == ERROR_FILE || reply->code == ERROR_MEMORY))
-        failure = amontons_error_name(reply->code);   // the machine's, not the point's
-    char message[ERROR_MESSAGE_SIZE], how[200];
-    double seconds = clock_seconds() - of->started;
-    bool left = false;
-    process_describe(ending, how, sizeof how);
-    if (!sweep_take_ended(pool->sweep, of->point, seconds, &left, err)) return false;
-    if (left) return true;
-    if (*said)
-        snprintf(message, sizeof message, "%s", said);
-    else
-        snprintf(message, sizeof message, "the process ended %s, without a word", how);
-    return sweep_take_lost(pool->sweep, of->point, seconds, failure, message, err);
-}
-
 // Waits for the child, which ends by itself once it has nothing to read, and frees its worker. The
 // status as process_wait has it.
 static int reap(Worker *worker)
@@ -154,78 +133,47 @@ static bool give_point(Pool *pool, Worker *worker, Error *err)
     return true;
 }
 
-static bool fill_workers(Pool *pool, Error *err)
-{
-    for (int32_t k = 0; k < pool->size; k++) {
-        Worker *worker = &pool->workers[k];
-        if ((!worker->process || worker->point < 0) && !give_point(pool, worker, err)) return false;
-    }
-    return true;
-}
-
-// *report: what follows the reply; NULL: nothing. false: the child has ended.
-static bool receive(int socket, Reply *reply, char **report, Error *err)
-{
-    if (transfer_read(socket, reply, sizeof *reply, -1) != sizeof *reply) return false;
-    if (reply->size <= 0) return true;
-    *report = memory_array((int64_t)reply->size + 1, 1, err);
-    return *report && transfer_read(socket, *report, reply->size, -1) == reply->size;
-}
-
-// The next point is handed out before the result of the last is looked at.
+// Takes the reply of a worker whose socket has something to read, and what its point left, or else
+// records why that left nothing: the message of its child, or how that ended. The next point is
+// handed out before the result of the last is looked at.
 static bool read_worker(Pool *pool, Worker *worker, Error *err)
 {
     Reply reply = {0};
     Worker before = *worker;
     Error unable = {0};
-    char *report = NULL;
+    char *report = NULL, message[ERROR_MESSAGE_SIZE], how[200];
     int ending = 0;
-    bool whole = receive(worker->socket, &reply, &report, err);
+    bool left = false;
+    bool whole = transfer_read(worker->socket, &reply, sizeof reply, -1) == sizeof reply;
+    if (whole && reply.size > 0) {
+        report = memory_array((int64_t)reply.size + 1, 1, err);
+        whole = report && transfer_read(worker->socket, report, reply.size, -1) == reply.size;
+    }
     if (whole)
         worker->point = -1;
     else
-        ending = reap(worker);
+        ending = reap(worker);   // the child has ended
     if (before.point < 0) goto cleanup;
     give_point(pool, worker, &unable);
     if (whole && report) TRY(point_keep(pool->sweep, before.point, report, err));
-    TRY(note_result(pool, &before, &reply, ending, err));
+
+    double seconds = clock_seconds() - before.started;
+    process_describe(ending, how, sizeof how);
+    TRY(sweep_take_ended(pool->sweep, before.point, seconds, &left, err));
+    if (!left) {
+        const char *said = reply.message, *failure = *said ? "not begun" : "crashed";
+        if (*said && (reply.code == ERROR_FILE || reply.code == ERROR_MEMORY))
+            failure = amontons_error_name(reply.code);   // the machine's, not the point's
+        if (*said)
+            snprintf(message, sizeof message, "%s", said);
+        else
+            snprintf(message, sizeof message, "the process ended %s, without a word", how);
+        TRY(sweep_take_lost(pool->sweep, before.point, seconds, failure, message, err));
+    }
     if (!error_is_clean(&unable)) *err = unable;
 cleanup:
     memory_free(report);
     return error_is_clean(err);
-}
-
-// Waits for output or the end of any worker. *running: how many there are.
-static bool read_workers(Pool *pool, int32_t *running, Error *err)
-{
-    *running = 0;
-    for (int32_t k = 0; k < pool->size; k++) {
-        const Worker *worker = &pool->workers[k];
-        pool->polled[k] =
-            (struct pollfd){.fd = worker->process ? worker->socket : -1, .events = POLLIN};
-        *running += worker->process != 0 && worker->point >= 0;
-    }
-    if (*running == 0) return true;
-    if (poll(pool->polled, (nfds_t)pool->size, WAKE_MS) <= 0) return true;
-    for (int32_t k = 0; k < pool->size; k++)
-        if (pool->polled[k].revents && !read_worker(pool, &pool->workers[k], err)) return false;
-    return true;
-}
-
-// A point that was written before the signal came is finished like any other.
-static void end_workers(Pool *pool)
-{
-    for (int32_t k = 0; k < pool->size; k++) {
-        Error ignored = {0};   // the caller tells why the pool ends
-        Worker *worker = &pool->workers[k];
-        bool left = false;
-        if (!worker->process) continue;
-        kill(worker->process, SIGTERM);
-        reap(worker);
-        if (worker->point >= 0)
-            sweep_take_ended(pool->sweep, worker->point, clock_seconds() - worker->started, &left,
-                             &ignored);
-    }
 }
 
 // Children are watched by poll, not by signals: a pipe closes however its child ends.
@@ -233,17 +181,43 @@ bool pool_run(Sweep *sweep, int32_t workers, int32_t step, Error *err)
 {
     int32_t cores = (int32_t)sysconf(_SC_NPROCESSORS_ONLN), running = 0;
     Pool pool = {.sweep = sweep, .size = workers, .step = step};
+    struct pollfd *polled = NULL;   // [size]
     if (pool.size < 1) pool.size = cores > 0 ? cores : 1;
     if (pool.size > JOBS_MAX) pool.size = JOBS_MAX;
     TRY((pool.workers = NEW_ARRAY(Worker, pool.size, err)));
-    TRY((pool.polled = NEW_ARRAY(struct pollfd, pool.size, err)));
+    TRY((polled = NEW_ARRAY(struct pollfd, pool.size, err)));
     do {
         TRY(sweep_check_stop(sweep, err));
-        TRY(fill_workers(&pool, err));
-        TRY(read_workers(&pool, &running, err));
+        running = 0;
+        for (int32_t k = 0; k < pool.size; k++) {
+            Worker *worker = &pool.workers[k];
+            if (!worker->process || worker->point < 0) TRY(give_point(&pool, worker, err));
+        }
+
+        // Output, or the end, of any worker.
+        for (int32_t k = 0; k < pool.size; k++) {
+            const Worker *worker = &pool.workers[k];
+            polled[k] =
+                (struct pollfd){.fd = worker->process ? worker->socket : -1, .events = POLLIN};
+            running += worker->process != 0 && worker->point >= 0;
+        }
+        if (running == 0 || poll(polled, (nfds_t)pool.size, WAKE_MS) <= 0) continue;
+        for (int32_t k = 0; k < pool.size; k++)
+            if (polled[k].revents) TRY(read_worker(&pool, &pool.workers[k], err));
     } while (running > 0);
 cleanup:
-    if (pool.workers) end_workers(&pool);
-    memory_free_all(pool.workers, pool.polled);
+    // A point that was written before the signal came is finished like any other.
+    for (int32_t k = 0; pool.workers && k < pool.size; k++) {
+        Error ignored = {0};   // the caller tells why the pool ends
+        Worker *worker = &pool.workers[k];
+        bool left = false;
+        if (!worker->process) continue;
+        kill(worker->process, SIGTERM);
+        reap(worker);
+        if (worker->point >= 0)
+            sweep_take_ended(sweep, worker->point, clock_seconds() - worker->started, &left,
+                             &ignored);
+    }
+    memory_free_all(pool.workers, polled);
     return error_is_clean(err);
 }
