@@ -18,6 +18,12 @@ enum {
 #undef X
 };
 
+static const char *const picture_options[PICTURE_OPTION_COUNT] = {
+#define X(name, ...) #name,
+    PICTURE_OPTIONS(X)
+#undef X
+};
+
 // JSON is YAML: the descriptions that a sweep leaves are .json.
 static bool is_plot(const char *name)
 {
@@ -25,50 +31,11 @@ static bool is_plot(const char *name)
     return dot && (strcmp(dot, ".yaml") == 0 || strcmp(dot, ".json") == 0);
 }
 
-// fig2a.yaml becomes fig2a.png.
-static int draw_plot(const char *plot, const PictureStyle *style)
-{
-    Error err = {0};
-    char picture[PATH_SIZE];
-    int stem = (int)(strrchr(plot, '.') - plot);
-    if (stem + 5 > (int)sizeof picture) return report_misuse("the path of the plot is too long");
-    snprintf(picture, sizeof picture, "%.*s.%.3s", stem, plot, style->format);
-    if (!amontons_render_plot_file(plot, picture, style, &err)) return report_error(&err);
-    say("picture drawn: %s\n", picture);
-    return 0;
-}
-
 static bool is_sweep(const char *folder)
 {
     char path[PATH_SIZE];
     return snprintf(path, sizeof path, "%s/sweep.h5", folder) < (int)sizeof path &&
            access(path, R_OK) == 0;
-}
-
-static int draw_sweep(const char *folder, const char *plot, const PictureStyle *style)
-{
-    Error err = {0};
-    if (!amontons_render_sweep(folder, plot, style, &err)) return report_error(&err);
-    say("pictures drawn: %s/figures\n", folder);
-    return 0;
-}
-
-// Sets each option that was given, by the table.
-static int set_style(const char *const words[PICTURE_OPTION_COUNT], bool no_title,
-                     PictureStyle *style)
-{
-    static const char *const name[PICTURE_OPTION_COUNT] = {
-#define X(name, ...) #name,
-        PICTURE_OPTIONS(X)
-#undef X
-    };
-    if (no_title) style->title = "none";
-    for (int32_t k = 0; k < PICTURE_OPTION_COUNT; ++k) {
-        Error err = {0};
-        if (words[k] && !amontons_picture_option(style, name[k], words[k], &err))
-            return report_misuse("--%s", err.message);
-    }
-    return 0;
 }
 
 // The module that draws them checks the figures: it knows which there are.
@@ -120,24 +87,42 @@ int command_render(const Command *command, int argc, char **argv)
         option_overwrite(&request.style.overwrite),
         {0}};
     int status = options_read(command, options, argc, argv, &from);
-    if (status == 0) status = set_style(words, no_title, &request.style);
     if (status != 0) return status;
-    if ((figures.count || request.panels) && (is_plot(from) || is_sweep(from)))
+    if (no_title) request.style.title = "none";
+    for (int32_t k = 0; k < PICTURE_OPTION_COUNT; ++k)
+        if (words[k] &&
+            !amontons_picture_option(&request.style, picture_options[k], words[k], &err))
+            return report_misuse("--%s", err.message);
+
+    bool of_plot = is_plot(from), of_sweep = is_sweep(from);
+    if ((figures.count || request.panels) && (of_plot || of_sweep))
         return report_misuse("%s has no meaning for a plot or a sweep",
                              figures.count ? "--figure" : "--panels");
     const FieldChoice *field = &request.field;
-    if ((field->of || field->at || field->cut || field->edges) && (is_plot(from) || is_sweep(from)))
+    if ((field->of || field->at || field->cut || field->edges) && (of_plot || of_sweep))
         return report_misuse("--%s has no meaning for a plot or a sweep", field->of    ? "of"
                                                                           : field->at  ? "at"
                                                                           : field->cut ? "cut"
                                                                                        : "edges");
     if (figures.count && request.panels) return report_misuse("--figure and --panels: one of them");
-    if (is_sweep(from)) return draw_sweep(from, plot, &request.style);
-    if (plot) return report_misuse("--plot has a meaning for the folder of a sweep alone");
-    if (is_plot(from)) return draw_plot(from, &request.style);
+    if (plot && !of_sweep)
+        return report_misuse("--plot has a meaning for the folder of a sweep alone");
+    if (of_plot && !of_sweep) {   // fig2a.yaml becomes fig2a.png
+        char picture[PATH_SIZE];
+        int stem = (int)(strrchr(from, '.') - from);
+        if (stem + 5 > (int)sizeof picture)
+            return report_misuse("the path of the plot is too long");
+        snprintf(picture, sizeof picture, "%.*s.%.3s", stem, from, request.style.format);
+        if (!amontons_render_plot_file(from, picture, &request.style, &err))
+            return report_error(&err);
+        say("picture drawn: %s\n", picture);
+        return 0;
+    }
     request.figures = figures.list;
     request.figure_count = figures.count;
-    if (!amontons_render_result(from, &request, &err)) return report_error(&err);
+    bool drawn = of_sweep ? amontons_render_sweep(from, plot, &request.style, &err)
+                          : amontons_render_result(from, &request, &err);
+    if (!drawn) return report_error(&err);
     say("pictures drawn: %s/figures\n", from);
     return 0;
 }

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 static const char ENDING[] = "-sweep";
+
 // A share of the points, in a job of a Slurm array. Slurm puts into the environment which element
 // this process is, and keeps its exit status.
 static int run_element(const StudyWords *words)

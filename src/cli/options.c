@@ -75,26 +75,6 @@ static error_t take_word(int key, char *word, struct argp_state *state)
     return ARGP_ERR_UNKNOWN;
 }
 
-// The exit status.
-static int check_words(const Command *command, const Reading *reading)
-{
-    if (!command->argument)
-        return reading->argument ? report_misuse("%s takes no argument, `%s` is one", command->name,
-                                                 reading->argument)
-                                 : 0;
-    if (!reading->argument)
-        return report_misuse("%s needs a %s, as in `%s`", command->name, command->what,
-                             command->example);
-    if (reading->all && reading->all->too_many)
-        return report_misuse("%s takes %d arguments at most", command->name, OPTION_WORDS_MAX);
-    if (reading->too_many) return report_misuse("%s takes one %s", command->name, command->what);
-    for (const Option *option = reading->options; option->name; option++)
-        if (option->words && option->words->too_many)
-            return report_misuse("--%s is given more than %d times", option->name,
-                                 OPTION_WORDS_MAX);
-    return 0;
-}
-
 static pid_t program;   // 0: the program may end
 
 // Nothing of ours calls exit: a plug-in or a library does, and its status would be taken for ours.
@@ -138,7 +118,20 @@ int options_read(const Command *command, const Option *options, int argc, char *
     argp_parse(&argp, argc, argv, 0, NULL, &reading);
     *argument = reading.argument;
     guard_end(true);   // argp itself may end the program until here
-    return check_words(command, &reading);
+    if (!command->argument && reading.argument)
+        return report_misuse("%s takes no argument, `%s` is one", command->name, reading.argument);
+    if (!command->argument) return 0;
+    if (!reading.argument)
+        return report_misuse("%s needs a %s, as in `%s`", command->name, command->what,
+                             command->example);
+    if (reading.all && reading.all->too_many)
+        return report_misuse("%s takes %d arguments at most", command->name, OPTION_WORDS_MAX);
+    if (reading.too_many) return report_misuse("%s takes one %s", command->name, command->what);
+    for (const Option *option = options; option->name; option++)
+        if (option->words && option->words->too_many)
+            return report_misuse("--%s is given more than %d times", option->name,
+                                 OPTION_WORDS_MAX);
+    return 0;
 }
 
 void default_folder(const char *file, const char *ending, char *folder, size_t size)
