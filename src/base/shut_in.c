@@ -118,8 +118,9 @@ static void add_if(Filter *filter, long number, int which, uint16_t code, uint32
     answer(filter, REFUSE);
 }
 
-static void make_filter(Filter *filter)
+bool shut_in(void)
 {
+    Filter made = {.length = 0}, *filter = &made;
     load(filter, offsetof(struct seccomp_data, arch));
     add(filter, BPF_JMP | BPF_JEQ | BPF_K, ARCHITECTURE, 1, 0);
     answer(filter, REFUSE);
@@ -144,13 +145,8 @@ static void make_filter(Filter *filter)
     add_if(filter, SYS_ioctl, 1, BPF_JEQ, TCGETS, true);
     add_if(filter, SYS_fcntl, 1, BPF_JEQ, F_GETFL, true);
     answer(filter, REFUSE);
-}
 
-bool shut_in(void)
-{
-    Filter filter = {.length = 0};
-    make_filter(&filter);
-    struct sock_fprog program = {filter.length, filter.program};
+    struct sock_fprog program = {made.length, made.program};
     if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
         prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program, 0, 0) == 0)
         return true;
