@@ -97,7 +97,7 @@ bool run_page_write(HtmlWriter *html, const char *folder, const char *cycle, Err
     sheet_begin(html, run.title, "Report of a run, by amontons", parts);
     write_lead(html, &run);
 
-    // What is not complete, and what is to be doubted.
+    // Boxes say what is not complete, and what is to be doubted.
     if (!ended) {
         snprintf(words, sizeof words,
                  "this run has not ended: it is under way, or was killed (there is no run.json). "

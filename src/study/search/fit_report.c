@@ -420,7 +420,7 @@ static bool draw_fitted(const Fit *fit, Error *err)
                    "history.h5", history);
         TRY(measurements_curve(one, history, &x[k], &y[k], &rows, err));
 
-        // Of a run's curve what lies over the data is shown, and a little beside them.
+        // A run's curve is shown over the data and a little beside them.
         double beside = BESIDE * (high > low ? high - low : fabs(high));
         for (int64_t i = 0; i < rows; i++) {
             if (!(x[k][i] >= low - beside && x[k][i] <= high + beside)) continue;

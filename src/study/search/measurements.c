@@ -287,28 +287,24 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Both name one file, by whatever path.
-static bool is_same_file(const Study *study, YamlNode one, YamlNode other)
-{
-    char path[2 * SCENE_TEXT_SIZE];
-    struct stat seen[2];
-    folder_beside(study->path, yaml_text(study->file, one), path, sizeof path);
-    if (stat(path, &seen[0]) != 0) return false;
-    folder_beside(study->path, yaml_text(study->file, other), path, sizeof path);
-    return stat(path, &seen[1]) == 0 && seen[0].st_dev == seen[1].st_dev &&
-           seen[0].st_ino == seen[1].st_ino;
-}
-
 bool measurements_read(const Study *study, Measurements *measured, Error *err)
 {
     YamlNode node = study->search.measured;
+    char path[2 * SCENE_TEXT_SIZE];
+    struct stat seen[2];
     *measured = (Measurements){0};
     if (yaml_kind(study->file, node) != YAML_LIST) return read_named(study, node, measured, err);
     YAML_EACH (one, study->file, node) {
         if (!read_named(study, one, measured, err)) return false;
         YAML_EACH (before, study->file, node) {
             if (before == one) break;
-            if (is_same_file(study, before, one))
+
+            // Both name one file, by whatever path.
+            folder_beside(study->path, yaml_text(study->file, before), path, sizeof path);
+            if (stat(path, &seen[0]) != 0) continue;
+            folder_beside(study->path, yaml_text(study->file, one), path, sizeof path);
+            if (stat(path, &seen[1]) == 0 && seen[0].st_dev == seen[1].st_dev &&
+                seen[0].st_ino == seen[1].st_ino)
                 return yaml_refuse(study->file, one, "measured", "each table once", err);
         }
     }

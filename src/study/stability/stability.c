@@ -155,7 +155,7 @@ static int32_t count_slipping(const Observation *seen)
 // F_T/F_N at the scene's V, of a state of the path, whose mu is for V -> 0. Slip at a rate v meets
 // mu(v), as if mu_S were smaller; the path gives v over that of the rod. What the load has gained
 // since slip set out goes with mu_S - mu_K, so it is smaller by the same part, a mean over the
-// pressure behind the front. (Without it the path's mu was 0.1 to 2 % above that of runs.)
+// pressure behind the front. Without it the path's mu is above that of runs.
 static double mu_at_V(const StabilityPath *path, const State *state, double mu)
 {
     const Friction *friction = &path->model->friction;

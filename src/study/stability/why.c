@@ -103,7 +103,7 @@ void stability_explain(const StabilityPath *path, StabilitySummary *summary)
             "%s, all else held, is %.3g.%s",
             pad->critical_stiffness, name_of(summary, summary->pad), pad->stiffness, length);
 
-    // What a run may show before: oscillations and jumps.
+    // A run may show oscillations and jumps before.
     if (summary->mu_sc < summary->mu_rod * (1 - EARLIER))
         say(summary,
             "From mu %.4f on (l_sc) oscillations grow, at first too slowly for this V: precursors "

@@ -274,7 +274,7 @@ bool plot_read(const YamlDocument *file, YamlNode map, StudyPlot *plot, Error *e
     if (!read_plot_text(file, &keys[WORD_COMPARE], plot->compare, PLOT_FOLDER_SIZE, err))
         return false;
 
-    // What must fit together.
+    // Keys that must fit together.
     for (PlotKey key = PLOT_X; key <= PLOT_Y; key++) {
         if (plot->text[key][0]) continue;
         return yaml_error(file, map, err,

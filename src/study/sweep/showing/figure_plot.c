@@ -466,7 +466,7 @@ static bool write_figure(PlotFigure *self, Error *err)
     if (has_panels) json_end(json);
     if (!has_panels && self->is_map) TRY(write_maps(self, self->panels.words[0], err));
 
-    // What is drawn without panels, and else what stands in the legend once for all panels.
+    // Curves without panels; with panels the entries of the legend, once for all of them.
     json_begin_list(json, "series");
     if (self->is_map)
         TRY(write_map_entries(self, err));

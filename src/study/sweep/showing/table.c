@@ -80,7 +80,7 @@ static bool make_columns(const Sweep *sweep, SweepTable *table, Error *err)
         add_column(table, "scene", study->columns[k], "",
                    "key of the scene; a word is its index in the attribute `KEY words`");
 
-    // What is recorded, and beside it what run.json has beside it, unless that is recorded itself.
+    // Each record, and beside it what run.json has beside it, unless that is recorded itself.
     for (int32_t k = 0; k < study->record_count; k++) {
         const StudyRecord *record = &study->records[k];
         char name[TABLE_PATH_SIZE], path[TABLE_PATH_SIZE];
