@@ -128,16 +128,6 @@ static bool take_all(const ChildWork *work, pid_t child, int pipe, ChildReply *r
     return error_is_clean(err);
 }
 
-// The child's own error, from the end of the reply.
-static void take_error(ChildReply *reply, Error *err)
-{
-    Error said;
-    reply->size -= (int64_t)sizeof said;
-    memcpy(&said, reply->bytes + reply->size, sizeof said);
-    said.message[sizeof said.message - 1] = 0;
-    if (said.code != ERROR_NONE) error_set(err, said.code, __FILE__, __LINE__, "%s", said.message);
-}
-
 // Why there is no answer. ending: as waitpid has it.
 static void blame(const ChildWork *work, int ending, const struct rusage *used, Error *err)
 {
@@ -190,10 +180,16 @@ bool child_read(const ChildWork *work, ChildReply *reply, Error *err)
     if (child < 0) FAIL(err, ERROR_FILE, "cannot start a process: %s", strerror(cause));
     int ending = process_wait(child, &used);
     TRY(error_is_clean(err));
-    if (ending == 0 && reply->size >= (int64_t)sizeof(Error))
-        take_error(reply, err);
-    else
+    if (ending == 0 && reply->size >= (int64_t)sizeof(Error)) {
+        Error said;   // the child's own error, at the end of the reply
+        reply->size -= (int64_t)sizeof said;
+        memcpy(&said, reply->bytes + reply->size, sizeof said);
+        said.message[sizeof said.message - 1] = 0;
+        if (said.code != ERROR_NONE)
+            error_set(err, said.code, __FILE__, __LINE__, "%s", said.message);
+    } else {
         blame(work, ending, &used, err);
+    }
 cleanup:
     if (!error_is_clean(err)) child_destroy(reply);
     return error_is_clean(err);

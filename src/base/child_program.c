@@ -38,22 +38,6 @@ static int spawn(const char *const *words, const int pipe[2], pid_t *process)
     return status;
 }
 
-// Reads to the end, also what does not fit.
-static void take_output(int pipe, char *output, size_t size)
-{
-    size_t used = 0;
-    char bytes[512];
-    for (;;) {
-        ssize_t count = read(pipe, bytes, sizeof bytes);
-        if (count < 0 && errno == EINTR) continue;
-        if (count <= 0) break;
-        size_t taken = (size_t)count < size - 1 - used ? (size_t)count : size - 1 - used;
-        memcpy(output + used, bytes, taken);
-        used += taken;
-    }
-    output[used] = 0;
-}
-
 // A program that runs and fails is no error here: its status says so.
 bool child_program_run(const char *const *words, char *output, size_t size, int *status, Error *err)
 {
@@ -68,7 +52,19 @@ bool child_program_run(const char *const *words, char *output, size_t size, int 
         close(ends[0]);
         return FAULT(err, ERROR_LIBRARY, "cannot run `%s`: %s", words[0], strerror(cause));
     }
-    take_output(ends[0], output, size);
+
+    // Its output is read to the end, also what does not fit.
+    size_t used = 0;
+    char bytes[512];
+    for (;;) {
+        ssize_t count = read(ends[0], bytes, sizeof bytes);
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) break;
+        size_t taken = (size_t)count < size - 1 - used ? (size_t)count : size - 1 - used;
+        memcpy(output + used, bytes, taken);
+        used += taken;
+    }
+    output[used] = 0;
     close(ends[0]);
     int ending = process_wait(process, NULL);
     if (ending == PROCESS_LOST) {

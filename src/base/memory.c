@@ -28,27 +28,6 @@ static MemoryTally *tally_now(void)
     return atomic_load_explicit(&tally_function, memory_order_relaxed)();
 }
 
-// Counts down to the failure that a test asked for, and stays at 0: from then on all fails, as when
-// memory has run out.
-static bool fault_is_due(MemoryTally *tally)
-{
-    if (tally->until_failure < 0) return false;
-    if (tally->until_failure == 0) return true;
-    tally->until_failure--;
-    return false;
-}
-
-// Where the system has larger pages it is asked for them: each page that is touched for the first
-// time costs as much as 10 000 additions.
-static void *aligned(size_t bytes)
-{
-    if (bytes < 2 * LARGE_PAGE) return aligned_alloc(ALIGNMENT, bytes);
-    void *array = NULL;   // posix_memalign: aligned_alloc takes multiples of the alignment only
-    if (posix_memalign(&array, LARGE_PAGE, bytes) != 0) return NULL;
-    system_use_large_pages(array, bytes);
-    return array;
-}
-
 // *padded: the bytes that were allocated, whole lines of ALIGNMENT.
 // NULL with ERROR_MEMORY: also where count * size does not fit into size_t.
 static void *allocate(int64_t count, size_t size, size_t *padded, Error *err)
@@ -61,7 +40,18 @@ static void *allocate(int64_t count, size_t size, size_t *padded, Error *err)
              (long long)count, size);
     *padded = (bytes / ALIGNMENT + 1) * ALIGNMENT;
     MemoryTally *tally = tally_now();
-    if (!fault_is_due(tally)) array = aligned(*padded);
+
+    // Counts down to the failure that a test asked for, and stays at 0: from then on all fails, as
+    // when memory has run out.
+    bool fails = tally->until_failure == 0;
+    if (tally->until_failure > 0) tally->until_failure--;
+
+    // Where the system has larger pages it is asked for them: each page that is touched for the
+    // first time costs as much as 10 000 additions. aligned_alloc takes multiples of the alignment.
+    bool large = *padded >= 2 * LARGE_PAGE;
+    if (!fails && !large) array = aligned_alloc(ALIGNMENT, *padded);
+    if (!fails && large && posix_memalign(&array, LARGE_PAGE, *padded) != 0) array = NULL;
+    if (array && large) system_use_large_pages(array, *padded);
     if (!array)
         FAIL(err, ERROR_MEMORY, "no memory for %lld items of %zu bytes", (long long)count, size);
     tally->counters.allocations++;

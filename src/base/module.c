@@ -39,25 +39,17 @@ static const ModulePart *part_of(const char *name)
 
 // Finds the file of the module `name`: in the folder AMONTONS_MODULES, else where modules are
 // installed, else beside this object, which is the build folder, or another module.
-static bool module_path(const char *name, char path[MODULE_PATH_SIZE], Error *err)
-{
-    const char *given = getenv("AMONTONS_MODULES");
-    char folder[PATH_MAX], installed[PATH_MAX];
-    const char *const places[] = {installed};
-    snprintf(installed, sizeof installed, "amontons/amontons_%s.so", name);
-    if (!(given && given[0])) {
-        if (place_find(places, 1, path, MODULE_PATH_SIZE)) return true;
-        if (!place_folder(folder, sizeof folder, err)) return false;
-        given = folder;
-    }
-    snprintf(path, MODULE_PATH_SIZE, "%s/amontons_%s.so", given, name);
-    return true;
-}
-
 static bool module_find(const char *name, char path[MODULE_PATH_SIZE], Error *err)
 {
     const ModulePart *part = part_of(name);
-    if (!module_path(name, path, err)) return false;
+    const char *given = getenv("AMONTONS_MODULES");
+    char folder[PATH_MAX], installed[PATH_MAX];
+    const char *const places[] = {installed};
+    bool named = given && given[0];
+    snprintf(installed, sizeof installed, "amontons/amontons_%s.so", name);
+    if (!named && place_find(places, 1, path, MODULE_PATH_SIZE)) return true;
+    if (!named && !place_folder(folder, sizeof folder, err)) return false;
+    snprintf(path, MODULE_PATH_SIZE, "%s/amontons_%s.so", named ? given : folder, name);
     if (access(path, F_OK) == 0) return true;
     return FAULT(err, ERROR_LIBRARY,
                  "%s: this build of amontons is without (there is no %s): build it with %s "
@@ -71,26 +63,6 @@ bool module_check(const char *name, Error *err)
     return module_find(name, path, err);
 }
 
-// Says why a module that is there does not open. loader: the loader's own words.
-static void explain(const char *name, const char *path, const char *loader, Error *err)
-{
-    const char *first = getenv("LD_LIBRARY_PATH");
-    const char *advice = "; libraries are taken from LD_LIBRARY_PATH first, which is ";
-    bool set = first && first[0];
-    error_set(err, ERROR_LIBRARY, __FILE__, __LINE__,
-              "%s: a library that %s needs cannot be loaded: %s%s%s", part_of(name)->part, path,
-              loader, set ? advice : "", set ? first : "");
-}
-
-// A module that allocates counts where we do.
-static void share_tally(void *handle)
-{
-    void (*share)(MemoryTallyFunction) = NULL;
-    void *address = dlsym(handle, "amontons_module_tally");
-    memcpy(&share, &address, sizeof share);   // POSIX: object to function pointer
-    if (share) share(memory_tally());
-}
-
 // The caller casts the result to the function's own type.
 ModuleFunction module_function(const char *name, const char *symbol, Error *err)
 {
@@ -100,13 +72,22 @@ ModuleFunction module_function(const char *name, const char *symbol, Error *err)
     // The module's own calls are looked up at once (`-z now`), those inside of its libraries
     // lazily: to bind all of VTK's takes 2 ms more.
     void *handle = dlopen(path, RTLD_LAZY | RTLD_LOCAL);
-    if (!handle) {
-        explain(name, path, dlerror(), err);
-        goto cleanup;
+    if (!handle) {   // in the loader's own words
+        const char *first = getenv("LD_LIBRARY_PATH");
+        bool set = first && first[0];
+        FAIL(err, ERROR_LIBRARY, "%s: a library that %s needs cannot be loaded: %s%s%s",
+             part_of(name)->part, path, dlerror(),
+             set ? "; libraries are taken from LD_LIBRARY_PATH first, which is " : "",
+             set ? first : "");
     }
     void *address = dlsym(handle, symbol);
     if (!address) FAIL(err, ERROR_LIBRARY, "the module %s has no %s", path, symbol);
-    share_tally(handle);
+
+    // A module that allocates counts where we do.
+    void (*share)(MemoryTallyFunction) = NULL;
+    void *tally = dlsym(handle, "amontons_module_tally");
+    memcpy(&share, &tally, sizeof share);   // POSIX: object to function pointer
+    if (share) share(memory_tally());
     memcpy(&function, &address, sizeof function);
 cleanup:
     return function;

@@ -6,15 +6,10 @@
 // A point as near as this, relative, has been reached: steps end at points up to rounding.
 static const double REACHED = 1e-12;
 
-static double last_place(const Schedule *schedule)
-{
-    return schedule->at[schedule->count - 1];
-}
-
 // nearly: x up to rounding, on the side that is asked for.
 static int32_t find_stretch(const Schedule *schedule, double nearly, double *from)
 {
-    double period = last_place(schedule);
+    double period = schedule->at[schedule->count - 1];
     *from = schedule->repeats ? period * floor(nearly / period) : 0;
     int32_t k = 0;
     while (k + 1 < schedule->count && schedule->at[k + 1] <= nearly - *from) k++;

@@ -98,12 +98,6 @@ static void answer(Filter *filter, uint32_t value)
     add(filter, BPF_RET | BPF_K, value, 0, 0);
 }
 
-// The lower half of an argument: all that counts of an int, on processors that store it first.
-static size_t argument(int number)
-{
-    return offsetof(struct seccomp_data, args) + (size_t)number * sizeof(uint64_t);
-}
-
 static const uint32_t REFUSE = SECCOMP_RET_ERRNO | EPERM, ALLOW = SECCOMP_RET_ALLOW;
 
 // Call `number`, whose argument `which` decides: allowed where `code` (BPF_JEQ, BPF_JSET) holds of
@@ -112,14 +106,16 @@ static void add_if(Filter *filter, long number, int which, uint16_t code, uint32
                    bool holds)
 {
     add(filter, BPF_JMP | BPF_JEQ | BPF_K, (uint32_t)number, 0, 4);
-    load(filter, argument(which));
+    // The lower half of the argument: all that counts of an int, on processors that store it first.
+    load(filter, offsetof(struct seccomp_data, args) + (size_t)which * sizeof(uint64_t));
     add(filter, BPF_JMP | code | BPF_K, value, holds ? 0 : 1, holds ? 1 : 0);
     answer(filter, ALLOW);
     answer(filter, REFUSE);
 }
 
-static void make_filter(Filter *filter)
+bool shut_in(void)
 {
+    Filter made = {.length = 0}, *filter = &made;
     load(filter, offsetof(struct seccomp_data, arch));
     add(filter, BPF_JMP | BPF_JEQ | BPF_K, ARCHITECTURE, 1, 0);
     answer(filter, REFUSE);
@@ -144,13 +140,8 @@ static void make_filter(Filter *filter)
     add_if(filter, SYS_ioctl, 1, BPF_JEQ, TCGETS, true);
     add_if(filter, SYS_fcntl, 1, BPF_JEQ, F_GETFL, true);
     answer(filter, REFUSE);
-}
 
-bool shut_in(void)
-{
-    Filter filter = {.length = 0};
-    make_filter(&filter);
-    struct sock_fprog program = {filter.length, filter.program};
+    struct sock_fprog program = {made.length, made.program};
     if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
         prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program, 0, 0) == 0)
         return true;

@@ -83,17 +83,12 @@ static const Unit *read_word(const char *word, size_t length, int32_t *ten)
     return base;
 }
 
-static size_t word_length(const char *text)
-{
-    size_t length = 0;
-    while (isalpha((unsigned char)text[length]) || (unsigned char)text[length] >= 0x80) length++;
-    return length;
-}
-
 // One word with its power, as in "m^3", "m3" or "s-1"; *text moves behind it.
 static bool read_factor(const char **text, int32_t sign, Unit *product)
 {
-    size_t length = word_length(*text);
+    size_t length = 0;
+    while (isalpha((unsigned char)(*text)[length]) || (unsigned char)(*text)[length] >= 0x80)
+        length++;
     int32_t ten = 0;
     const Unit *base = length ? read_word(*text, length, &ten) : NULL;
     if (!base) return false;
@@ -110,13 +105,6 @@ static bool read_factor(const char **text, int32_t sign, Unit *product)
     product->sixty += base->sixty * (int32_t)power * sign;
     for (int32_t i = 0; i < 3; i++) product->powers[i] += base->powers[i] * (int32_t)power * sign;
     return true;
-}
-
-// Numbers without a dimension: "mu (-)", "mu/1", "mu (%)".
-static bool read_dimensionless(const char *text, Unit *product)
-{
-    product->ten = strcmp(text, "%") == 0 ? -2 : 0;
-    return strcmp(text, "-") == 0 || strcmp(text, "1") == 0 || strcmp(text, "%") == 0;
 }
 
 // Powers and products as they are printed, superscripts and a dot, and as they are typed.
@@ -147,7 +135,8 @@ static bool read_unit(const char *printed, Unit *product)
     const char *text = typed;
     *product = (Unit){0};
     if (!type_unit(printed, typed)) return false;
-    if (read_dimensionless(text, product)) return true;
+    product->ten = strcmp(text, "%") == 0 ? -2 : 0;   // numbers: "mu (-)", "mu/1", "mu (%)"
+    if (strcmp(text, "-") == 0 || strcmp(text, "1") == 0 || strcmp(text, "%") == 0) return true;
     if (strncmp(text, "1/", 2) == 0) {   // 1/s
         sign = -1;
         text += 2;

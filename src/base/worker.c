@@ -20,32 +20,28 @@ struct Worker {
     Error failure;   // of the first job that failed
 };
 
-// The lock is held but during the work.
-static void do_job(Worker *worker)
-{
-    bool works = error_is_clean(&worker->failure);
-    int32_t waiting = (int32_t)(worker->given - worker->done);
-    int32_t slot = (int32_t)(worker->done % worker->def.slots);
-    Error failure = {0};
-    pthread_mutex_unlock(&worker->lock);
-    if (works) worker->def.work(worker->def.context, slot, waiting, &failure);
-    pthread_mutex_lock(&worker->lock);
-    if (works) worker->failure = failure;
-    worker->done++;
-    if (error_is_clean(&worker->failure)) worker->sound = worker->done;
-    pthread_cond_broadcast(&worker->changed);
-}
-
+// The thread. The lock is held but during the work.
 static void *run(void *self)
 {
     Worker *worker = self;
     NUMBERS_HAVE_A_POINT;
     pthread_mutex_lock(&worker->lock);
     while (!worker->ends || worker->done < worker->given) {
-        if (worker->done < worker->given)
-            do_job(worker);
-        else
+        if (worker->done == worker->given) {
             pthread_cond_wait(&worker->changed, &worker->lock);
+            continue;
+        }
+        bool works = error_is_clean(&worker->failure);
+        int32_t waiting = (int32_t)(worker->given - worker->done);
+        int32_t slot = (int32_t)(worker->done % worker->def.slots);
+        Error failure = {0};
+        pthread_mutex_unlock(&worker->lock);
+        if (works) worker->def.work(worker->def.context, slot, waiting, &failure);
+        pthread_mutex_lock(&worker->lock);
+        if (works) worker->failure = failure;
+        worker->done++;
+        if (error_is_clean(&worker->failure)) worker->sound = worker->done;
+        pthread_cond_broadcast(&worker->changed);
     }
     pthread_mutex_unlock(&worker->lock);
     if (worker->def.end) worker->def.end(worker->def.context);

@@ -102,30 +102,6 @@ static void print_mu_M(const RunSummary *summary)
     say("\n");
 }
 
-// Beside a mu_M from peaks.
-static void print_mu_steady(const RunSummary *summary)
-{
-    if (isnan(summary->mu_steady) || strcmp(summary->mu_M_is, STEADY) == 0) return;
-    say("  mu_steady       %.3f: F_T/F_N at the end of the run, where the block slides steadily\n",
-        summary->mu_steady);
-}
-
-// Whether the load drops behind mu_hold repeat.
-static void print_regime(const RunSummary *summary)
-{
-    if (summary->drop_period > 1)
-        say("%swhich repeat after %d\n", INDENT, summary->drop_period);
-    else if (summary->drop_period == 0 && summary->drops_enough)
-        say("%swhich do not repeat\n", INDENT);
-    else if (summary->run_in) {
-        say(INDENT);
-        print_run_in(summary);
-    } else if (!summary->drops_enough)
-        say("%stoo few to say: give a later time.until, until they repeat, or until 30 have\n"
-            "%sa mean known to 2 %%\n",
-            INDENT, INDENT);
-}
-
 // The holding coefficient: parts of a block that slide on their own make the load drop below mu_M.
 static void print_mu_hold(const RunSummary *summary)
 {
@@ -151,7 +127,19 @@ static void print_mu_hold(const RunSummary *summary)
     else
         say("the %s of %d load ratios at which the load dropped\n",
             summary->drop_period > 0 ? "lowest" : "lowest tenth", summary->drops);
-    print_regime(summary);
+
+    // Whether the load drops behind it repeat.
+    if (summary->drop_period > 1)
+        say("%swhich repeat after %d\n", INDENT, summary->drop_period);
+    else if (summary->drop_period == 0 && summary->drops_enough)
+        say("%swhich do not repeat\n", INDENT);
+    else if (summary->run_in) {
+        say(INDENT);
+        print_run_in(summary);
+    } else if (!summary->drops_enough)
+        say("%stoo few to say: give a later time.until, until they repeat, or until 30 have\n"
+            "%sa mean known to 2 %%\n",
+            INDENT, INDENT);
     if (bar) return;
     if (isnan(summary->mu_M)) print_known_to(summary->mu_hold_known_to);
     print_on_this_mesh(summary->mu_hold, summary->mu_hold_error);
@@ -181,16 +169,6 @@ static void print_program(const RunSummary *summary)
         say("no line of healing: it takes two of other lengths from steady sliding\n");
     else
         say("healing %.4f +- %.2g per decade of time\n", healing[0], healing[1]);
-}
-
-// Cells over which slow slip turned fast; on pads also where, and over which length.
-static void print_resolution(const RunSummary *summary)
-{
-    if (isnan(summary->slip_cells)) return;
-    say("  resolution      %.3g cell%s of the contact slipped where slow slip turned fast",
-        summary->slip_cells, summary->slip_cells == 1 ? "" : "s");
-    if (*summary->slip_pad) say(", on %s over %.3g", summary->slip_pad, summary->slip_length);
-    say("\n");
 }
 
 // Prints how an error bar that was asked for was found.
@@ -258,43 +236,28 @@ static void print_first_loading(const RunSummary *summary)
     say("\n");
 }
 
-static void print_critical_length(const RunSummary *summary)
-{
-    bool of_first = summary->peaks == 1 && isnan(summary->first_critical_length);
-    if (!isnan(summary->critical_length) && !of_first)
-        say("  critical length %.2f of the block's length\n", summary->critical_length);
-    else if (summary->peaks_counted > 0)
-        say("  critical length not known: slip did not turn fast behind a slow front from the "
-            "trailing end\n");
-    else if (summary->peaks > 0)
-        say("  critical length not known: no sliding of the whole block counts\n");
-    else
-        say("  critical length not reached: the block as a whole did not slide%s\n",
-            summary->leading > 0 ? " from rest" : "");
-}
-
-// Forces of the whole block, in the units of the scene: newtons in SI.
-static void print_forces(const RunSummary *summary)
-{
-    double load = summary->normal_force;
-    if (isnan(load)) return;
-    say("  forces          F_N %.4g", load);
-    if (!isnan(summary->mu_M)) say(", F_T %.4g at mu_M", load * summary->mu_M);
-    if (!isnan(summary->mu_hold)) say(", F_T %.4g at mu_hold", load * summary->mu_hold);
-    say(", F_T %.4g at mu_max (N in an SI scene)\n", load * summary->mu_max);
-}
-
 static void print_answers(const RunSummary *summary)
 {
     print_mu_M(summary);
-    print_mu_steady(summary);
+    if (!isnan(summary->mu_steady) && strcmp(summary->mu_M_is, STEADY) != 0)
+        say("  mu_steady       %.3f: F_T/F_N at the end of the run, where the block slides "
+            "steadily\n",
+            summary->mu_steady);
     print_mu_hold(summary);
     if (summary->bar_runs > 0) print_bar(summary);
     print_estimate("mu_max", summary->mu_max, NAN, summary->mu_max_known_to,
                    summary->bar_runs == 0);
     say(", the largest load ratio of the run%s\n",
         summary->bar_runs > 0 ? " in full, on the last mesh" : "");
-    print_forces(summary);
+
+    // Forces of the whole block, in the units of the scene: newtons in SI.
+    double load = summary->normal_force;
+    if (!isnan(load)) {
+        say("  forces          F_N %.4g", load);
+        if (!isnan(summary->mu_M)) say(", F_T %.4g at mu_M", load * summary->mu_M);
+        if (!isnan(summary->mu_hold)) say(", F_T %.4g at mu_hold", load * summary->mu_hold);
+        say(", F_T %.4g at mu_max (N in an SI scene)\n", load * summary->mu_max);
+    }
     print_first_loading(summary);
     say("  precursors      %d quasi-static, %d bounded rapid (faster than 2.5 V, over 5 %% of the "
         "contact)\n",
@@ -313,8 +276,25 @@ static void print_answers(const RunSummary *summary)
         say("  base            deforms; the block slid over it by %.2g %% of the contact's "
             "length\n",
             100 * summary->base_slip);
-    print_critical_length(summary);
-    print_resolution(summary);
+    bool of_first = summary->peaks == 1 && isnan(summary->first_critical_length);
+    if (!isnan(summary->critical_length) && !of_first)
+        say("  critical length %.2f of the block's length\n", summary->critical_length);
+    else if (summary->peaks_counted > 0)
+        say("  critical length not known: slip did not turn fast behind a slow front from the "
+            "trailing end\n");
+    else if (summary->peaks > 0)
+        say("  critical length not known: no sliding of the whole block counts\n");
+    else
+        say("  critical length not reached: the block as a whole did not slide%s\n",
+            summary->leading > 0 ? " from rest" : "");
+
+    // Cells over which slow slip turned fast; on pads also where, and over which length.
+    if (!isnan(summary->slip_cells)) {
+        say("  resolution      %.3g cell%s of the contact slipped where slow slip turned fast",
+            summary->slip_cells, summary->slip_cells == 1 ? "" : "s");
+        if (*summary->slip_pad) say(", on %s over %.3g", summary->slip_pad, summary->slip_length);
+        say("\n");
+    }
     print_program(summary);
     if (*summary->mesh_moved) say("  mesh            %s\n", summary->mesh_moved);
     say("  largest errors  energy %.1e, moment %.1e, contact %.1e (relative)\n",

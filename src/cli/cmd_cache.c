@@ -26,22 +26,6 @@ static void keep_entry(const CacheEntry *entry, void *context)
     snprintf(shown->names[k], sizeof shown->names[k], "%s", entry->name);
 }
 
-static void print_entries(const Shown *shown)
-{
-    int64_t count = shown->count < SHOWN_MAX ? shown->count : SHOWN_MAX;
-    if (count > 0) say("\n  last used              MB  file\n");
-    for (int64_t back = 1; back <= count; back++) {
-        int k = (int)((shown->count - back) % SHOWN_MAX);
-        time_t used = (time_t)shown->list[k].used;
-        char when[32] = "";
-        struct tm local;
-        if (localtime_r(&used, &local)) strftime(when, sizeof when, "%Y-%m-%d %H:%M", &local);
-        say("  %s %8.2f  %s\n", when, 1e-6 * (double)shown->list[k].bytes, shown->names[k]);
-    }
-    if (shown->count > count)
-        say("  ... and %lld more, unused for longer\n", (long long)(shown->count - count));
-}
-
 int command_cache(const Command *command, int argc, char **argv)
 {
     const char *none = NULL;
@@ -66,6 +50,17 @@ int command_cache(const Command *command, int argc, char **argv)
     say("%s: %s%lld files, %.1f MB", summary.folder, clean ? "removed " : "",
         (long long)summary.files, 1e-6 * (double)summary.bytes);
     say(clean ? "\n" : "; at most %.1f MB are kept\n", 1e-6 * (double)summary.limit);
-    print_entries(&shown);
+    int64_t count = shown.count < SHOWN_MAX ? shown.count : SHOWN_MAX;
+    if (count > 0) say("\n  last used              MB  file\n");
+    for (int64_t back = 1; back <= count; back++) {
+        int k = (int)((shown.count - back) % SHOWN_MAX);
+        time_t used = (time_t)shown.list[k].used;
+        char when[32] = "";
+        struct tm local;
+        if (localtime_r(&used, &local)) strftime(when, sizeof when, "%Y-%m-%d %H:%M", &local);
+        say("  %s %8.2f  %s\n", when, 1e-6 * (double)shown.list[k].bytes, shown.names[k]);
+    }
+    if (shown.count > count)
+        say("  ... and %lld more, unused for longer\n", (long long)(shown.count - count));
     return 0;
 }

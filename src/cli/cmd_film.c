@@ -24,41 +24,9 @@ static int read_number(const char *name, const char *word, double *number)
     return 0;
 }
 
-// "1280x720".
-static int read_size(const char *word, FilmRequest *film)
-{
-    int end = 0;
-    if (!word) return 0;
-    if (sscanf(word, "%dx%d%n", &film->width, &film->height, &end) != 2 || word[end] ||
-        film->width <= 0 || film->height <= 0)
-        return report_misuse("--size %s: width and height in pixels are given as 1280x720", word);
-    return 0;
-}
-
 static void show_frame(int32_t frame, int32_t frames, void *context)
 {
     progress_part(context, (double)frame / frames, "of the film");
-}
-
-static int make_film(const char *result, FilmRequest *film, bool quiet)
-{
-    Error err = {0};
-    double still = 0;
-    Progress progress = progress_begin(quiet);
-    film->on_frame = show_frame;
-    film->context = &progress;
-    film->still = &still;
-    film->stop = stop_on_signals();
-    stop_in_order();
-    bool done = amontons_film(result, film, &err);
-    progress_end(&progress);
-    if (!done) return report_error(&err);
-    if (!quiet) say("film: %s\n", film->path);
-    if (!quiet && !film->fields && still > STILL_MOST)
-        say("Its block stands still for up to %.1f s while time goes on: fields are stored too "
-            "seldom for slow motion. With --fields as many are computed as the film shows.\n",
-            still);
-    return 0;
 }
 
 int command_film(const Command *command, int argc, char **argv)
@@ -105,7 +73,11 @@ int command_film(const Command *command, int argc, char **argv)
     if (status == 0) status = read_number("--magnification", magnification, &film.magnification);
     if (status == 0) status = read_number("--depth", depth, &film.depth);
     if (status == 0 && rate) status = option_count("--fps", rate, 1, RATE_MAX, &film.rate);
-    if (status == 0) status = read_size(size, &film);
+    int end = 0;
+    if (status == 0 && size &&
+        (sscanf(size, "%dx%d%n", &film.width, &film.height, &end) != 2 || size[end] ||
+         film.width <= 0 || film.height <= 0))
+        status = report_misuse("--size %s: width and height in pixels are given as 1280x720", size);
     if (status == 0) status = option_may_write(film.path, film.overwrite);
     if (status != 0) return status;
 
@@ -119,5 +91,21 @@ int command_film(const Command *command, int argc, char **argv)
              named ? result + first : "film");
 
     if (!film.path) film.path = name;
-    return make_film(result, &film, quiet);
+    Error err = {0};
+    double still = 0;
+    Progress progress = progress_begin(quiet);
+    film.on_frame = show_frame;
+    film.context = &progress;
+    film.still = &still;
+    film.stop = stop_on_signals();
+    stop_in_order();
+    bool done = amontons_film(result, &film, &err);
+    progress_end(&progress);
+    if (!done) return report_error(&err);
+    if (!quiet) say("film: %s\n", film.path);
+    if (!quiet && !film.fields && still > STILL_MOST)
+        say("Its block stands still for up to %.1f s while time goes on: fields are stored too "
+            "seldom for slow motion. With --fields as many are computed as the film shows.\n",
+            still);
+    return 0;
 }

@@ -9,26 +9,6 @@
 
 #include <stdlib.h>
 
-typedef struct Model1dWords {
-    SceneWords common;
-    const char *alpha, *points;
-    bool theory_only;
-} Model1dWords;
-
-// The values of --alpha and --points as `options`. The exit status.
-static int check_words(const Model1dWords *words, Model1dOptions *options)
-{
-    char *end = NULL;
-    if (words->alpha) {
-        options->alpha = strtod(words->alpha, &end);
-        if (*words->alpha == 0 || *end || !(options->alpha > 0 && options->alpha <= 10))
-            return report_misuse("--alpha %s: a number above 0 up to 10 is allowed", words->alpha);
-    }
-    if (!words->points) return 0;
-    if (words->theory_only) return report_misuse("--points has no meaning with --theory");
-    return option_count("--points", words->points, 3, 2000, &options->nodes);
-}
-
 // A Model1dCallback; `l seen` and `mu seen` are empty where nothing was simulated.
 static void show_point(const Model1dPoint *point, void *table)
 {
@@ -43,8 +23,10 @@ static void show_point(const Model1dPoint *point, void *table)
     say("\n");
 }
 
-// As in the paper, and with the terms that it neglects.
-static void print_theory(const Model1dSummary *summary)
+// Theory as in the paper, and with the terms that it neglects. Of the simulation the first sliding
+// starts from tau = mu_K p, as in theory; the periodic ones from the stress that sliding left, and
+// differ by that.
+static void print_answers(const Model1dSummary *summary)
 {
     say("\nTheory, as in the paper (off-diagonal terms neglected)\n");
     point_table_answer("l_sc/L", summary->l_sc, "Re omega_0 > 0: oscillations grow");
@@ -62,12 +44,7 @@ static void print_theory(const Model1dSummary *summary)
                        "a disturbance grows from V to v_c in half an oscillation");
     point_table_answer("mu_M, V -> 0", summary->mu_c_full, "mu at l_c; mu_S where there is none");
     point_table_answer("mu_M at V", summary->mu_rod_full, "mu at l_c at V");
-}
-
-// The first sliding starts from tau = mu_K p, as in theory; the periodic ones from the stress that
-// sliding left, and differ by that.
-static void print_steps(const Model1dSummary *summary)
-{
+    if (!summary->simulated) return;
     say("Simulation\n");
     point_table_answer("first l_sc/L", summary->first_l_sc, "the certificate is lost");
     point_table_answer("first l_c/L", summary->first_l_c,
@@ -91,27 +68,36 @@ static void print_steps(const Model1dSummary *summary)
 // The table is printed while it is made, answers when all is known.
 int command_model1d(const Command *command, int argc, char **argv)
 {
-    Model1dWords words = {0};
+    SceneWords words = {0};
+    const char *alpha = NULL, *points = NULL;
+    char *end = NULL;
     Model1dOptions options = amontons_model1d_options();
     Model1dSummary summary;
     Error err = {0};
     Scene *scene = NULL;
     const Option own[] = {
-        {"theory", 0, NULL, "Formulas only, no simulation", .flag = &words.theory_only},
+        {"theory", 0, NULL, "Formulas only, no simulation", .flag = &options.theory_only},
         {"alpha", 0, "NUMBER",
          "The part of H over which the shear stress varies (default: the paper's 0.2)",
-         .word = &words.alpha},
-        {"points", 0, "N", "Nodes of the simulated line (default: 81)", .word = &words.points},
+         .word = &alpha},
+        {"points", 0, "N", "Nodes of the simulated line (default: 81)", .word = &points},
         {0}};
-    int status = scene_words_read(command, own, argc, argv, &words.common);
-    if (status == 0) status = check_words(&words, &options);
-    if (status == 0) status = scene_words_open(&words.common, &scene);
+    int status = scene_words_read(command, own, argc, argv, &words);
     if (status != 0) return status;
-    bool quiet = words.common.quiet;
+    if (alpha) {
+        options.alpha = strtod(alpha, &end);
+        if (!*alpha || *end || !(options.alpha > 0 && options.alpha <= 10))
+            return report_misuse("--alpha %s: a number above 0 up to 10 is allowed", alpha);
+    }
+    if (points && options.theory_only)
+        return report_misuse("--points has no meaning with --theory");
+    if (points) status = option_count("--points", points, 3, 2000, &options.nodes);
+    if (status == 0) status = scene_words_open(&words, &scene);
+    if (status != 0) return status;
+    bool quiet = words.quiet;
     PointTable table = point_table_begin(quiet);
-    options.folder = words.common.folder;
-    options.overwrite = words.common.overwrite;
-    options.theory_only = words.theory_only;
+    options.folder = words.folder;
+    options.overwrite = words.overwrite;
     options.on_step = point_table_step;
     options.on_point = show_point;
     options.context = &table;
@@ -121,8 +107,7 @@ int command_model1d(const Command *command, int argc, char **argv)
     if (!done)
         status = report_error(&err);
     else if (!quiet) {
-        print_theory(&summary);
-        if (summary.simulated) print_steps(&summary);
+        print_answers(&summary);
         say("  %-22s %.1f s\n", "time taken", summary.seconds);
         if (*summary.folder)
             say("Results in %s: model1d.json, model1d.h5%s\n", summary.folder,

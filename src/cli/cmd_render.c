@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// `amontons render`: pictures of a stored result, or of a plot that a file describes. The ending of
-// the name tells which.
+// `amontons render`: pictures of a stored result, or of a plot that a file describes; the ending of
+// the name tells which. `amontons compare`: measurements beside a stored result, each figure that
+// shows what was measured, and the misfit.
 #include "cli/commands.h"
 #include "cli/options.h"
 #include "cli/say.h"
@@ -9,7 +10,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { PATH_SIZE = 1200 };
+enum { PATH_SIZE = 1200, WORDS_SIZE = 2000 };
 
 // The options of a picture, as PICTURE_OPTIONS has them.
 enum {
@@ -18,58 +19,11 @@ enum {
 #undef X
 };
 
-// JSON is YAML: the descriptions that a sweep leaves are .json.
-static bool is_plot(const char *name)
-{
-    const char *dot = strrchr(name, '.');
-    return dot && (strcmp(dot, ".yaml") == 0 || strcmp(dot, ".json") == 0);
-}
-
-// fig2a.yaml becomes fig2a.png.
-static int draw_plot(const char *plot, const PictureStyle *style)
-{
-    Error err = {0};
-    char picture[PATH_SIZE];
-    int stem = (int)(strrchr(plot, '.') - plot);
-    if (stem + 5 > (int)sizeof picture) return report_misuse("the path of the plot is too long");
-    snprintf(picture, sizeof picture, "%.*s.%.3s", stem, plot, style->format);
-    if (!amontons_render_plot_file(plot, picture, style, &err)) return report_error(&err);
-    say("picture drawn: %s\n", picture);
-    return 0;
-}
-
-static bool is_sweep(const char *folder)
-{
-    char path[PATH_SIZE];
-    return snprintf(path, sizeof path, "%s/sweep.h5", folder) < (int)sizeof path &&
-           access(path, R_OK) == 0;
-}
-
-static int draw_sweep(const char *folder, const char *plot, const PictureStyle *style)
-{
-    Error err = {0};
-    if (!amontons_render_sweep(folder, plot, style, &err)) return report_error(&err);
-    say("pictures drawn: %s/figures\n", folder);
-    return 0;
-}
-
-// Sets each option that was given, by the table.
-static int set_style(const char *const words[PICTURE_OPTION_COUNT], bool no_title,
-                     PictureStyle *style)
-{
-    static const char *const name[PICTURE_OPTION_COUNT] = {
+static const char *const picture_options[PICTURE_OPTION_COUNT] = {
 #define X(name, ...) #name,
-        PICTURE_OPTIONS(X)
+    PICTURE_OPTIONS(X)
 #undef X
-    };
-    if (no_title) style->title = "none";
-    for (int32_t k = 0; k < PICTURE_OPTION_COUNT; ++k) {
-        Error err = {0};
-        if (words[k] && !amontons_picture_option(style, name[k], words[k], &err))
-            return report_misuse("--%s", err.message);
-    }
-    return 0;
-}
+};
 
 // The module that draws them checks the figures: it knows which there are.
 int command_render(const Command *command, int argc, char **argv)
@@ -120,24 +74,74 @@ int command_render(const Command *command, int argc, char **argv)
         option_overwrite(&request.style.overwrite),
         {0}};
     int status = options_read(command, options, argc, argv, &from);
-    if (status == 0) status = set_style(words, no_title, &request.style);
     if (status != 0) return status;
-    if ((figures.count || request.panels) && (is_plot(from) || is_sweep(from)))
+    if (no_title) request.style.title = "none";
+    for (int32_t k = 0; k < PICTURE_OPTION_COUNT; ++k)
+        if (words[k] &&
+            !amontons_picture_option(&request.style, picture_options[k], words[k], &err))
+            return report_misuse("--%s", err.message);
+
+    // A plot is a description, also one that a sweep leaves: JSON is YAML.
+    char path[PATH_SIZE];
+    const char *dot = strrchr(from, '.');
+    bool of_plot = dot && (strcmp(dot, ".yaml") == 0 || strcmp(dot, ".json") == 0);
+    bool of_sweep = snprintf(path, sizeof path, "%s/sweep.h5", from) < (int)sizeof path &&
+                    access(path, R_OK) == 0;
+    if ((figures.count || request.panels) && (of_plot || of_sweep))
         return report_misuse("%s has no meaning for a plot or a sweep",
                              figures.count ? "--figure" : "--panels");
     const FieldChoice *field = &request.field;
-    if ((field->of || field->at || field->cut || field->edges) && (is_plot(from) || is_sweep(from)))
+    if ((field->of || field->at || field->cut || field->edges) && (of_plot || of_sweep))
         return report_misuse("--%s has no meaning for a plot or a sweep", field->of    ? "of"
                                                                           : field->at  ? "at"
                                                                           : field->cut ? "cut"
                                                                                        : "edges");
     if (figures.count && request.panels) return report_misuse("--figure and --panels: one of them");
-    if (is_sweep(from)) return draw_sweep(from, plot, &request.style);
-    if (plot) return report_misuse("--plot has a meaning for the folder of a sweep alone");
-    if (is_plot(from)) return draw_plot(from, &request.style);
+    if (plot && !of_sweep)
+        return report_misuse("--plot has a meaning for the folder of a sweep alone");
+    if (of_plot && !of_sweep) {   // fig2a.yaml becomes fig2a.png
+        int stem = (int)(dot - from);
+        if (stem + 5 > (int)sizeof path) return report_misuse("the path of the plot is too long");
+        snprintf(path, sizeof path, "%.*s.%.3s", stem, from, request.style.format);
+        if (!amontons_render_plot_file(from, path, &request.style, &err)) return report_error(&err);
+        say("picture drawn: %s\n", path);
+        return 0;
+    }
     request.figures = figures.list;
     request.figure_count = figures.count;
-    if (!amontons_render_result(from, &request, &err)) return report_error(&err);
+    bool drawn = of_sweep ? amontons_render_sweep(from, plot, &request.style, &err)
+                          : amontons_render_result(from, &request, &err);
+    if (!drawn) return report_error(&err);
     say("pictures drawn: %s/figures\n", from);
+    return 0;
+}
+
+int command_compare(const Command *command, int argc, char **argv)
+{
+    const char *first = NULL, *style_name = NULL;
+    char words[WORDS_SIZE];
+    OptionWords given = {0};
+    Command taken = *command;
+    PictureStyle style = {.format = "png"};
+    Error err = {0};
+    const Option options[] = {
+        {"format", 0, "png|pdf|svg", "Of the files; png by default", .word = &style.format},
+        {"style", 0, "NAME", "What they are for: column (default), columns, slide or poster",
+         .word = &style_name},
+        {"dark", 0, NULL, "Light lines on dark paper", .flag = &style.dark},
+        option_overwrite(&style.overwrite),
+        {0}};
+    taken.all = &given;
+    int status = options_read(&taken, options, argc, argv, &first);
+    if (status != 0) return status;
+    if (given.count != 2)
+        return report_misuse("compare takes a result folder and a table: amontons compare RESULT "
+                             "FILE.csv");
+    if (style_name && !amontons_picture_option(&style, "style", style_name, &err))
+        return report_misuse("--%s", err.message);
+    if (!amontons_compare(given.list[0], given.list[1], &style, words, sizeof words, &err))
+        return report_error(&err);
+    say("%s beside %s:\n%s", given.list[1], given.list[0], words);
+    say("pictures drawn: %s/figures\n", given.list[0]);
     return 0;
 }

@@ -50,62 +50,42 @@ typedef struct RunWords {
     char settings[3][SETTING_SIZE];
 } RunWords;
 
-static void add_setting(const char *setting, SceneWords *words)
-{
-    words->settings.list[words->settings.count++] = setting;
-}
-
-// `--extend U=0.02`: the scene's end alone; whatever else would end it does not. Status 0 or 2.
-static int ask_extension(RunWords *own, SceneWords *words)
-{
-    const char *extend = own->extend;
-    if (!extend) return 0;
-    if (strncmp(extend, "U=", 2) != 0 && strncmp(extend, "t=", 2) != 0)
-        return report_misuse("--extend: found `%.40s`; allowed: where the run is to end, U=0.02 or "
-                             "t=500",
-                             extend);
-    snprintf(own->settings[2], SETTING_SIZE, "time.until={%c: %.50s}", *extend, extend + 2);
-    add_setting(own->settings[2], words);
-    own->resume = true;
-    return 0;
-}
-
-// The error bar wanted, and the time for it. Status 0 or 2.
-static int ask_accuracy(RunWords *own, SceneWords *words)
-{
-    if (own->within && !own->to)
-        return report_misuse("--within: needs --to, the error bar wanted (--to 1%%)");
-    if (own->within && !(seconds_of(own->within) > 0))
-        return report_misuse("--within: found `%.40s`; allowed: a time such as 300s, 5min or 1h",
-                             own->within);
-    char *end = own->to ? (char *)own->to : NULL;
-    if (own->to && strtod(own->to, &end) == 0 && end != own->to)
-        return report_misuse("--to: found `%.40s`; allowed: an error bar above 0, such as 1%%; "
-                             "without --to the scene is run as it is",
-                             own->to);
-    if (own->to) {
-        snprintf(own->settings[0], SETTING_SIZE, "accuracy.mu=%.50s", own->to);
-        add_setting(own->settings[0], words);
-    }
-    if (own->within) {
-        snprintf(own->settings[1], SETTING_SIZE, "accuracy.within=%.17g", seconds_of(own->within));
-        add_setting(own->settings[1], words);
-    }
-    return 0;
-}
-
-// Status 0 or 2.
+// The error bar wanted and the time for it, and `--extend U=0.02`: the scene's end alone; whatever
+// else would end it does not. They become settings, behind those of --set. Status 0 or 2.
 static int ask_own(RunWords *own, SceneWords *words)
 {
-    if (words->settings.count + 3 > OPTION_WORDS_MAX) return report_misuse("too many --set");
+    OptionWords *settings = &words->settings;
+    const char *to = own->to, *within = own->within, *extend = own->extend;
+    if (settings->count + 3 > OPTION_WORDS_MAX) return report_misuse("too many --set");
     if (own->checkpoint && !(seconds_of(own->checkpoint) > 0))
         return report_misuse("--checkpoint: found `%.40s`; allowed: a time such as 30s or 5min",
                              own->checkpoint);
-    int status = ask_accuracy(own, words);
-    if (status == 0) status = ask_extension(own, words);
-    if (status == 0 && own->resume && words->overwrite)
+    if (within && !to)
+        return report_misuse("--within: needs --to, the error bar wanted (--to 1%%)");
+    if (within && !(seconds_of(within) > 0))
+        return report_misuse("--within: found `%.40s`; allowed: a time such as 300s, 5min or 1h",
+                             within);
+    char *end = (char *)to;
+    if (to && strtod(to, &end) == 0 && end != to)
+        return report_misuse("--to: found `%.40s`; allowed: an error bar above 0, such as 1%%; "
+                             "without --to the scene is run as it is",
+                             to);
+    if (extend && strncmp(extend, "U=", 2) != 0 && strncmp(extend, "t=", 2) != 0)
+        return report_misuse("--extend: found `%.40s`; allowed: where the run is to end, U=0.02 or "
+                             "t=500",
+                             extend);
+    own->resume = own->resume || extend;
+    if (own->resume && words->overwrite)
         return report_misuse("--overwrite removes what --resume and --extend would go on from");
-    return status;
+
+    if (to) snprintf(own->settings[0], SETTING_SIZE, "accuracy.mu=%.50s", to);
+    if (within)
+        snprintf(own->settings[1], SETTING_SIZE, "accuracy.within=%.17g", seconds_of(within));
+    if (extend)
+        snprintf(own->settings[2], SETTING_SIZE, "time.until={%c: %.50s}", *extend, extend + 2);
+    for (int32_t k = 0; k < 3; k++)
+        if (*own->settings[k]) settings->list[settings->count++] = own->settings[k];
+    return 0;
 }
 
 // Warnings are printed also after a failure: they may explain it. The exit status.

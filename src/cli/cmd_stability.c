@@ -13,47 +13,6 @@
 
 enum { SLIDINGS_STANDARD = 2 };   // the second peak already belongs to the periodic regime
 
-typedef struct StabilityWords {
-    SceneWords common;
-    const char *from, *slidings;
-    bool whole;
-} StabilityWords;
-
-static int read_words(const Command *command, int argc, char **argv, StabilityWords *words)
-{
-    const Option own[] = {
-        {"from", 0, "STATE",
-         "Where the path begins: `sliding`, when the block has come to rest after sliding (the "
-         "default), or `start`, the relaxed block. `end`: no path; the growth rates of the one "
-         "state in which the scene's run ends",
-         .word = &words->from},
-        {"slidings", 0, "N",
-         "With --from sliding: after how many of them, computed by time stepping (default: 2). "
-         "Where the block does not slide as a whole, drops of the force by 5 % count",
-         .word = &words->slidings},
-        {"whole", 0, NULL, "Follow the front to the end of the block, beyond l_c",
-         .flag = &words->whole},
-        {0}};
-    return scene_words_read(command, own, argc, argv, &words->common);
-}
-
-// The values of --from and --slidings as `options`. The exit status.
-static int check_words(const StabilityWords *words, StabilityOptions *options)
-{
-    options->at_end = words->from && strcmp(words->from, "end") == 0;
-    bool start = options->at_end || (words->from && strcmp(words->from, "start") == 0);
-    if (words->from && !start && strcmp(words->from, "sliding") != 0)
-        return report_misuse("--from %s: allowed are sliding, start and end", words->from);
-    if (start && words->slidings)
-        return report_misuse("--slidings has no meaning with --from %s", words->from);
-    if (options->at_end && words->whole)
-        return report_misuse("--whole has no meaning with --from end, which follows no path");
-    options->slidings = start ? 0 : SLIDINGS_STANDARD;
-    return words->slidings
-               ? option_count("--slidings", words->slidings, 1, 1000, &options->slidings)
-               : 0;
-}
-
 // A StabilityCallback.
 static void show_point(const StabilityPoint *point, void *table)
 {
@@ -67,43 +26,21 @@ static void show_point(const StabilityPoint *point, void *table)
     fflush(stdout);
 }
 
-// How stable each pad is alone, and which of them slides.
-static void print_pads(const StabilitySummary *summary)
-{
-    if (summary->pad_count < 2) return;
-    say("\n%-16s %10s %9s %9s %9s %9s %10s %10s\n", "pad, at l_c at V", "pressure", "slips",
-        "in mode", "load", "l_c alone", "drag", "stiffness");
-    for (int32_t p = 0; p < summary->pad_count; p++) {
-        const StabilityPad *pad = &summary->pads[p];
-        say("%-16s %10.4g %9.3f %9.3f %9.3f ", pad->name, pad->pressure,
-            pad->slipping / pad->length, pad->mode, pad->load);
-        point_table_cell(pad->l_c / pad->length, 8, 3);
-        say(" %10.4g %10.4g\n", pad->drag, pad->stiffness);
-    }
-    say("  slips, l_c alone: over the pad's length. load: weakening over the resistance of the pad "
-        "when all\n"
-        "  of it slips and the others hold; from 1 on it is unstable alone, below 1 only with "
-        "others.\n");
-}
-
-// Lines of at most 80 columns, from the second on indented.
-static void print_wrapped(const char *sentence)
-{
-    size_t column = 0;
-    for (const char *word = sentence; *word;) {
-        size_t length = strcspn(word, " ");
-        if (column + 1 + length > 80) column = (size_t)say("\n   ") - 1;
-        column += (size_t)say(" %.*s", (int)length, word);
-        word += length + strspn(word + length, " ");
-    }
-    say("\n");
-}
-
 // The sentences, then the numbers. `none`: the path ended before.
 static void print_answers(const StabilitySummary *summary)
 {
     say("\n");
-    for (int32_t k = 0; k < summary->why_count; k++) print_wrapped(summary->why[k]);
+    for (int32_t k = 0; k < summary->why_count; k++) {
+        // Lines of at most 80 columns, from the second on indented.
+        size_t column = 0;
+        for (const char *word = summary->why[k]; *word;) {
+            size_t length = strcspn(word, " ");
+            if (column + 1 + length > 80) column = (size_t)say("\n   ") - 1;
+            column += (size_t)say(" %.*s", (int)length, word);
+            word += length + strspn(word + length, " ");
+        }
+        say("\n");
+    }
     say("\n");
     point_table_answer("l_sc/L", summary->l_sc, "an oscillation grows");
     point_table_answer("l_sc/L (certificate)", summary->l_sc_certificate,
@@ -131,7 +68,24 @@ static void print_answers(const StabilitySummary *summary)
                            "slip on a longer part grows, all else held");
     }
     say("  (the front moves from node to node, %.4f L apart)\n", summary->element);
-    print_pads(summary);
+
+    // How stable each pad is alone, and which of them slides.
+    bool several = summary->pad_count > 1;
+    if (several)
+        say("\n%-16s %10s %9s %9s %9s %9s %10s %10s\n", "pad, at l_c at V", "pressure", "slips",
+            "in mode", "load", "l_c alone", "drag", "stiffness");
+    for (int32_t p = 0; several && p < summary->pad_count; p++) {
+        const StabilityPad *pad = &summary->pads[p];
+        say("%-16s %10.4g %9.3f %9.3f %9.3f ", pad->name, pad->pressure,
+            pad->slipping / pad->length, pad->mode, pad->load);
+        point_table_cell(pad->l_c / pad->length, 8, 3);
+        say(" %10.4g %10.4g\n", pad->drag, pad->stiffness);
+    }
+    if (several)
+        say("  slips, l_c alone: over the pad's length. load: weakening over the resistance of the "
+            "pad when all\n"
+            "  of it slips and the others hold; from 1 on it is unstable alone, below 1 only with "
+            "others.\n");
     say("  time taken             %.1f s (before the path %.1f, path %.1f, growth rates %.1f)\n",
         summary->seconds_before + summary->seconds_path + summary->seconds_growth,
         summary->seconds_before, summary->seconds_path, summary->seconds_growth);
@@ -143,20 +97,42 @@ static void print_answers(const StabilitySummary *summary)
 // With --from end one state's line is the whole answer: there is no path to sum up.
 int command_stability(const Command *command, int argc, char **argv)
 {
-    StabilityWords words = {0};
+    SceneWords words = {0};
+    const char *from = NULL, *slidings = NULL;
     StabilityOptions options = {0};
     StabilitySummary summary;
     Error err = {0};
     Scene *scene = NULL;
-    int status = read_words(command, argc, argv, &words);
-    if (status == 0) status = check_words(&words, &options);
-    if (status == 0) status = scene_words_open(&words.common, &scene);
+    const Option own[] = {
+        {"from", 0, "STATE",
+         "Where the path begins: `sliding`, when the block has come to rest after sliding (the "
+         "default), or `start`, the relaxed block. `end`: no path; the growth rates of the one "
+         "state in which the scene's run ends",
+         .word = &from},
+        {"slidings", 0, "N",
+         "With --from sliding: after how many of them, computed by time stepping (default: 2). "
+         "Where the block does not slide as a whole, drops of the force by 5 % count",
+         .word = &slidings},
+        {"whole", 0, NULL, "Follow the front to the end of the block, beyond l_c",
+         .flag = &options.whole},
+        {0}};
+    int status = scene_words_read(command, own, argc, argv, &words);
     if (status != 0) return status;
-    bool quiet = words.common.quiet;
-    PointTable table = point_table_begin(quiet);
-    options.folder = words.common.folder;
-    options.overwrite = words.common.overwrite;
-    options.whole = words.whole;
+    options.at_end = from && strcmp(from, "end") == 0;
+    bool start = options.at_end || (from && strcmp(from, "start") == 0);
+    if (from && !start && strcmp(from, "sliding") != 0)
+        return report_misuse("--from %s: allowed are sliding, start and end", from);
+    if (start && slidings) return report_misuse("--slidings has no meaning with --from %s", from);
+    if (options.at_end && options.whole)
+        return report_misuse("--whole has no meaning with --from end, which follows no path");
+    options.slidings = start ? 0 : SLIDINGS_STANDARD;
+    if (slidings) status = option_count("--slidings", slidings, 1, 1000, &options.slidings);
+    if (status == 0) status = scene_words_open(&words, &scene);
+    if (status != 0) return status;
+
+    PointTable table = point_table_begin(words.quiet);
+    options.folder = words.folder;
+    options.overwrite = words.overwrite;
     options.on_step = point_table_step;
     options.on_point = show_point;
     options.context = &table;
@@ -165,7 +141,7 @@ int command_stability(const Command *command, int argc, char **argv)
     progress_end(&table.progress);
     if (!done)
         status = report_error(&err);
-    else if (!quiet && !options.at_end)
+    else if (!words.quiet && !options.at_end)
         print_answers(&summary);
     amontons_scene_destroy(scene);
     return status;

@@ -46,12 +46,6 @@ static const Command commands[] = {
 
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
 
-// Bytes of the first of several forms; also of "RESULT...".
-static int first_form(const char *argument)
-{
-    return argument ? (int)strcspn(argument, "\n.") : 0;
-}
-
 // The exit status: 0, as help was asked for.
 static int print_help(void)
 {
@@ -59,9 +53,11 @@ static int print_help(void)
         "\n"
         "When and how an elastic block pushed by a rod starts to slide.\n"
         "\n");
-    for (int32_t k = 0; k < COMMAND_COUNT; k++)
-        say("  %-10s %-8.*s %s\n", commands[k].name, first_form(commands[k].argument),
-            commands[k].argument ? commands[k].argument : "", commands[k].sentence);
+    for (int32_t k = 0; k < COMMAND_COUNT; k++) {
+        const char *forms = commands[k].argument ? commands[k].argument : "";
+        say("  %-10s %-8.*s %s\n", commands[k].name, (int)strcspn(forms, "\n."), forms,
+            commands[k].sentence);   // the first of several forms; also of "RESULT..."
+    }
     say("\n"
         "  amontons help COMMAND     more about a command (also: amontons COMMAND --help)\n"
         "  amontons info keys        every key that a scene may have\n"
@@ -114,16 +110,6 @@ static int report_unknown(const char *name)
     return report_misuse("unknown command `%s` (`amontons --help` lists the commands)", name);
 }
 
-// `amontons help COMMAND` is `amontons COMMAND --help`.
-static int help_on(const char *name)
-{
-    const Command *command = find_command(name);
-    if (!command) return report_unknown(name);
-    char word[] = "--help";
-    char *words[] = {(char *)name, word, NULL};
-    return command->run(command, 2, words);
-}
-
 // The first word decides; everything behind it is the command's own to read. The exit status.
 static int run_command(int argc, char **argv)
 {
@@ -132,10 +118,15 @@ static int run_command(int argc, char **argv)
     if (strcmp(word, "--version") == 0 || strcmp(word, "-V") == 0) return print_version();
     bool wants_help = strcmp(word, "help") == 0 || strcmp(word, "--help") == 0 ||
                       strcmp(word, "-h") == 0 || strcmp(word, "-?") == 0;
-    if (wants_help) return argc > 2 ? help_on(argv[2]) : print_help();
-    const Command *command = find_command(word);
-    if (!command) return report_unknown(word);
-    return command->run(command, argc - 1, argv + 1);
+    if (wants_help && argc <= 2) return print_help();
+
+    // `amontons help COMMAND` is `amontons COMMAND --help`.
+    const char *name = wants_help ? argv[2] : word;
+    char help[] = "--help", *help_words[] = {(char *)name, help, NULL};
+    const Command *command = find_command(name);
+    if (!command) return report_unknown(name);
+    return wants_help ? command->run(command, 2, help_words)
+                      : command->run(command, argc - 1, argv + 1);
 }
 
 const char *amontons_better_kernels(void)

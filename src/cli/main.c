@@ -62,25 +62,17 @@ static bool meets_open_files(void)
     return false;
 }
 
-// The folder of the program's file.
-static bool find_folder(char folder[PATH_MAX])
-{
-    char path[PATH_MAX] = {0};
-    if (readlink("/proc/self/exe", path, sizeof path - 1) < 0) return false;
-    snprintf(folder, PATH_MAX, "%s", dirname(path));
-    return true;
-}
-
 // In the build tree the module stands beside the program, else in the folder of the modules.
 static void *open_module(void)
 {
     static const char *const places[] = {"", AMONTONS_MODULES_FROM_PROGRAM "/"};
-    char folder[PATH_MAX], path[2 * PATH_MAX];
+    char program[PATH_MAX] = {0}, path[2 * PATH_MAX];
     void *module = NULL;
-    if (!find_folder(folder)) {
+    if (readlink("/proc/self/exe", program, sizeof program - 1) < 0) {
         fprintf(stderr, "amontons: error: cannot tell where the program is (/proc/self/exe)\n");
         return NULL;
     }
+    const char *folder = dirname(program);
     for (size_t k = 0; k < sizeof places / sizeof places[0]; k++) {
         snprintf(path, sizeof path, "%s/%samontons_commands.so", folder, places[k]);
         if (access(path, F_OK) == 0) break;
@@ -124,15 +116,6 @@ static bool load_commands(Commands *commands)
     return commands->run && commands->better_kernels;
 }
 
-// Whether this process has executed itself; what it has set for that goes.
-static bool was_executed_again(void)
-{
-    const char *by = getenv(AGAIN);
-    bool again = by && atol(by) == (long)getpid();
-    unsetenv(AGAIN);
-    return again;
-}
-
 // OpenBLAS chooses its kernels while it is loaded, by family and model of the processor: 0.3.21
 // takes those for SSE3, a fifth as fast, where it does not know these. Then the program sets the
 // variable that chooses and executes itself, once. Where that fails it goes on as it is.
@@ -152,7 +135,9 @@ static void take_better_kernels(const Commands *commands, char **argv)
 int main(int argc, char **argv)
 {
     Commands commands;
-    bool again = was_executed_again();
+    const char *by = getenv(AGAIN);   // the process that has executed itself
+    bool again = by && atol(by) == (long)getpid();
+    unsetenv(AGAIN);
     occupy_standard_streams();
     signal(SIGXFSZ, SIG_IGN);   // a file that reaches its limit (ulimit -f) is an error with words
     signal(SIGCHLD, SIG_DFL);   // base/process; who starts this may ignore it

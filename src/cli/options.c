@@ -35,33 +35,26 @@ static void add_word(OptionWords *words, const char *word)
         words->list[words->count++] = word;
 }
 
-// `--set a=1 b=2`: further words that have a `=` and are no file; `RESULT --figure a b`: any.
-static bool goes_on(const Option *option, const Reading *reading, const char *word)
-{
-    if (!option->words || option->words->count == 0) return false;
-    if (strchr(option->argument, '=')) return strchr(word, '=') && access(word, F_OK) != 0;
-    return reading->argument != NULL;
-}
-
-static void take_argument(Reading *reading, const char *word)
-{
-    for (const Option *option = reading->options; option->name; option++) {
-        if (!goes_on(option, reading, word)) continue;
-        add_word(option->words, word);
-        return;
-    }
-    if (reading->all)
-        add_word(reading->all, word);
-    else if (reading->argument)
-        reading->too_many = true;
-    if (!reading->all || !reading->argument) reading->argument = word;
-}
-
 static error_t take_word(int key, char *word, struct argp_state *state)
 {
     Reading *reading = state->input;
     if (key == ARGP_KEY_ARG) {
-        take_argument(reading, word);
+        // `--set a=1 b=2`: further words that have a `=` and are no file; `RESULT --figure a b`:
+        // any.
+        for (const Option *option = reading->options; option->name; option++) {
+            if (!option->words || option->words->count == 0) continue;
+            bool goes_on = strchr(option->argument, '=')
+                               ? strchr(word, '=') && access(word, F_OK) != 0
+                               : reading->argument != NULL;
+            if (!goes_on) continue;
+            add_word(option->words, word);
+            return 0;
+        }
+        if (reading->all)
+            add_word(reading->all, word);
+        else if (reading->argument)
+            reading->too_many = true;
+        if (!reading->all || !reading->argument) reading->argument = word;
         return 0;
     }
     for (int32_t k = 0; reading->options[k].name; k++) {
@@ -75,33 +68,13 @@ static error_t take_word(int key, char *word, struct argp_state *state)
     return ARGP_ERR_UNKNOWN;
 }
 
-// The exit status.
-static int check_words(const Command *command, const Reading *reading)
-{
-    if (!command->argument)
-        return reading->argument ? report_misuse("%s takes no argument, `%s` is one", command->name,
-                                                 reading->argument)
-                                 : 0;
-    if (!reading->argument)
-        return report_misuse("%s needs a %s, as in `%s`", command->name, command->what,
-                             command->example);
-    if (reading->all && reading->all->too_many)
-        return report_misuse("%s takes %d arguments at most", command->name, OPTION_WORDS_MAX);
-    if (reading->too_many) return report_misuse("%s takes one %s", command->name, command->what);
-    for (const Option *option = reading->options; option->name; option++)
-        if (option->words && option->words->too_many)
-            return report_misuse("--%s is given more than %d times", option->name,
-                                 OPTION_WORDS_MAX);
-    return 0;
-}
-
-static pid_t program;   // 0: the program may end
+static pid_t guarded_process;   // 0: the program may end
 
 // Nothing of ours calls exit: a plug-in or a library does, and its status would be taken for ours.
 static void meet_strange_end(void)
 {
-    if (!program) return;
-    if (getpid() == program) {   // else the process that waits for this one says so
+    if (!guarded_process) return;
+    if (getpid() == guarded_process) {   // else the process that waits for this one says so
         amontons_let_go();
         tell("amontons: error: a plug-in or library ended the program in the middle of its work "
              "(it called exit)\n");
@@ -111,8 +84,8 @@ static void meet_strange_end(void)
 
 void guard_end(bool guarded)
 {
-    if (guarded && !program) atexit(meet_strange_end);
-    program = guarded ? getpid() : 0;
+    if (guarded && !guarded_process) atexit(meet_strange_end);
+    guarded_process = guarded ? getpid() : 0;
 }
 
 // argp leaves the program by itself where an option is unknown, with the status set here.
@@ -138,7 +111,20 @@ int options_read(const Command *command, const Option *options, int argc, char *
     argp_parse(&argp, argc, argv, 0, NULL, &reading);
     *argument = reading.argument;
     guard_end(true);   // argp itself may end the program until here
-    return check_words(command, &reading);
+    if (!command->argument && reading.argument)
+        return report_misuse("%s takes no argument, `%s` is one", command->name, reading.argument);
+    if (!command->argument) return 0;
+    if (!reading.argument)
+        return report_misuse("%s needs a %s, as in `%s`", command->name, command->what,
+                             command->example);
+    if (reading.all && reading.all->too_many)
+        return report_misuse("%s takes %d arguments at most", command->name, OPTION_WORDS_MAX);
+    if (reading.too_many) return report_misuse("%s takes one %s", command->name, command->what);
+    for (const Option *option = options; option->name; option++)
+        if (option->words && option->words->too_many)
+            return report_misuse("--%s is given more than %d times", option->name,
+                                 OPTION_WORDS_MAX);
+    return 0;
 }
 
 void default_folder(const char *file, const char *ending, char *folder, size_t size)

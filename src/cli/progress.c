@@ -81,10 +81,9 @@ static void follow_pace(Progress *progress, const StepView *view, double elapsed
 }
 
 // Seconds left; NaN while that is not known. Once so much of the way has been gone again as before
-// the first event, the cost of slidings is known; measured from the start it rose from 0:08 to 0:49
-// with the first sliding. What counts is the later half of the time, or somewhat more, as runs grow
-// dearer or cheaper: on 16 strangers' problems (validation/strangers) half of the times left were
-// right within 7 %, of the whole time within 14 %.
+// the first event, the cost of slidings is known; measured from the start the time left would jump
+// with the first sliding. The later half of the time counts, or somewhat more, as runs grow dearer
+// or cheaper.
 static double seconds_left(const Progress *progress, double fraction, double elapsed)
 {
     const Pace *pace = &progress->pace;
@@ -128,26 +127,6 @@ static void show_member(Progress *progress, const StepView *view, const struct t
     else
         tell("%s\n", line);
     progress->bar_stands = bar;
-}
-
-//     [######............]  33 %  U 0.00198/0.006  mu 0.2034  dt 0.012  3 events  0:12 left
-//
-// In a narrow window the bar goes first, then the end of the text.
-static void draw_bar(double part, const char *state)
-{
-    int32_t width = terminal_width() - 1, percent = (int32_t)(100 * part);
-    int32_t bar = width - STATE_WIDTH - (int32_t)strlen("[] 100 %  ");
-    char line[2 * WIDTH_MAX], marks[BAR_MAX + 3] = "";
-    if (bar > BAR_MAX) bar = BAR_MAX;
-    if (bar >= BAR_MIN) {
-        int32_t filled = (int32_t)(part * bar);
-        marks[0] = '[';
-        memset(marks + 1, '.', (size_t)bar);
-        memset(marks + 1, '#', (size_t)(filled < bar ? filled : bar));
-        marks[bar + 1] = ']';
-    }
-    snprintf(line, sizeof line, "%s %3d %%  %s", marks, percent, state);
-    draw_line(line);
 }
 
 // A bar on a terminal, a line each tenth of the way elsewhere, nothing with --quiet. All goes to
@@ -198,7 +177,23 @@ static void show(Progress *progress, double part, const char *state, const struc
         tell("%3d %%  %s\n", 10 * progress->tenths, state);
         return;
     }
-    draw_bar(part, state);
+
+    //     [######............]  33 %  U 0.00198/0.006  mu 0.2034  dt 0.012  3 events  0:12 left
+    //
+    // In a narrow window the bar goes first, then the end of the text.
+    int32_t width = terminal_width() - 1, percent = (int32_t)(100 * part);
+    int32_t bar = width - STATE_WIDTH - (int32_t)strlen("[] 100 %  ");
+    char line[2 * WIDTH_MAX], marks[BAR_MAX + 3] = "";
+    if (bar > BAR_MAX) bar = BAR_MAX;
+    if (bar >= BAR_MIN) {
+        int32_t filled = (int32_t)(part * bar);
+        marks[0] = '[';
+        memset(marks + 1, '.', (size_t)bar);
+        memset(marks + 1, '#', (size_t)(filled < bar ? filled : bar));
+        marks[bar + 1] = ']';
+    }
+    snprintf(line, sizeof line, "%s %3d %%  %s", marks, percent, state);
+    draw_line(line);
     progress->drawn = *now;
     progress->bar_stands = true;
 }

@@ -30,21 +30,6 @@ static void name_runs(RunSource *runs, int32_t count)
         }
 }
 
-static void write_states(HtmlWriter *html, const RunSource *run)
-{
-    char words[RUN_NAME_SIZE + WORDS_SIZE + 40], sentence[WORDS_SIZE];
-    if (run->state != RUN_DONE) {
-        snprintf(words, sizeof words, "%s %s", run->name,
-                 run->state == RUN_FAILED ? "failed: its own report says why"
-                                          : "has not ended: it has no numbers yet");
-        sheet_box(html, "failure", words);
-    }
-    for (int32_t k = 0; run_warning(run, k, sentence, sizeof sentence); ++k) {
-        snprintf(words, sizeof words, "%s: %s", run->name, sentence);
-        sheet_box(html, "warning", words);
-    }
-}
-
 static bool write_curves(HtmlWriter *html, PageSource *source, Error *err)
 {
     const RunSource *runs = source->runs;
@@ -91,7 +76,7 @@ bool compare_page_write(HtmlWriter *html, const char *const *folders, int32_t co
                                {"again", "To reproduce", write_again},
                                SHEET_CITE,
                                {0}};
-    char title[60];
+    char title[60], words[RUN_NAME_SIZE + WORDS_SIZE + 40], sentence[WORDS_SIZE];
     RunSource *runs = NEW_ARRAY(RunSource, count, err);
     PageSource source = {.runs = runs, .count = count};
     TRY(runs);
@@ -102,7 +87,19 @@ bool compare_page_write(HtmlWriter *html, const char *const *folders, int32_t co
     name_runs(runs, count);
     snprintf(title, sizeof title, "Comparison of %d runs", count);
     sheet_begin(html, title, "Report by amontons", parts);
-    for (int32_t k = 0; k < count; ++k) write_states(html, &runs[k]);
+    for (int32_t k = 0; k < count; ++k) {
+        const RunSource *run = &runs[k];
+        if (run->state != RUN_DONE) {
+            snprintf(words, sizeof words, "%s %s", run->name,
+                     run->state == RUN_FAILED ? "failed: its own report says why"
+                                              : "has not ended: it has no numbers yet");
+            sheet_box(html, "failure", words);
+        }
+        for (int32_t w = 0; run_warning(run, w, sentence, sizeof sentence); ++w) {
+            snprintf(words, sizeof words, "%s: %s", run->name, sentence);
+            sheet_box(html, "warning", words);
+        }
+    }
     TRY(sheet_parts(html, parts, &source, err));
     sheet_end(html, runs[0].json);
 cleanup:

@@ -33,30 +33,31 @@ static bool go_on_without(HtmlWriter *html, const char *what, Error *err)
     return true;
 }
 
-// Where an error bar was asked for: runs over contact nodes.
-static bool bar_figure_write(HtmlWriter *html, const RunSource *run, Error *err)
-{
-    char path[PATH_MAX];
-    if (!folder_holds(run->folder, "figures/accuracy.json", path)) return true;
-    RenderPlotHtmlFunction render =
-        (RenderPlotHtmlFunction)module_function("render", "amontons_render_plot_html", err);
-    if (render)
-        render(path, "How the error bar was found: runs on finer and finer meshes.", html, err);
-    return go_on_without(html, "figure of the error bar", err);
-}
-
 bool figures_write(HtmlWriter *html, PageSource *source, Error *err)
 {
+    const char *folder = source->runs->folder;
+    char path[PATH_MAX];
     RenderFiguresFunction render =
         (RenderFiguresFunction)module_function("render", "amontons_render_figures", err);
-    if (render) render(source->runs->folder, source->cycle, html, err);
-    return go_on_without(html, "figures", err) && bar_figure_write(html, source->runs, err);
+    if (render) render(folder, source->cycle, html, err);
+    if (!go_on_without(html, "figures", err)) return false;
+
+    // Where an error bar was asked for: runs over contact nodes.
+    if (!folder_holds(folder, "figures/accuracy.json", path)) return true;
+    RenderPlotHtmlFunction plot =
+        (RenderPlotHtmlFunction)module_function("render", "amontons_render_plot_html", err);
+    if (plot) plot(path, "How the error bar was found: runs on finer and finer meshes.", html, err);
+    return go_on_without(html, "figure of the error bar", err);
 }
 
 // --- frames --------------------------------------------------------------------------------------
 
-static void write_controls(HtmlWriter *html)
+bool frames_write(HtmlWriter *html, PageSource *source, Error *err)
 {
+    RenderFrames *found = &source->frames;
+    RenderFramesFunction render =
+        (RenderFramesFunction)module_function("render", "amontons_render_frames", err);
+    if (!render) return false;
     html_markup(html, "<div class='controls' id='controls' hidden role='group' aria-label='Frames'>"
                       "<button type='button' id='back' aria-label='Frame before'>\u25c0</button>"
                       "<input type='range' id='slider' min='1' max='1' value='1' "
@@ -65,15 +66,6 @@ static void write_controls(HtmlWriter *html)
                       "<button type='button' id='play' aria-pressed='false'>Play</button></div>\n"
                       "<p class='keys' id='keys' hidden>Arrow keys on the slider go from frame to "
                       "frame; links in the table of events lead here.</p>\n");
-}
-
-bool frames_write(HtmlWriter *html, PageSource *source, Error *err)
-{
-    RenderFrames *found = &source->frames;
-    RenderFramesFunction render =
-        (RenderFramesFunction)module_function("render", "amontons_render_frames", err);
-    if (!render) return false;
-    write_controls(html);
     if (render(source->runs->folder, html, found, err)) {
         html_markup(html,
                     "<p class='note'>%d of %d %s are shown, close together where the force "
@@ -94,20 +86,7 @@ bool frames_write(HtmlWriter *html, PageSource *source, Error *err)
 
 // --- events --------------------------------------------------------------------------------------
 
-typedef struct EventTable {
-    double *column[COLUMNS];   // [count] owned; as below
-    int32_t count;
-} EventTable;
-
 enum { KIND, U_START, U_STOP, T_START, T_STOP, REACH, RATE, SPEED };
-
-static bool read_events(ArrayFile *file, EventTable *table, Error *err)
-{
-    static const ResultTable names[COLUMNS] = {EVENTS_KIND,      EVENTS_U_START,    EVENTS_U_STOP,
-                                               EVENTS_T_START,   EVENTS_T_STOP,     EVENTS_REACH,
-                                               EVENTS_PEAK_RATE, EVENTS_FRONT_SPEED};
-    return result_file_read_tables(file, names, COLUMNS, table->column, &table->count, err);
-}
 
 // The first frame within the event, else the nearest one. *within: the former.
 static int32_t frame_of(const RenderFrames *frames, double U_start, double U_stop, bool *within)
@@ -125,44 +104,34 @@ static int32_t frame_of(const RenderFrames *frames, double U_start, double U_sto
     return best + 1;
 }
 
-static void write_frame_link(HtmlWriter *html, const RenderFrames *frames, double U_start,
-                             double U_stop)
+// A row an event; the last ones, where there are many: the first belong to the start.
+bool events_write(HtmlWriter *html, PageSource *source, Error *err)
 {
-    bool within = false;
-    int32_t frame = frame_of(frames, U_start, U_stop, &within);
-    html_markup(html, "<td class='number'>");
-    if (frames->count > 0)
-        html_markup(html, "<a href='#frame-%d'>%s%d</a>", frame, within ? "" : "nearest: ", frame);
-    html_markup(html, "</td>");
-}
-
-static void write_event(HtmlWriter *html, const EventTable *table, int32_t k, const double scale[2],
-                        const RenderFrames *frames)
-{
-    double *const *column = table->column;
-    int32_t kind =
-        column[KIND][k] >= 0 && column[KIND][k] < EVENT_KIND_COUNT ? (int32_t)column[KIND][k] : -1;
-    const double shown[] = {column[U_START][k],
-                            column[U_STOP][k],
-                            column[T_STOP][k] - column[T_START][k],
-                            column[REACH][k] / scale[0],
-                            column[RATE][k] / scale[1],
-                            column[SPEED][k]};
-    html_markup(html, "<tr class='kind%d'><td class='number'>%d</td><td>%s</td>", kind, k + 1,
-                event_words(column[KIND][k]));
-    for (size_t c = 0; c < sizeof shown / sizeof *shown; ++c) {
-        html_markup(html, "<td class='number'>");
-        html_number(html, shown[c], c < 2 ? DIGITS : 3);
-        html_markup(html, "</td>");
-    }
-    write_frame_link(html, frames, column[U_START][k], column[U_STOP][k]);
-    html_markup(html, "</tr>\n");
-}
-
-static void write_head(HtmlWriter *html, const RunSource *run)
-{
+    static const ResultTable names[COLUMNS] = {
+        [KIND] = EVENTS_KIND,       [U_START] = EVENTS_U_START,  [U_STOP] = EVENTS_U_STOP,
+        [T_START] = EVENTS_T_START, [T_STOP] = EVENTS_T_STOP,    [REACH] = EVENTS_REACH,
+        [RATE] = EVENTS_PEAK_RATE,  [SPEED] = EVENTS_FRONT_SPEED};
+    const RunSource *run = source->runs;
+    const RenderFrames *frames = &source->frames;
     const char *length = run->si ? "m" : "<i>L</i><sub>0</sub>";
     const char *time = run->si ? "s" : "<i>t</i><sub>0</sub>";
+    double *column[COLUMNS] = {0};   // [count] owned
+    int32_t count = 0;
+    ArrayFile *file = result_file_open(run->folder, err);
+    TRY(file);
+    TRY(result_file_read_tables(file, names, COLUMNS, column, &count, err));
+    double block = result_file_number(file, NUMBER_LENGTH);
+    double velocity = result_file_number(file, NUMBER_ROD_VELOCITY);
+    int32_t first = count > EVENTS_SHOWN_MAX ? count - EVENTS_SHOWN_MAX : 0;
+    if (count == 0) {
+        html_markup(html, "<p>%s</p>\n",
+                    run->state == RUN_UNFINISHED ? "Events are known at the end of a run."
+                                                 : "None in this run.");
+        goto cleanup;
+    }
+    if (first > 0)
+        html_markup(html, "<p class='note'>The last %d of %d; all are in run.json.</p>\n",
+                    count - first, count);
     html_markup(html, "<div class='wide'><table class='events'><caption>Slow and rapid slips that "
                       "come before sliding, and the sliding of the whole block</caption><thead><tr>"
                       "<th scope='col' class='number'>no.</th><th scope='col'>kind</th>");
@@ -177,40 +146,35 @@ static void write_head(HtmlWriter *html, const RunSource *run)
                 "<th scope='col' class='number'>speed of front, %s/%s</th>"
                 "<th scope='col' class='number'>frame</th></tr></thead><tbody>\n",
                 length, time);
-}
 
-// The last ones, where there are many: the first belong to the start.
-static bool write_table(HtmlWriter *html, const RunSource *run, const RenderFrames *frames,
-                        Error *err)
-{
-    EventTable table = {0};
-    ArrayFile *file = result_file_open(run->folder, err);
-    TRY(file);
-    TRY(read_events(file, &table, err));
-    const double scale[2] = {result_file_number(file, NUMBER_LENGTH),
-                             result_file_number(file, NUMBER_ROD_VELOCITY)};
-    int32_t first = table.count > EVENTS_SHOWN_MAX ? table.count - EVENTS_SHOWN_MAX : 0;
-    if (table.count == 0) {
-        html_markup(html, "<p>%s</p>\n",
-                    run->state == RUN_UNFINISHED ? "Events are known at the end of a run."
-                                                 : "None in this run.");
-        goto cleanup;
+    for (int32_t k = first; k < count; ++k) {
+        double of_kind = column[KIND][k];
+        const double shown[] = {column[U_START][k],
+                                column[U_STOP][k],
+                                column[T_STOP][k] - column[T_START][k],
+                                column[REACH][k] / block,
+                                column[RATE][k] / velocity,
+                                column[SPEED][k]};
+        html_markup(html, "<tr class='kind%d'><td class='number'>%d</td><td>%s</td>",
+                    of_kind >= 0 && of_kind < EVENT_KIND_COUNT ? (int32_t)of_kind : -1, k + 1,
+                    event_words(of_kind));
+        for (size_t c = 0; c < sizeof shown / sizeof *shown; ++c) {
+            html_markup(html, "<td class='number'>");
+            html_number(html, shown[c], c < 2 ? DIGITS : 3);
+            html_markup(html, "</td>");
+        }
+        bool within = false;
+        int32_t frame = frame_of(frames, column[U_START][k], column[U_STOP][k], &within);
+        html_markup(html, "<td class='number'>");
+        if (frames->count > 0)
+            html_markup(html, "<a href='#frame-%d'>%s%d</a>", frame,
+                        within ? "" : "nearest: ", frame);
+        html_markup(html, "</td></tr>\n");
     }
-    if (first > 0)
-        html_markup(html, "<p class='note'>The last %d of %d; all are in run.json.</p>\n",
-                    table.count - first, table.count);
-    write_head(html, run);
-    for (int32_t k = first; k < table.count; ++k) write_event(html, &table, k, scale, frames);
     html_markup(html, "</tbody></table></div>\n");
 cleanup:
     if (file) array_file_close(file, err);
-    memory_free_list((void *const *)table.column, COLUMNS);
-    return error_is_clean(err);
-}
-
-bool events_write(HtmlWriter *html, PageSource *source, Error *err)
-{
-    write_table(html, source->runs, &source->frames, err);
+    memory_free_list((void *const *)column, COLUMNS);
     return go_on_without(html, "events", err);
 }
 
@@ -244,13 +208,6 @@ void film_find(PageSource *source)
     if (count >= 0) free(entries);
 }
 
-static const FilmKind *kind_of(const char *name)
-{
-    const FilmKind *kind = FILMS;
-    while (kind < FILMS + FILM_KINDS - 1 && !text_ends_with(name, kind->ending)) ++kind;
-    return kind;
-}
-
 // *bytes: NULL where the film is too large to be inside of the page; else owned by the caller. The
 // page may be sent to somebody: of a stranger's result nothing goes into it but a film that lies
 // there, no file of ours that a link of that name leads to.
@@ -278,23 +235,14 @@ cleanup:
     return error_is_clean(err);
 }
 
-// A relative address: what is not plain in a name is written as %XX (RFC 3986).
-static void write_address(HtmlWriter *html, const char *name)
-{
-    for (; *name; ++name) {
-        bool plain = strchr("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789._-",
-                            *name) != NULL;
-        html_markup(html, plain ? "%c" : "%%%02X", (unsigned char)*name);
-    }
-}
-
 bool film_write(HtmlWriter *html, PageSource *source, Error *err)
 {
     const char *name = source->film;
     char path[PATH_MAX];
     uint8_t *bytes = NULL;
     int64_t size = 0;
-    const FilmKind *kind = kind_of(name);
+    const FilmKind *kind = FILMS;
+    while (kind < FILMS + FILM_KINDS - 1 && !text_ends_with(name, kind->ending)) ++kind;
     if (!folder_holds(source->runs->folder, name, path)) return true;
     TRY(read_film(path, kind, &bytes, &size, err));
     if (bytes) {
@@ -306,7 +254,12 @@ bool film_write(HtmlWriter *html, PageSource *source, Error *err)
     }
     html_markup(html, "<p class='note'>%s <a href='./",
                 bytes ? "The film beside this page:" : "It lies beside this page:");
-    write_address(html, name);
+    for (const char *at = name; *at; ++at) {
+        // A relative address: what is not plain in a name is written as %XX (RFC 3986).
+        static const char letters[] =
+            "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789._-";
+        html_markup(html, strchr(letters, *at) ? "%c" : "%%%02X", (unsigned char)*at);
+    }
     html_markup(html, "'>");
     html_text(html, name);
     html_markup(html, "</a> (%.1f MB)</p>\n", (double)size / (1 << 20));

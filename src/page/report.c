@@ -23,36 +23,29 @@ typedef struct ReportRequest {
     bool overwrite;
 } ReportRequest;
 
-static bool check_folders(const ReportRequest *request, Error *err)
-{
-    for (int32_t k = 0; k < request->count; ++k) {
-        const char *folder = request->results[k];
-        if (!pictures_check_folder(folder, err)) return false;
-        if (request->count > 1 && folder_holds(folder, "sweep.csv", NULL))
-            return REFUSE(err, "%s is a sweep: only runs are compared; a sweep has its own page",
-                          folder);
-    }
-    bool run = request->count == 1 && !folder_holds(request->results[0], "sweep.csv", NULL);
-    return run || !request->cycle ||
-           REFUSE(err, "a cycle has a meaning for the page of one run alone");
-}
-
-static bool write_page(const ReportRequest *request, HtmlWriter *html, Error *err)
-{
-    if (request->count > 1) return compare_page_write(html, request->results, request->count, err);
-    if (folder_holds(request->results[0], "sweep.csv", NULL))
-        return sweep_page_write(html, request->results[0], err);
-    return run_page_write(html, request->results[0], request->cycle, err);
-}
-
 static bool write_file(void *context, FILE *reply, Error *err)
 {
     const ReportRequest *request = context;
     HtmlWriter *html = NULL;
+    int32_t count = request->count;
     (void)reply;   // the page is a file
-    TRY(check_folders(request, err));
+    for (int32_t k = 0; k < count; ++k) {
+        const char *folder = request->results[k];
+        TRY(pictures_check_folder(folder, err));
+        if (count > 1 && folder_holds(folder, "sweep.csv", NULL))
+            FAIL(err, ERROR_INPUT,
+                 "%s is a sweep: only runs are compared; a sweep has its own page", folder);
+    }
+    bool sweep = count == 1 && folder_holds(request->results[0], "sweep.csv", NULL);
+    if (request->cycle && (sweep || count > 1))
+        FAIL(err, ERROR_INPUT, "a cycle has a meaning for the page of one run alone");
     TRY(html = html_create(request->file, request->overwrite, err));
-    TRY(write_page(request, html, err));
+    if (count > 1)
+        TRY(compare_page_write(html, request->results, count, err));
+    else if (sweep)
+        TRY(sweep_page_write(html, request->results[0], err));
+    else
+        TRY(run_page_write(html, request->results[0], request->cycle, err));
     return html_finish(html, err);
 cleanup:
     html_abandon(html);

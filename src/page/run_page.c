@@ -59,27 +59,6 @@ static void write_lead(HtmlWriter *html, const RunSource *run)
     html_markup(html, "</p>\n");
 }
 
-static void write_state(HtmlWriter *html, const RunSource *run)
-{
-    char words[WORDS_SIZE + ERROR_MESSAGE_SIZE], message[ERROR_MESSAGE_SIZE] = "";
-    if (run->state == RUN_UNFINISHED) {
-        snprintf(words, sizeof words,
-                 "this run has not ended: it is under way, or was killed (there is no run.json). "
-                 "Figures and frames show what it has stored so far; numbers, events and the "
-                 "scene are written at its end.%s",
-                 run->has_checkpoint ? " `amontons run SCENE -o FOLDER --resume` goes on with it."
-                                     : "");
-        sheet_box(html, "failure", words);
-    }
-    if (run->state == RUN_FAILED) {
-        json_find_text(run->json, "message", message, sizeof message);
-        snprintf(words, sizeof words, "this run failed: %s", message);
-        sheet_box(html, "failure", words);
-    }
-    for (int32_t k = 0; run_warning(run, k, words, sizeof words); ++k)
-        sheet_box(html, "warning", words);
-}
-
 // The scene's mesh is named as seen from the result folder, so the scene is to be saved there.
 static bool write_again(HtmlWriter *html, PageSource *source, Error *err)
 {
@@ -97,32 +76,44 @@ static bool write_again(HtmlWriter *html, PageSource *source, Error *err)
     return error_is_clean(err);
 }
 
-static void list_parts(const PageSource *source, SheetPart parts[PARTS_MAX])
+bool run_page_write(HtmlWriter *html, const char *folder, const char *cycle, Error *err)
 {
-    bool ended = source->runs->state != RUN_UNFINISHED, history = source->runs->has_history;
+    RunSource run = {0};
+    PageSource source = {.runs = &run, .count = 1, .cycle = cycle};
+    SheetPart parts[PARTS_MAX] = {0};
+    char words[WORDS_SIZE + ERROR_MESSAGE_SIZE], message[ERROR_MESSAGE_SIZE] = "";
     int32_t count = 0;
+    TRY(run_source_open(folder, &run, err));
+    film_find(&source);
+    bool ended = run.state != RUN_UNFINISHED, history = run.has_history;
     if (ended) parts[count++] = (SheetPart){"numbers", "Key numbers", numbers_write};
     if (history) parts[count++] = (SheetPart){"frames-part", "Frames", frames_write};
-    if (source->film[0]) parts[count++] = (SheetPart){"film", "Film", film_write};
+    if (source.film[0]) parts[count++] = (SheetPart){"film", "Film", film_write};
     if (history) parts[count++] = (SheetPart){"figures", "Figures", figures_write};
     if (history) parts[count++] = (SheetPart){"events", "Events", events_write};
     if (ended) parts[count++] = (SheetPart){"scene", "Scene", scene_write};
     if (ended) parts[count++] = (SheetPart){"again", "To reproduce", write_again};
     parts[count++] = SHEET_CITE;
-    parts[count] = (SheetPart){0};
-}
-
-bool run_page_write(HtmlWriter *html, const char *folder, const char *cycle, Error *err)
-{
-    RunSource run = {0};
-    PageSource source = {.runs = &run, .count = 1, .cycle = cycle};
-    SheetPart parts[PARTS_MAX];
-    TRY(run_source_open(folder, &run, err));
-    film_find(&source);
-    list_parts(&source, parts);
     sheet_begin(html, run.title, "Report of a run, by amontons", parts);
     write_lead(html, &run);
-    write_state(html, &run);
+
+    // Boxes say what is not complete, and what is to be doubted.
+    if (!ended) {
+        snprintf(words, sizeof words,
+                 "this run has not ended: it is under way, or was killed (there is no run.json). "
+                 "Figures and frames show what it has stored so far; numbers, events and the "
+                 "scene are written at its end.%s",
+                 run.has_checkpoint ? " `amontons run SCENE -o FOLDER --resume` goes on with it."
+                                    : "");
+        sheet_box(html, "failure", words);
+    }
+    if (run.state == RUN_FAILED) {
+        json_find_text(run.json, "message", message, sizeof message);
+        snprintf(words, sizeof words, "this run failed: %s", message);
+        sheet_box(html, "failure", words);
+    }
+    for (int32_t k = 0; run_warning(&run, k, words, sizeof words); ++k)
+        sheet_box(html, "warning", words);
     TRY(sheet_parts(html, parts, &source, err));
     sheet_end(html, run.json);
 cleanup:

@@ -32,28 +32,10 @@ void folder_name(const char *folder, char name[RUN_NAME_SIZE])
     snprintf(name, RUN_NAME_SIZE, "%.100s", slash && slash[1] ? slash + 1 : whole);
 }
 
-static bool read_json(RunSource *source, Error *err)
+bool run_source_open(const char *folder, RunSource *source, Error *err)
 {
     char path[PATH_MAX], status[WORD_SIZE] = "", units[WORD_SIZE] = "";
     int32_t size = 0;
-    if (!folder_holds(source->folder, "run.json", path)) {
-        source->state = RUN_UNFINISHED;
-        source->json = memory_text("{}", err);
-        return source->json != NULL;
-    }
-    if (!text_file_read(path, REPORT_BYTES_MAX, &source->json, &size, err)) return false;
-    if (!json_is_whole(source->json))
-        return REFUSE(err, "%s ends before its last bracket: no run.json of ours", path);
-    json_find_text(source->json, "status", status, sizeof status);
-    json_find_text(source->json, "scene.units", units, sizeof units);
-    json_find_text(source->json, "scene.title", source->title, sizeof source->title);
-    source->state = strcmp(status, "done") == 0 ? RUN_DONE : RUN_FAILED;
-    source->si = strcmp(units, "si") == 0;
-    return error_is_clean(err);
-}
-
-bool run_source_open(const char *folder, RunSource *source, Error *err)
-{
     *source = (RunSource){0};
     if (strlen(folder) >= sizeof source->folder)
         FAIL(err, ERROR_INPUT, "the path of the result folder is too long");
@@ -62,7 +44,19 @@ bool run_source_open(const char *folder, RunSource *source, Error *err)
     source->has_history = folder_holds(folder, "history.h5", NULL) ||
                           folder_holds(folder, "history.h5.part", NULL);
     source->has_checkpoint = folder_holds(folder, CHECKPOINT_FILE, NULL);
-    TRY(read_json(source, err));
+    if (folder_holds(folder, "run.json", path)) {
+        TRY(text_file_read(path, REPORT_BYTES_MAX, &source->json, &size, err));
+        if (!json_is_whole(source->json))
+            FAIL(err, ERROR_INPUT, "%s ends before its last bracket: no run.json of ours", path);
+        json_find_text(source->json, "status", status, sizeof status);
+        json_find_text(source->json, "scene.units", units, sizeof units);
+        json_find_text(source->json, "scene.title", source->title, sizeof source->title);
+        source->state = strcmp(status, "done") == 0 ? RUN_DONE : RUN_FAILED;
+        source->si = strcmp(units, "si") == 0;
+    } else {
+        source->state = RUN_UNFINISHED;
+        TRY(source->json = memory_text("{}", err));
+    }
     if (source->state == RUN_UNFINISHED && !source->has_history)
         FAIL(err, ERROR_INPUT,
              "%s: not the result of a run or a sweep: no run.json, history.h5 or sweep.csv in it",

@@ -53,42 +53,6 @@ static void walk(const char *json, const char *path, int32_t depth, KeyFunction 
     }
 }
 
-// --- what was computed ---------------------------------------------------------------------------
-
-typedef struct Summary {
-    HtmlWriter *html;
-    size_t prefix;   // of the paths, not shown
-    bool begun;
-} Summary;
-
-static void write_key(void *context, const char *path, const char *value)
-{
-    Summary *summary = context;
-    if (!*value) return;
-    html_markup(summary->html, "%s<span class='key'><b>", summary->begun ? ", " : "");
-    html_text(summary->html, path + summary->prefix);
-    html_around(summary->html, "</b> ", value, "</span>");
-    summary->begun = true;
-}
-
-static void write_summary(HtmlWriter *html, const RunSource *run)
-{
-    char group[KEY_SIZE], path[KEY_SIZE + 8], inner[KEY_SIZE];
-    html_markup(html,
-                "<div class='wide'><table><caption>The scene, all values after defaults, in %s "
-                "units</caption><tbody>\n",
-                run->si ? "SI" : "normalised");
-    for (int32_t k = 0; json_find_key(run->json, "scene", k, group, sizeof group); ++k) {
-        snprintf(path, sizeof path, "scene.%s", group);
-        if (!json_find_key(run->json, path, 0, inner, sizeof inner)) continue;   // title, units
-        Summary summary = {.html = html, .prefix = strlen(path) + 1};
-        html_around(html, "<tr><th scope='row'>", group, "</th><td>");
-        walk(run->json, path, 0, write_key, &summary);
-        html_markup(html, "</td></tr>\n");
-    }
-    html_markup(html, "</tbody></table></div>\n");
-}
-
 // --- differences ---------------------------------------------------------------------------------
 
 typedef struct Differences {
@@ -143,13 +107,44 @@ bool scene_differences_write(HtmlWriter *html, PageSource *source, Error *err)
 
 // --- the scene -----------------------------------------------------------------------------------
 
-// As run.json has it, less the two spaces that it is indented by there.
+typedef struct Summary {
+    HtmlWriter *html;
+    size_t prefix;   // of the paths, not shown
+    bool begun;
+} Summary;
+
+static void write_key(void *context, const char *path, const char *value)
+{
+    Summary *summary = context;
+    if (!*value) return;
+    html_markup(summary->html, "%s<span class='key'><b>", summary->begun ? ", " : "");
+    html_text(summary->html, path + summary->prefix);
+    html_around(summary->html, "</b> ", value, "</span>");
+    summary->begun = true;
+}
+
+// The scene is shown and saved as run.json has it, less the two spaces that it is indented by
+// there.
 bool scene_write(HtmlWriter *html, PageSource *source, Error *err)
 {
     int32_t length = 0, used = 0;
-    const char *raw = json_find_raw(source->runs->json, "scene", &length);
-    char *scene = NULL;
-    write_summary(html, source->runs);
+    const RunSource *run = source->runs;
+    char *scene = NULL, group[KEY_SIZE], path[KEY_SIZE + 8], inner[KEY_SIZE];
+    html_markup(html,
+                "<div class='wide'><table><caption>The scene, all values after defaults, in %s "
+                "units</caption><tbody>\n",
+                run->si ? "SI" : "normalised");
+    for (int32_t k = 0; json_find_key(run->json, "scene", k, group, sizeof group); ++k) {
+        snprintf(path, sizeof path, "scene.%s", group);
+        if (!json_find_key(run->json, path, 0, inner, sizeof inner)) continue;   // title, units
+        Summary summary = {.html = html, .prefix = strlen(path) + 1};
+        html_around(html, "<tr><th scope='row'>", group, "</th><td>");
+        walk(run->json, path, 0, write_key, &summary);
+        html_markup(html, "</td></tr>\n");
+    }
+    html_markup(html, "</tbody></table></div>\n");
+
+    const char *raw = json_find_raw(run->json, "scene", &length);
     if (!raw) return true;
     TRY(scene = NEW_ARRAY(char, (int64_t)length + 2, err));
     for (int32_t k = 0; k < length; ++k) {

@@ -17,22 +17,17 @@ static const char PAPER[] =
     "an elastic object locally obeying Amontons\u2019 law</cite>, Scientific Reports 3, 1586 "
     "(2013), <a href='https://doi.org/10.1038/srep01586'>doi:10.1038/srep01586</a>";
 
-static void write_policy(HtmlWriter *html)
+void sheet_begin(HtmlWriter *html, const char *title, const char *kind, const SheetPart *parts)
 {
     char style[HASH_TEXT], script[HASH_TEXT];
     html_base64(page_css_sha256, HASH_SIZE, style);
     html_base64(page_js_sha256, HASH_SIZE, script);
+    html_markup(html, "<!DOCTYPE html>\n<html lang='en'>\n<head>\n<meta charset='utf-8'>\n");
     html_markup(html,
                 "<meta http-equiv='Content-Security-Policy' content=\"default-src 'none'; img-src "
                 "data:; media-src data:; style-src 'sha256-%s'; script-src 'sha256-%s'; base-uri "
                 "'none'; form-action 'none'\">\n",
                 style, script);
-}
-
-void sheet_begin(HtmlWriter *html, const char *title, const char *kind, const SheetPart *parts)
-{
-    html_markup(html, "<!DOCTYPE html>\n<html lang='en'>\n<head>\n<meta charset='utf-8'>\n");
-    write_policy(html);
     html_markup(html, "<meta name='viewport' content='width=device-width, initial-scale=1'>\n"
                       "<meta name='color-scheme' content='light dark'>\n"
                       "<meta name='generator' content='amontons " AMONTONS_VERSION "'>\n<title>");

@@ -37,34 +37,6 @@ typedef struct SweepSource {
     int figure_count;   // -1: there is no such folder
 } SweepSource;
 
-static bool varies(const CsvTable *table, int32_t column)
-{
-    for (int32_t row = 1; row < table->rows; ++row)
-        if (strcmp(csv_cell(table, row, column), csv_cell(table, 0, column)) != 0) return true;
-    return false;
-}
-
-// Which columns are keys, and the title, stand in sweep.h5 only.
-static bool read_arrays(SweepSource *sweep, Error *err)
-{
-    char path[PATH_MAX], name[NAME_SIZE];
-    ArrayFile *file = NULL;
-    folder_name(sweep->folder, sweep->title);
-    if (!folder_holds(sweep->folder, "sweep.h5", path)) return true;
-    TRY(file = array_file_open(path, err));
-    Error absent = {0};
-    if (!array_file_get_text(file, "title", name, sizeof name, &absent)) *name = 0;
-    if (*name) snprintf(sweep->title, sizeof sweep->title, "%s", name);
-    for (int32_t k = 0; k < sweep->table.columns; ++k) {
-        snprintf(name, sizeof name, "scene/%.200s", csv_name(&sweep->table, k));
-        sweep->is_key[k] = array_file_has(file, name);
-        sweep->varies[k] = sweep->is_key[k] && varies(&sweep->table, k);
-    }
-cleanup:
-    if (file) array_file_close(file, err);
-    return error_is_clean(err);
-}
-
 static int is_description(const struct dirent *entry)
 {
     return text_ends_with(entry->d_name, ".json");
@@ -83,17 +55,34 @@ static void sweep_close(SweepSource *sweep)
 
 static bool sweep_open(const char *folder, SweepSource *sweep, Error *err)
 {
-    char path[PATH_MAX];
+    char path[PATH_MAX], name[NAME_SIZE];
+    CsvTable *table = &sweep->table;
+    ArrayFile *file = NULL;
     *sweep = (SweepSource){.folder = folder};
     snprintf(path, sizeof path, "%s/figures", folder);
     sweep->figure_count = scandir(path, &sweep->figures, is_description, alphasort);
     snprintf(path, sizeof path, "%s/sweep.csv", folder);
-    TRY(csv_read(path, &sweep->table, err));
-    TRY(sweep->is_key = NEW_ARRAY(bool, sweep->table.columns, err));
-    TRY(sweep->varies = NEW_ARRAY(bool, sweep->table.columns, err));
-    TRY(read_arrays(sweep, err));
-    int32_t status = csv_column(&sweep->table, "status"), run = csv_column(&sweep->table, "run");
-    if (status < 0 || run < 0) FAIL(err, ERROR_INPUT, "%s is no table of a sweep", path);
+    TRY(csv_read(path, table, err));
+    TRY(sweep->is_key = NEW_ARRAY(bool, table->columns, err));
+    TRY(sweep->varies = NEW_ARRAY(bool, table->columns, err));
+
+    // Which columns are keys, and the title, stand in sweep.h5 only.
+    folder_name(folder, sweep->title);
+    if (folder_holds(folder, "sweep.h5", path)) {
+        TRY(file = array_file_open(path, err));
+        Error absent = {0};
+        if (!array_file_get_text(file, "title", name, sizeof name, &absent)) *name = 0;
+        if (*name) snprintf(sweep->title, sizeof sweep->title, "%s", name);
+    }
+    for (int32_t k = 0; file && k < table->columns; ++k) {
+        snprintf(name, sizeof name, "scene/%.200s", csv_name(table, k));
+        sweep->is_key[k] = array_file_has(file, name);
+        for (int32_t row = 1; row < table->rows && sweep->is_key[k] && !sweep->varies[k]; ++row)
+            sweep->varies[k] = strcmp(csv_cell(table, row, k), csv_cell(table, 0, k)) != 0;
+    }
+    int32_t status = csv_column(table, "status"), run = csv_column(table, "run");
+    if (status < 0 || run < 0)
+        FAIL(err, ERROR_INPUT, "%s/sweep.csv is no table of a sweep", folder);
     for (int32_t row = 0; row < sweep->table.rows; ++row) {
         const char *word = csv_cell(&sweep->table, row, status);
         bool done = strcmp(word, "done") == 0;
@@ -107,31 +96,12 @@ static bool sweep_open(const char *folder, SweepSource *sweep, Error *err)
     }
     if (folder_holds(folder, "ranking.csv", path)) TRY(csv_read(path, &sweep->ranking, err));
 cleanup:
+    if (file) array_file_close(file, err);
     if (!error_is_clean(err)) sweep_close(sweep);
     return error_is_clean(err);
 }
 
 // --- what varies ---------------------------------------------------------------------------------
-
-// The different values of a key, in the order of the table.
-static void write_values(HtmlWriter *html, const CsvTable *table, int32_t column)
-{
-    const char *shown[VALUES_SHOWN];
-    int32_t different = 0;
-    for (int32_t row = 0; row < table->rows; ++row) {
-        const char *cell = csv_cell(table, row, column);
-        bool seen = false;
-        for (int32_t k = 0; k < different && !seen; ++k) seen = strcmp(shown[k], cell) == 0;
-        if (seen) continue;
-        if (different == VALUES_SHOWN) {
-            html_markup(html, ", \u2026");
-            return;
-        }
-        html_markup(html, "%s", different ? ", " : "");
-        html_text(html, cell);
-        shown[different++] = cell;
-    }
-}
 
 static bool write_varied(HtmlWriter *html, PageSource *source, Error *err)
 {
@@ -141,7 +111,23 @@ static bool write_varied(HtmlWriter *html, PageSource *source, Error *err)
     for (int32_t k = 0; k < sweep->table.columns; ++k) {
         if (!sweep->varies[k]) continue;
         html_around(html, "<tr><th scope='row'>", csv_name(&sweep->table, k), "</th><td>");
-        write_values(html, &sweep->table, k);
+
+        // The different values of the key, in the order of the table.
+        const char *shown[VALUES_SHOWN];
+        int32_t different = 0;
+        for (int32_t row = 0; row < sweep->table.rows && different <= VALUES_SHOWN; ++row) {
+            const char *cell = csv_cell(&sweep->table, row, k);
+            bool seen = false;
+            for (int32_t i = 0; i < different && !seen; ++i) seen = strcmp(shown[i], cell) == 0;
+            if (seen) continue;
+            html_markup(html, "%s", different ? ", " : "");
+            if (different == VALUES_SHOWN)
+                html_markup(html, "\u2026");
+            else
+                html_text(html, cell);
+            if (different < VALUES_SHOWN) shown[different] = cell;
+            ++different;
+        }
         html_markup(html, "</td></tr>\n");
     }
     html_markup(html, "</tbody></table></div>\n");
@@ -288,47 +274,15 @@ static bool write_points(HtmlWriter *html, PageSource *source, Error *err)
 
 // --- failures and warnings -----------------------------------------------------------------------
 
-// Sentences of one cell have // between them.
-static void add_warnings(Warned *warned, int32_t point, const char *cell)
-{
-    char sentence[SENTENCE_SIZE];
-    while (*cell) {
-        const char *end = strstr(cell, " // ");
-        size_t length = end ? (size_t)(end - cell) : strlen(cell);
-        snprintf(sentence, sizeof sentence, "%.*s",
-                 (int)(length < RUN_WARNING_SIZE ? length : RUN_WARNING_SIZE - 1), cell);
-        warned_add(warned, point, sentence);
-        cell += end ? length + 4 : length;
-    }
-}
-
-static bool write_warnings(HtmlWriter *html, const SweepSource *sweep, Error *err)
-{
-    Warned warned = {0};
-    char *words = NULL;
-    size_t size = 0;
-    FILE *lines = NULL;
-    TRY(warned_make(sweep->table.rows, &warned, err));
-    int32_t column = csv_column(&sweep->table, "warnings");
-    for (int32_t row = 0; row < sweep->table.rows; ++row)
-        add_warnings(&warned, row, csv_cell(&sweep->table, row, column));
-    if (warned.count == 0) goto cleanup;
-    if (!(lines = open_memstream(&words, &size)))
-        FAIL(err, ERROR_MEMORY, "no memory for the warnings");
-    warned_print(&warned, lines);
-    fclose(lines);
-    sheet_box(html, "warning", words);
-cleanup:
-    free(words);
-    warned_destroy(&warned);
-    return error_is_clean(err);
-}
-
 static bool write_doubts(HtmlWriter *html, PageSource *source, Error *err)
 {
     const SweepSource *sweep = source->sweep;
     const CsvTable *table = &sweep->table;
     int32_t status = csv_column(table, "status"), message = csv_column(table, "message");
+    Warned warned = {0};
+    char *words = NULL, sentence[SENTENCE_SIZE];
+    size_t size = 0;
+    FILE *lines = NULL;
     if (sweep->failed > 0) {
         html_markup(html, "<div class='wide'><table><caption>Points that failed</caption><thead>"
                           "<tr><th scope='col'>point</th><th scope='col'>why</th></tr></thead>"
@@ -343,28 +297,33 @@ static bool write_doubts(HtmlWriter *html, PageSource *source, Error *err)
     } else {
         html_markup(html, "<p>No point failed.</p>\n");
     }
-    return write_warnings(html, sweep, err);
+
+    // Warnings of all points together. Sentences of one cell have // between them.
+    TRY(warned_make(table->rows, &warned, err));
+    int32_t column = csv_column(table, "warnings");
+    for (int32_t row = 0; row < table->rows; ++row) {
+        for (const char *cell = csv_cell(table, row, column); *cell;) {
+            const char *end = strstr(cell, " // ");
+            size_t length = end ? (size_t)(end - cell) : strlen(cell);
+            snprintf(sentence, sizeof sentence, "%.*s",
+                     (int)(length < RUN_WARNING_SIZE ? length : RUN_WARNING_SIZE - 1), cell);
+            warned_add(&warned, row, sentence);
+            cell += end ? length + 4 : length;
+        }
+    }
+    if (warned.count == 0) goto cleanup;
+    if (!(lines = open_memstream(&words, &size)))
+        FAIL(err, ERROR_MEMORY, "no memory for the warnings");
+    warned_print(&warned, lines);
+    fclose(lines);
+    sheet_box(html, "warning", words);
+cleanup:
+    free(words);
+    warned_destroy(&warned);
+    return error_is_clean(err);
 }
 
 // --- the page ------------------------------------------------------------------------------------
-
-static void write_lead(HtmlWriter *html, const SweepSource *sweep)
-{
-    char words[160];
-    int32_t rows = sweep->table.rows, pending = rows - sweep->done - sweep->failed;
-    html_markup(html,
-                "<p class='lead'>%d runs of an elastic block that is pressed on a rigid floor "
-                "and pushed by a rod until it slides",
-                rows);
-    if (sweep->run.json) {
-        html_around(html, " (", sweep->run.title, ")");
-    }
-    html_markup(html, ".</p>\n");
-    if (sweep->done == rows) return;
-    snprintf(words, sizeof words, "%d of %d points are done, %d failed, %d are not computed yet",
-             sweep->done, rows, sweep->failed, pending);
-    sheet_box(html, "failure", words);
-}
 
 static bool write_scene(HtmlWriter *html, PageSource *source, Error *err)
 {
@@ -395,7 +354,9 @@ bool sweep_page_write(HtmlWriter *html, const char *folder, Error *err)
     SheetPart parts[10] = {0};
     int32_t count = 0;
     bool search = folder_holds(folder, "answer.txt", NULL);
+    char words[160];
     TRY(sweep_open(folder, &sweep, err));
+    int32_t rows = sweep.table.rows;
     if (search) parts[count++] = (SheetPart){"answer", "The answer", write_answer};
     parts[count++] = (SheetPart){"varied", "What varies", write_varied};
     if (sweep.figure_count > 0) parts[count++] = (SheetPart){"figures", "Figures", write_figures};
@@ -409,7 +370,18 @@ bool sweep_page_write(HtmlWriter *html, const char *folder, Error *err)
     sheet_begin(html, sweep.title,
                 search ? "Report of a search, by amontons" : "Report of a sweep, by amontons",
                 parts);
-    write_lead(html, &sweep);
+    html_markup(html,
+                "<p class='lead'>%d runs of an elastic block that is pressed on a rigid floor "
+                "and pushed by a rod until it slides",
+                rows);
+    if (sweep.run.json) html_around(html, " (", sweep.run.title, ")");
+    html_markup(html, ".</p>\n");
+    if (sweep.done < rows) {
+        snprintf(words, sizeof words,
+                 "%d of %d points are done, %d failed, %d are not computed yet", sweep.done, rows,
+                 sweep.failed, rows - sweep.done - sweep.failed);
+        sheet_box(html, "failure", words);
+    }
     TRY(sheet_parts(html, parts, &source, err));
     sheet_end(html, sweep.run.json);
 cleanup:

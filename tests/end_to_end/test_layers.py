@@ -231,7 +231,7 @@ class Layers(unittest.TestCase):
             "src/io/text/a.c": "io/hdf5/array_file.h",
             "src/io/mesh/a.c": "io/fields/field_grid.h",
             "src/study/sweep/reading/a.c": "study/sweep/computing/point.h",
-            "src/study/sweep/showing/a.c": "study/sweep/refine.h",
+            "src/study/sweep/showing/a.c": "study/sweep/sweep.h",
             "src/run/b.c": "utils/list.h",
             "src/amontons.h": "scene/scene.h",
             "render/a.c": "record/history.h",
@@ -240,7 +240,7 @@ class Layers(unittest.TestCase):
         }
         good = {
             "src/io/mesh/good.c": ["io/mesh/mesh_file.h", "io/cache/cache_folder.h", "io/files/folder.h", "base/error.h"],
-            "src/study/sweep/good.c": ["study/sweep/showing/table.h", "study/sweep/refine.h"],
+            "src/study/sweep/good.c": ["study/sweep/showing/table.h", "study/sweep/sweep.h"],
             "src/study/sweep/computing/good.c": ["study/sweep/reading/study.h", "run/simulation_state.h"],
             "src/fem/good.c": ["fem/mesh.h", "io/mesh/mesh_file.h", "base/error.h"],
             "src/contact/good.c": ["contact/rod.h", "fem/mesh.h"],

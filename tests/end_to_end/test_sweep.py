@@ -632,7 +632,7 @@ class Sweep(unittest.TestCase):
 
     def test_help_names_all_records(self):
         text = re.sub(r"\s+", " ", self.call("sweep", "--help").stdout)
-        names = re.findall(r'X\("(\w+)", "[\w.]+", (?:true|false)', (SOURCE / "src/study/sweep/reading/study_records.h").read_text())
+        names = re.findall(r'\{"(\w+)", "[\w.]+", (?:true|false)\}', (SOURCE / "src/study/sweep/reading/study_wanted.c").read_text())
         self.assertGreater(len(names), 15)
         for name in names:
             self.assertRegex(text, rf"\b{name}\b")

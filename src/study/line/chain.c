@@ -71,17 +71,6 @@ static void fill_matrix(const Model1d *model, const Interface *interface, double
     }
 }
 
-// The integral of p over a node's shape function, p = 2 P x/L: w_i p(x_i), at the ends a third of
-// an element further in.
-static double node_load(const Model1d *model, const Interface *interface, int32_t i)
-{
-    int32_t last = interface->contact_count - 1;
-    double third = model->length / last / 3, x = interface->x[i];
-    if (i == 0) x += third;
-    if (i == last) x -= third;
-    return interface->weight[i] * model1d_pressure(model, x);
-}
-
 // M, C, K and the load as a reduced bulk with nothing inside: all unknowns are the interface's. The
 // normals carry the node's mass too, so that A stays definite; they never move.
 static bool build_matrices(const Model1d *model, const Interface *interface, ReducedBulk *reduced,
@@ -103,11 +92,19 @@ static bool build_matrices(const Model1d *model, const Interface *interface, Red
     if (!error_is_clean(err)) return false;
     fill_matrix(model, interface, model->elastic_x, model->elastic_shear, part->stiffness);
     fill_matrix(model, interface, model->viscous_x, model->viscous_shear, part->damping);
-    for (int32_t i = 0; i < interface->contact_count; i++) {
+    int32_t last = interface->contact_count - 1;
+    for (int32_t i = 0; i <= last; i++) {
         double mass = model->density * model->alpha * model->height * interface->weight[i];
         part->mass[interface_tangent(interface, i) * (count + 1)] = mass;
         part->mass[interface_normal(interface, i) * (count + 1)] = mass;
-        reduced->load[interface_normal(interface, i)] = -node_load(model, interface, i);
+
+        // The integral of p over a node's shape function, p = 2 P x/L: w_i p(x_i), at the ends a
+        // third of an element further in.
+        double third = model->length / last / 3, x = interface->x[i];
+        if (i == 0) x += third;
+        if (i == last) x -= third;
+        reduced->load[interface_normal(interface, i)] =
+            -(interface->weight[i] * model1d_pressure(model, x));
     }
     return true;
 }

@@ -82,7 +82,8 @@ static bool write_numbers(const Model1dSimulation *simulation, const Model1dSumm
     return json_finish(json, err);
 }
 
-static bool write_curves(ArrayFile *file, const Model1dSimulation *simulation, Error *err)
+// A file that could not be completed never gets its final name.
+bool model1d_write(const Model1dSimulation *simulation, const Model1dSummary *summary, Error *err)
 {
     static const struct {
         const char *name, *unit, *description;
@@ -93,50 +94,37 @@ static bool write_curves(ArrayFile *file, const Model1dSimulation *simulation, E
         POINT_CURVES(X)
 #undef X
     };
-    for (size_t k = 0; k < sizeof curves / sizeof curves[0]; k++) {
-        ArraySeries series = {curves[k].name, ARRAY_FLOAT64, 1, curves[k].unit,
-                              curves[k].description};
-        const char *first = (const char *)simulation->points + curves[k].offset;
-        if (!array_file_write(file, &series, (const double *)(const void *)first,
-                              sizeof(Model1dPoint) / sizeof(double), simulation->point_count, err))
-            return false;
-    }
-    return true;
-}
-
-// u_0 and, for each of the table's fronts, u_a.
-static bool write_profiles(ArrayFile *file, const Model1dSimulation *simulation, Error *err)
-{
-    const Model1d *model = &simulation->model;
     ArraySeries position = {"profile/x", ARRAY_FLOAT64, 1, "length", "position along the line"};
     ArraySeries rest = {"profile/u_0", ARRAY_FLOAT64, 1, "length",
                         "displacement after sliding, tau = mu_K p everywhere, U = 0"};
     ArraySeries slip = {"profile/u_a", ARRAY_FLOAT64, simulation->point_count, "length",
                         "adiabatic displacement at each front of points/front, one a column"};
-    if (!array_file_add_series(file, &position, err)) return false;
-    if (!array_file_add_series(file, &rest, err)) return false;
-    if (!array_file_add_series(file, &slip, err)) return false;
+    const Model1d *model = &simulation->model;
+    char name[AMONTONS_PATH_SIZE + 32];
+    snprintf(name, sizeof name, "%s/model1d.h5", simulation->options->folder);
+    ArrayFile *file = array_file_create(name, err);
+    if (!file) goto cleanup;
+    for (size_t k = 0; k < sizeof curves / sizeof curves[0]; k++) {
+        ArraySeries series = {curves[k].name, ARRAY_FLOAT64, 1, curves[k].unit,
+                              curves[k].description};
+        const char *first = (const char *)simulation->points + curves[k].offset;
+        TRY(array_file_write(file, &series, (const double *)(const void *)first,
+                             sizeof(Model1dPoint) / sizeof(double), simulation->point_count, err));
+    }
+
+    // u_0 and, for each of the table's fronts, u_a.
+    TRY(array_file_add_series(file, &position, err));
+    TRY(array_file_add_series(file, &rest, err));
+    TRY(array_file_add_series(file, &slip, err));
     for (int32_t i = 0; i < PROFILE_POINTS; i++) {
         double x = model->length * i / (PROFILE_POINTS - 1), u = model1d_rest(model, x);
         double row[MODEL1D_POINTS] = {0};
         for (int32_t k = 0; k < simulation->point_count; k++)
             row[k] = u + model1d_slip(model, simulation->points[k].front, x);
-        if (!array_file_append(file, position.name, &x, 1, err)) return false;
-        if (!array_file_append(file, rest.name, &u, 1, err)) return false;
-        if (!array_file_append(file, slip.name, row, 1, err)) return false;
+        TRY(array_file_append(file, position.name, &x, 1, err));
+        TRY(array_file_append(file, rest.name, &u, 1, err));
+        TRY(array_file_append(file, slip.name, row, 1, err));
     }
-    return true;
-}
-
-// A file that could not be completed never gets its final name.
-bool model1d_write(const Model1dSimulation *simulation, const Model1dSummary *summary, Error *err)
-{
-    char name[AMONTONS_PATH_SIZE + 32];
-    snprintf(name, sizeof name, "%s/model1d.h5", simulation->options->folder);
-    ArrayFile *file = array_file_create(name, err);
-    if (!file) goto cleanup;
-    TRY(write_curves(file, simulation, err));
-    TRY(write_profiles(file, simulation, err));
 cleanup:
     if (error_is_clean(err))
         return array_file_close(file, err) && write_numbers(simulation, summary, err);

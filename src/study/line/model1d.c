@@ -7,13 +7,13 @@
 // falls off (alpha here, 0.2), pressure 2 P x/L.
 #include "study/line/model1d.h"
 
-#include "base/clock.h"
 #include "algebra/dense.h"
+#include "base/clock.h"
 #include "base/decimal_point.h"
 #include "base/memory.h"
+#include "friction/friction.h"
 #include "model/loads.h"
 #include "model/scene_mesh.h"
-#include "friction/friction.h"
 #include "run/result/result_folder.h"
 
 #include <math.h>
@@ -112,12 +112,27 @@ static bool check_options(const Scene *scene, const Model1dOptions *options, Err
     return error_is_clean(err);
 }
 
-// L and H of the mesh, whose one contact curve must be the whole lower face.
-// The mesh is read for L and H and to see that the contact is one whole face; it is not kept.
-static bool measure_block(const Scene *scene, Model1d *model, Error *err)
+// Elastic and viscous constants of the line from the block's, L and H from the mesh, which is read
+// for that and to see that its one contact is the whole lower face, and is not kept.
+static bool translate_scene(const Scene *scene, const Model1dOptions *options, Model1d *model,
+                            Error *err)
 {
     Mesh mesh = {0};
     MeshContact contact = {0};
+    double young = scene->material.young, poisson = scene->material.poisson;
+    double confined = young / ((1 + poisson) * (1 - poisson));
+    if (scene->material.plane == PLANE_STRAIN)
+        confined = young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson));
+    *model = (Model1d){.alpha = options->alpha,
+                       .density = scene->material.density,
+                       .elastic_x = confined,
+                       .elastic_shear = young / (2 * (1 + poisson)),
+                       .viscous_x = scene->material.eta1 + scene->material.eta2,
+                       .viscous_shear = scene->material.eta1 / 2,
+                       .velocity = scene->rod.velocity,
+                       .young = young,
+                       .speed = sqrt(confined / scene->material.density),
+                       .law = scene->friction};
     TRY(scene_mesh_read(scene, NULL, &mesh, NULL, err));
     if (mesh.dim > 2)
         FAIL(err, ERROR_INPUT,
@@ -129,6 +144,7 @@ static bool measure_block(const Scene *scene, Model1d *model, Error *err)
                      err));
     model->length = mesh.x_max - mesh.x_min;
     model->height = mesh.z_max - mesh.z_min;
+    model->drive = scene->rod.height > 0 ? scene->rod.height : model->height / 2;
     double begins = mesh_place(&mesh, contact.nodes[0])[0];
     double ends = mesh_place(&mesh, contact.nodes[contact.node_count - 1])[0];
     bool whole = begins - mesh.x_min <= FLAT * model->length &&
@@ -146,29 +162,6 @@ cleanup:
     mesh_contact_destroy(&contact);
     mesh_destroy(&mesh);
     return error_is_clean(err);
-}
-
-// Elastic and viscous constants of the line from the block's. Lengths come from the mesh.
-static bool translate_scene(const Scene *scene, const Model1dOptions *options, Model1d *model,
-                            Error *err)
-{
-    double young = scene->material.young, poisson = scene->material.poisson;
-    double confined = young / ((1 + poisson) * (1 - poisson));
-    if (scene->material.plane == PLANE_STRAIN)
-        confined = young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson));
-    *model = (Model1d){.alpha = options->alpha,
-                       .density = scene->material.density,
-                       .elastic_x = confined,
-                       .elastic_shear = young / (2 * (1 + poisson)),
-                       .viscous_x = scene->material.eta1 + scene->material.eta2,
-                       .viscous_shear = scene->material.eta1 / 2,
-                       .velocity = scene->rod.velocity,
-                       .young = young,
-                       .speed = sqrt(confined / scene->material.density),
-                       .law = scene->friction};
-    if (!measure_block(scene, model, err)) return false;
-    model->drive = scene->rod.height > 0 ? scene->rod.height : model->height / 2;
-    return true;
 }
 
 // Theory at evenly spaced fronts up to l = L.

@@ -34,14 +34,18 @@ int64_t model1d_rates_work(int32_t count)
     return 2 * size * size + 2 * size + DENSE_EIGEN_WORK(size);
 }
 
-// Columns first (LAPACK): the lower left block is -K/rho, the lower right (W - C)/rho, the upper
-// right 1. matrix: [2 count][2 count].
-static void fill_companion(const Model1d *model, double l, int32_t count, double *matrix)
+bool model1d_rates(const Model1d *model, double l, int32_t count, double *work, Model1dRates *rates)
 {
     int64_t size = 2 * (int64_t)count;
+    double *matrix = work, *vectors = matrix + size * size, *re = vectors + size * size;
+    double *im = re + size, *rest = im + size;
     double springs = 1 / (model->alpha * model->drive * model->height);
     double weakening = -model1d_friction_slope(model) * 2 * model->pressure * l /
                        (model->length * model->alpha * model->height);
+    *rates = (Model1dRates){.rightmost = {.re = -INFINITY}};
+
+    // Columns first (LAPACK): the lower left block is -K/rho, the lower right (W - C)/rho, the
+    // upper right 1. matrix: [2 count][2 count].
     memset(matrix, 0, (size_t)(size * size) * sizeof(double));
     for (int64_t m = 0; m < count; m++) {
         double k = ((double)m + 0.5) * M_PI / l;
@@ -56,15 +60,6 @@ static void fill_companion(const Model1d *model, double l, int32_t count, double
         column[count + m] -= (model->viscous_x * k * k + model->viscous_shear * springs) /
                              model->density;
     }
-}
-
-bool model1d_rates(const Model1d *model, double l, int32_t count, double *work, Model1dRates *rates)
-{
-    int64_t size = 2 * (int64_t)count;
-    double *matrix = work, *vectors = matrix + size * size, *re = vectors + size * size;
-    double *im = re + size, *rest = im + size;
-    *rates = (Model1dRates){.rightmost = {.re = -INFINITY}};
-    fill_companion(model, l, count, matrix);
     if (!dense_eigen_general(matrix, (int32_t)size, re, im, vectors, rest)) return false;
     for (int32_t k = 0; k < size; k++) {
         bool real = fabs(im[k]) <= REAL_BELOW * fabs(re[k]);

@@ -16,32 +16,6 @@
 static const double TOLERANCES[] = {
     [ACCURACY_DRAFT] = 5e-3, [ACCURACY_STANDARD] = 5e-4, [ACCURACY_FINE] = 5e-5};
 
-// history.h5 as a block's, so that the same programs draw it; a line has no shear waves.
-static bool open_history(Model1dSimulation *simulation, Error *err)
-{
-    const Model1d *model = &simulation->model;
-    ResultHead head = {.title = simulation->scene->title,
-                       .units = simulation->scene->units == UNITS_SI ? "si" : "normalised",
-                       .version = AMONTONS_VERSION,
-                       .numbers = {[NUMBER_LENGTH] = model->length,
-                                   [NUMBER_PRESSURE] = model->pressure,
-                                   [NUMBER_LOAD] = simulation->scales.load,
-                                   [NUMBER_ROD_VELOCITY] = model->velocity,
-                                   [NUMBER_CRITICAL_VELOCITY] = model->law.critical_velocity,
-                                   [NUMBER_MU_STATIC] = model->law.mu_static,
-                                   [NUMBER_MU_KINETIC] = model->law.mu_kinetic,
-                                   [NUMBER_C_LONGITUDINAL] = model->speed,
-                                   [NUMBER_C_SHEAR] = NAN,
-                                   [NUMBER_C_RAYLEIGH] = NAN,
-                                   [NUMBER_ROD_LOW] = NAN,
-                                   [NUMBER_ROD_HIGH] = NAN,
-                                   [NUMBER_ROD_BREADTH] = NAN,
-                                   [NUMBER_MU_M] = NAN,
-                                   [NUMBER_L_C] = NAN}};
-    return history_create(simulation->options->folder, &head, &simulation->chain.interface,
-                          &simulation->contact, &simulation->history, err);
-}
-
 // The end of the run from time.until, the chain at rest in u_0, recorders.
 static bool open_simulation(Model1dSimulation *simulation, Error *err)
 {
@@ -63,23 +37,35 @@ static bool open_simulation(Model1dSimulation *simulation, Error *err)
         return false;
     chain_rest(model, &simulation->chain, &simulation->control.now);
     step_control_restart(&simulation->control);
-    return events_create(&simulation->chain.interface, model->velocity, &simulation->events, err) &&
-           drops_create(&simulation->chain.interface, &simulation->events,
-                        scene->time.periodic_tolerance, &simulation->drops, err) &&
-           contact_arrays_create(&simulation->chain.interface, &simulation->chain.friction,
-                                 &simulation->contact, err) &&
-           (!simulation->options->folder || open_history(simulation, err));
-}
+    const Interface *interface = &simulation->chain.interface;
+    if (!events_create(interface, model->velocity, &simulation->events, err) ||
+        !drops_create(interface, &simulation->events, scene->time.periodic_tolerance,
+                      &simulation->drops, err) ||
+        !contact_arrays_create(interface, &simulation->chain.friction, &simulation->contact, err))
+        return false;
+    if (!simulation->options->folder) return true;
 
-// l for a rod at U, by halving; U is at most what leads the front through the line.
-static double theory_front(const Model1d *model, double U)
-{
-    double low = 0, high = model->length;
-    while (high - low > 1e-12 * model->length) {
-        double middle = 0.5 * (low + high);
-        *(model1d_rod(model, middle) < U ? &low : &high) = middle;
-    }
-    return high;
+    // history.h5 as a block's, so that the same programs draw it; a line has no shear waves.
+    ResultHead head = {.title = scene->title,
+                       .units = scene->units == UNITS_SI ? "si" : "normalised",
+                       .version = AMONTONS_VERSION,
+                       .numbers = {[NUMBER_LENGTH] = model->length,
+                                   [NUMBER_PRESSURE] = model->pressure,
+                                   [NUMBER_LOAD] = simulation->scales.load,
+                                   [NUMBER_ROD_VELOCITY] = model->velocity,
+                                   [NUMBER_CRITICAL_VELOCITY] = model->law.critical_velocity,
+                                   [NUMBER_MU_STATIC] = model->law.mu_static,
+                                   [NUMBER_MU_KINETIC] = model->law.mu_kinetic,
+                                   [NUMBER_C_LONGITUDINAL] = model->speed,
+                                   [NUMBER_C_SHEAR] = NAN,
+                                   [NUMBER_C_RAYLEIGH] = NAN,
+                                   [NUMBER_ROD_LOW] = NAN,
+                                   [NUMBER_ROD_HIGH] = NAN,
+                                   [NUMBER_ROD_BREADTH] = NAN,
+                                   [NUMBER_MU_M] = NAN,
+                                   [NUMBER_L_C] = NAN}};
+    return history_create(simulation->options->folder, &head, interface, &simulation->contact,
+                          &simulation->history, err);
 }
 
 // As long as nothing was rapid: what the theory's points look like here, and how far off mu is.
@@ -92,7 +78,12 @@ static void compare_step(Model1dSimulation *simulation, const Observation *seen)
         simulation->next_point = simulation->point_count;
         return;
     }
-    double mu = model1d_mu(model, theory_front(model, seen->U));
+    double low = 0, high = model->length;   // l for a rod at U, by halving
+    while (high - low > 1e-12 * model->length) {
+        double middle = 0.5 * (low + high);
+        *(model1d_rod(model, middle) < seen->U ? &low : &high) = middle;
+    }
+    double mu = model1d_mu(model, high);
     simulation->quasi_static_error = fmax(simulation->quasi_static_error, fabs(seen->mu - mu));
     const Observation *last = &simulation->last;
     while (simulation->next_point < simulation->point_count) {
@@ -128,29 +119,25 @@ static bool record_step(Model1dSimulation *simulation, Error *err)
     return true;
 }
 
-static bool is_finished(Model1dSimulation *simulation)
-{
-    double remaining = simulation->t_end - simulation->control.now.time;
-    if (remaining <= 1e-9 * simulation->t_end) return true;
-    if (!step_control_fits(&simulation->control, remaining)) return true;
-    return simulation->scene->time.until_periodic && simulation->events.crossed &&
-           answers_of(&simulation->drops).enough;
-}
-
 // Steps to the scene's end, or to the periodic regime where that is asked for.
 bool model1d_simulate(Model1dSimulation *simulation, Error *err)
 {
     const Model1dOptions *options = simulation->options;
     TRY(open_simulation(simulation, err));
     TRY(record_step(simulation, err));
-    do {
+    for (bool finished = false; !finished;) {
         double remaining = simulation->t_end - simulation->control.now.time;
         TRY(step_control_advance(&simulation->control, remaining, err));
         TRY(record_step(simulation, err));
         if (options->stop && *options->stop)
             FAIL(err, ERROR_INTERRUPT, "stopped at U = %g (t = %g)", simulation->last.U,
                  simulation->last.t);
-    } while (!is_finished(simulation));
+        remaining = simulation->t_end - simulation->control.now.time;
+        bool periodic = simulation->scene->time.until_periodic && simulation->events.crossed &&
+                        answers_of(&simulation->drops).enough;
+        finished = remaining <= 1e-9 * simulation->t_end ||
+                   !step_control_fits(&simulation->control, remaining) || periodic;
+    }
     events_close(&simulation->events, &simulation->last);
     Answers answers = answers_of(&simulation->drops);
     if (simulation->history.file)

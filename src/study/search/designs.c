@@ -76,18 +76,6 @@ int32_t designs_find(const Designs *designs, const double *x)
     return -1;
 }
 
-// "mesh.set.n: 4, rod.height: 0.2"
-static void write_design(const Study *study, const Design *design, FILE *out)
-{
-    for (int32_t k = 0; k < study->search.key_count; k++) {
-        char number[NUMBER_SIZE];
-        number_text(study, k, design->x[k], number);
-        fprintf(out, "%s%s: %s%s", k ? ", " : "", study->search.keys[k].key, number,
-                study->search.keys[k].unit);
-    }
-    if (design->accuracy > 0) fprintf(out, ", accuracy.mu: %.2g", design->accuracy);
-}
-
 char *designs_text(const Designs *designs, const Design *list, int32_t count, Error *err)
 {
     int32_t cases = designs->texts ? designs->conditions : 1;
@@ -96,8 +84,15 @@ char *designs_text(const Designs *designs, const Design *list, int32_t count, Er
     FILE *out = open_memstream(&text, &size);
     if (!out) FAIL(err, ERROR_MEMORY, "no memory for designs");
     for (int32_t k = 0; k < count * cases; k++) {
-        fprintf(out, "%s{", k ? ", " : "[");
-        write_design(designs->study, &list[k / cases], out);
+        const Design *design = &list[k / cases];
+        fprintf(out, "%s{", k ? ", " : "[");   // "{mesh.set.n: 4, rod.height: 0.2"
+        for (int32_t i = 0; i < designs->study->search.key_count; i++) {
+            const SearchKey *key = &designs->study->search.keys[i];
+            char number[NUMBER_SIZE];
+            number_text(designs->study, i, design->x[i], number);
+            fprintf(out, "%s%s: %s%s", i ? ", " : "", key->key, number, key->unit);
+        }
+        if (design->accuracy > 0) fprintf(out, ", accuracy.mu: %.2g", design->accuracy);
         if (designs->texts) fprintf(out, ", %s", designs->texts[k % cases]);
         fprintf(out, "}");
     }
@@ -137,61 +132,6 @@ bool design_is_better(const Designs *designs, const Design *a, const Design *b)
     return designs->lowest ? one < other : one > other;
 }
 
-// Judges a design by its worst condition. The bar covers the interval in which the worst value may
-// lie, with the bars of all conditions.
-static void judge_worst(const Designs *designs, const DesignPoint *points, Design *design)
-{
-    double sign = designs->lowest ? -1 : 1, low = INFINITY, high = INFINITY;
-    double worst = INFINITY;
-    for (int32_t c = 0; c < designs->conditions; c++) {
-        double value = sign * points[c].value;
-        if (value < worst) worst = value, design->deciding = c;
-        low = fmin(low, value - points[c].bar);
-        high = fmin(high, value + points[c].bar);
-    }
-    design->value = sign * worst;
-    design->bar = fmax(worst - low, high - worst);
-}
-
-static void judge_mean(const Designs *designs, const DesignPoint *points, Design *design)
-{
-    double sum = 0, square = 0;
-    for (int32_t c = 0; c < designs->conditions; c++) {
-        sum += points[c].value;
-        square += points[c].bar * points[c].bar;
-    }
-    design->value = sum / designs->conditions;
-    design->bar = sqrt(square) / designs->conditions;
-}
-
-// Judges a design by its deviation s. From s^2 = sum (v_i - mean)^2 / n follows
-// ds/dv_i = (v_i - mean)/(n s).
-static void judge_deviation(const Designs *designs, const DesignPoint *points, Design *design)
-{
-    int32_t n = designs->conditions;
-    double square = 0, bar = 0;
-    judge_mean(designs, points, design);
-    double mean = design->value;
-    for (int32_t c = 0; c < n; c++) square += pow(points[c].value - mean, 2) / n;
-    for (int32_t c = 0; c < n; c++) {
-        double share = square > 0 ? pow(points[c].value - mean, 2) / (n * square) : 1.0 / n;
-        bar += share * points[c].bar * points[c].bar / n;
-    }
-    design->value = sqrt(square);
-    design->bar = sqrt(bar);
-}
-
-static void judge_aim(const Designs *designs, const DesignPoint *points, Design *design)
-{
-    if (designs->aim < 0) {
-        judge_mean(designs, points, design);
-        return;
-    }
-    design->deciding = designs->aim % designs->conditions;
-    design->value = points[designs->aim].value;
-    design->bar = points[designs->aim].bar;
-}
-
 DesignPoint *designs_points(const Designs *designs, int32_t design)
 {
     return &designs->points[(int64_t)design * designs->aims];
@@ -208,20 +148,55 @@ void designs_judge(Designs *designs, int32_t d)
 {
     Design *design = &designs->list[d];
     const DesignPoint *points = designs_points(designs, d);
+    SearchOver over = designs->study->search.over;
+    int32_t n = designs->conditions;
     design->value = design->bar = NAN;
     design->deciding = 0;
     design->has_bar = true;
-    for (int32_t c = 0; c < designs->conditions; c++)
-        design->has_bar = design->has_bar && points[c].has_bar;
+    for (int32_t c = 0; c < n; c++) design->has_bar = design->has_bar && points[c].has_bar;
     for (int32_t a = 0; a < designs->aims; a++)
         if (isnan(points[a].value)) return;
-    static void (*const judges[])(const Designs *, const DesignPoint *,
-                                  Design *) = {[OVER_WORST] = judge_worst,
-                                               [OVER_MEAN] = judge_mean,
-                                               [OVER_DEVIATION] = judge_deviation,
-                                               [OVER_FRONT] = judge_aim};
-    judges[designs->study->search.over](designs, points, design);
     designs->has_bars = designs->has_bars || design->has_bar;
+
+    if (over == OVER_WORST) {
+        // The bar covers the interval in which the worst value may lie, with the bars of all
+        // conditions.
+        double sign = designs->lowest ? -1 : 1, low = INFINITY, high = INFINITY, worst = INFINITY;
+        for (int32_t c = 0; c < n; c++) {
+            double value = sign * points[c].value;
+            if (value < worst) worst = value, design->deciding = c;
+            low = fmin(low, value - points[c].bar);
+            high = fmin(high, value + points[c].bar);
+        }
+        design->value = sign * worst;
+        design->bar = fmax(worst - low, high - worst);
+        return;
+    }
+    if (over == OVER_FRONT && designs->aim >= 0) {
+        design->deciding = designs->aim % n;
+        design->value = points[designs->aim].value;
+        design->bar = points[designs->aim].bar;
+        return;
+    }
+
+    double sum = 0, bars = 0, square = 0, bar = 0;   // the mean
+    for (int32_t c = 0; c < n; c++) {
+        sum += points[c].value;
+        bars += points[c].bar * points[c].bar;
+    }
+    double mean = sum / n;
+    design->value = mean;
+    design->bar = sqrt(bars) / n;
+    if (over != OVER_DEVIATION) return;
+
+    // The deviation s. From s^2 = sum (v_i - mean)^2 / n follows ds/dv_i = (v_i - mean)/(n s).
+    for (int32_t c = 0; c < n; c++) square += pow(points[c].value - mean, 2) / n;
+    for (int32_t c = 0; c < n; c++) {
+        double share = square > 0 ? pow(points[c].value - mean, 2) / (n * square) : 1.0 / n;
+        bar += share * points[c].bar * points[c].bar / n;
+    }
+    design->value = sqrt(square);
+    design->bar = sqrt(bar);
 }
 
 int32_t designs_best(const Designs *designs)

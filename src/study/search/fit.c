@@ -56,12 +56,16 @@ static void judge_misfit(Search *search, int32_t d)
     }
 }
 
-// --- the best -----------------------------------------------------------------------------------
+// --- regions ------------------------------------------------------------------------------------
 
-static bool make_response(Fit *fit, Error *err)
+// Makes the responses through the designs so far, and finds the least misfit from the best design
+// on, and from the best place before.
+static bool find_best(Fit *fit, Error *err)
 {
     const Designs *designs = &fit->search.designs;
     int32_t n = fit->search.study->search.key_count, data = fit->measured.count, count = 0;
+    int32_t first = designs_best(designs), freedom = fit_freedom(fit);
+    double other[STUDY_SEARCH_MAX];
     ResponseDesign *list = NEW_ARRAY(ResponseDesign, designs->count, err);
     TRY(list);
     for (int32_t d = 0; d < designs->count; d++) {
@@ -82,17 +86,7 @@ static bool make_response(Fit *fit, Error *err)
                        .failed = fit->search.failed,
                        .failure = fit->search.failure};
     TRY(response_make(&def, &fit->response, err));
-cleanup:
-    memory_free(list);
-    return error_is_clean(err);
-}
 
-// From the best design on, and from the best place before.
-static void find_best(Fit *fit)
-{
-    const Designs *designs = &fit->search.designs;
-    int32_t n = fit->response.keys, first = designs_best(designs), freedom = fit_freedom(fit);
-    double other[STUDY_SEARCH_MAX];
     memcpy(other, fit->best, sizeof other);
     double least = response_least(&fit->response, NULL, other);
     for (int32_t k = 0; k < n; k++) fit->best[k] = fit_scaled(fit, k, designs->list[first].x[k]);
@@ -102,9 +96,10 @@ static void find_best(Fit *fit)
         fit->misfit = least;
     }
     fit->widened = freedom > 0 ? sqrt(fmax(1, fit->misfit / freedom)) : 1;
+cleanup:
+    memory_free(list);
+    return error_is_clean(err);
 }
-
-// --- the whole ----------------------------------------------------------------------------------
 
 // place: scaled. One that is new and allowed is added.
 static bool add_place(Fit *fit, const double *place, Error *err)
@@ -122,8 +117,7 @@ static bool refine_regions(Fit *fit, Error *err)
     fit->widened = 1;
     for (int32_t round = 0; round <= ROUNDS_MAX; round++) {
         int32_t first = fit->search.designs.count;
-        if (!make_response(fit, err)) return false;
-        find_best(fit);
+        if (!find_best(fit, err)) return false;
         fit_find_regions(fit, &stays);
         if ((stays && round > 0) || round == ROUNDS_MAX) break;
         for (int32_t k = 0; k < fit->response.keys; k++)
@@ -139,6 +133,8 @@ static bool refine_regions(Fit *fit, Error *err)
     }
     return true;
 }
+
+// --- the whole ----------------------------------------------------------------------------------
 
 static bool open_fit(Fit *fit, const char *path, const SweepOptions *options, Error *err)
 {
@@ -161,8 +157,16 @@ static bool open_fit(Fit *fit, const char *path, const SweepOptions *options, Er
     return true;
 }
 
-static void summarise(const Fit *fit, FitSummary *summary)
+bool amontons_fit(const char *path, const SweepOptions *options, FitSummary *summary, Error *err)
 {
+    NUMBERS_HAVE_A_POINT;
+    *summary = (FitSummary){.misfit = NAN};
+    Fit *fit = NEW_ARRAY(Fit, 1, err);
+    TRY(fit);
+    TRY(open_fit(fit, path, options, err));
+    TRY(search_designs(&fit->search, fit->search.study->search.designs, err));
+    TRY(refine_regions(fit, err));
+
     const Search *search = &fit->search;
     int32_t data = fit->measured.count;
     *summary = (FitSummary){.parameter_count = fit->response.keys,
@@ -187,18 +191,6 @@ static void summarise(const Fit *fit, FitSummary *summary)
         double own = pow(fit->response.own[k], 2), error = fit->measured.list[k].error;
         summary->own_share += own / (own + error * error) / data;
     }
-}
-
-bool amontons_fit(const char *path, const SweepOptions *options, FitSummary *summary, Error *err)
-{
-    NUMBERS_HAVE_A_POINT;
-    *summary = (FitSummary){.misfit = NAN};
-    Fit *fit = NEW_ARRAY(Fit, 1, err);
-    TRY(fit);
-    TRY(open_fit(fit, path, options, err));
-    TRY(search_designs(&fit->search, fit->search.study->search.designs, err));
-    TRY(refine_regions(fit, err));
-    summarise(fit, summary);
     TRY(fit_report(fit, summary, err));
 cleanup:
     if (fit) {

@@ -130,38 +130,33 @@ static bool find_errors(Table *table, Error *err)
     return true;
 }
 
-static bool read_column(Table *table, int32_t k, Error *err)
-{
-    Column *column = &table->columns[k];
-    if (column->kind == COLUMN_ERROR) return true;
-    column->kind = COLUMN_CONDITION;
-    if (is_key(column->name)) return true;
-    column->kind = column->error < 0 ? COLUMN_ALONG : COLUMN_RESULT;
-    if (is_series(column->name) || strcmp(column->name, HOLD) == 0) return true;
-    if (!is_curve(table, column->name) && !study_record_path(column->name))
-        return csv_refuse(
-            &table->csv, -1, k, err,
-            "is neither a key of the scene nor a result, as `record` of a study names "
-            "it, nor a series of history.h5, as in series/mu, nor `hold` with `mu` or `healing`");
-    if (column->error < 0)
-        return csv_refuse(&table->csv, -1, k, err,
-                          "has no error: a column %s_error has one standard deviation of it",
-                          column->name);
-    return true;
-}
-
 static bool read_columns(Table *table, Error *err)
 {
     int32_t along = 0, results = 0, curves = 0, held = 0;
     if (!(table->columns = NEW_ARRAY(Column, table->csv.columns, err))) return false;
     if (!read_names(table, err) || !find_errors(table, err)) return false;
     for (int32_t k = 0; k < table->csv.columns; k++) {
-        if (!read_column(table, k, err)) return false;
-        along += table->columns[k].kind == COLUMN_ALONG;
-        results += table->columns[k].kind == COLUMN_RESULT;
-        const char *name = table->columns[k].name;
-        curves += table->columns[k].kind == COLUMN_RESULT && is_curve(table, name);
-        held += table->columns[k].kind == COLUMN_RESULT && is_after_hold(name);
+        Column *column = &table->columns[k];
+        const char *name = column->name;
+        if (column->kind == COLUMN_ERROR) continue;
+        column->kind = COLUMN_CONDITION;
+        if (is_key(name)) continue;
+        column->kind = column->error < 0 ? COLUMN_ALONG : COLUMN_RESULT;
+        bool is_place = is_series(name) || strcmp(name, HOLD) == 0;
+        if (!is_place && !is_result(table, name))
+            return csv_refuse(
+                &table->csv, -1, k, err,
+                "is neither a key of the scene nor a result, as `record` of a study names it, nor "
+                "a "
+                "series of history.h5, as in series/mu, nor `hold` with `mu` or `healing`");
+        if (!is_place && column->error < 0)
+            return csv_refuse(&table->csv, -1, k, err,
+                              "has no error: a column %s_error has one standard deviation of it",
+                              name);
+        along += column->kind == COLUMN_ALONG;
+        results += column->kind == COLUMN_RESULT;
+        curves += column->kind == COLUMN_RESULT && is_curve(table, name);
+        held += column->kind == COLUMN_RESULT && is_after_hold(name);
     }
     bool holds = find_name(table, HOLD) >= 0;
     if (results == 0)
@@ -178,69 +173,54 @@ static bool read_columns(Table *table, Error *err)
 
 // --- rows ---------------------------------------------------------------------------------------
 
-// One plain value: a cell with more in it would set other keys of the scene, too.
-static bool check_condition(const Table *table, int32_t row, Error *err)
-{
-    for (int32_t k = 0; k < table->csv.columns; k++) {
-        const char *cell = csv_cell(&table->csv, row, k);
-        if (table->columns[k].kind != COLUMN_CONDITION) continue;
-        if (!*cell)
-            return csv_refuse(&table->csv, row, k, err,
-                              "is empty: what was it when this was measured?");
-        bool decimal = table->csv.decimal_comma && isfinite(csv_value(&table->csv, row, k));
-        if (!decimal && strpbrk(cell, ",:{}[]#&*!|>'\"%@`\n"))
-            return csv_refuse(&table->csv, row, k, err, "`%.40s` is no plain value", cell);
-    }
-    return true;
-}
-
-// "measured.csv:3:1", of the row's only condition; of several "measured.csv:3".
-static void place_of_row(const Table *table, int32_t row, char *place, size_t size)
-{
-    int32_t count = 0, column = 0;
-    for (int32_t k = 0; k < table->csv.columns; k++)
-        if (table->columns[k].kind == COLUMN_CONDITION) count++, column = k;
-    Error found = {0};
-    csv_refuse(&table->csv, row, column, &found, "%s", "");   // it knows where a cell begins
-    const char *end = strstr(found.message, ": ");
-    int length = end ? (int)(end - found.message) : 0;
-    if (count == 1 && length > 0)
-        snprintf(place, size, "%.*s", length, found.message);
-    else
-        snprintf(place, size, "%s:%d", table->path, table->csv.line[row + 1]);
-}
-
-// "load.pressure: 0.003, mesh.set.length: 1"; one that was there before is the same.
+// "load.pressure: 0.003, mesh.set.length: 1", each value as a scene has it; one that was there
+// before is the same. A cell is one plain value: with more in it it would set other keys of the
+// scene, too.
 static bool find_condition(Measurements *measured, const Table *table, int32_t row, int32_t *found,
                            Error *err)
 {
+    const CsvTable *csv = &table->csv;
     char *text = NULL, origin[SCENE_TEXT_SIZE];
     size_t size = 0;
+    int32_t count = 0, last = 0;
     FILE *out = open_memstream(&text, &size);
     if (!out) FAIL(err, ERROR_MEMORY, "no memory for %s", table->path);
-    for (int32_t k = 0; k < table->csv.columns; k++) {
-        if (table->columns[k].kind == COLUMN_CONDITION) {
-            // A key with its value as a scene has it: "load.pressure: 3 kPa".
-            const Column *column = &table->columns[k];
-            double value = csv_value(&table->csv, row, k);
-            fprintf(out, "%s%s: ", ftell(out) > 0 ? ", " : "", column->name);
-            if (table->csv.decimal_comma && isfinite(value))
-                fprintf(out, "%.17g", value);
-            else
-                fputs(csv_cell(&table->csv, row, k), out);
-            fprintf(out, "%s%s", *column->unit ? " " : "", column->unit);
-        }
+    for (int32_t k = 0; k < csv->columns; k++) {
+        const Column *column = &table->columns[k];
+        const char *cell = csv_cell(csv, row, k);
+        double value = csv_value(csv, row, k);
+        bool decimal = csv->decimal_comma && isfinite(value);
+        if (column->kind != COLUMN_CONDITION) continue;
+        if (!*cell)
+            csv_refuse(csv, row, k, err, "is empty: what was it when this was measured?");
+        else if (!decimal && strpbrk(cell, ",:{}[]#&*!|>'\"%@`\n"))
+            csv_refuse(csv, row, k, err, "`%.40s` is no plain value", cell);
+        fprintf(out, "%s%s: ", count++ ? ", " : "", column->name);
+        if (decimal)
+            fprintf(out, "%.17g", value);
+        else
+            fputs(cell, out);
+        fprintf(out, "%s%s", *column->unit ? " " : "", column->unit);
+        last = k;
     }
-
     if (fclose(out) != 0) FAIL(err, ERROR_MEMORY, "no memory for %s", table->path);
+    TRY(error_is_clean(err));
     for (*found = 0; *found < measured->condition_count; ++*found)
         if (strcmp(measured->conditions[*found], text) == 0) goto cleanup;
+
+    // Its origin: "measured.csv:3:1", of the row's only condition; of several "measured.csv:3".
+    Error place = {0};
+    csv_refuse(csv, row, last, &place, "%s", "");   // it knows where a cell begins
+    const char *end = strstr(place.message, ": ");
+    if (count == 1 && end && end > place.message)
+        snprintf(origin, sizeof origin, "%.*s", (int)(end - place.message), place.message);
+    else
+        snprintf(origin, sizeof origin, "%s:%d", table->path, csv->line[row + 1]);
     TRY(memory_grow(&measured->conditions, measured->condition_count, &measured->condition_room,
                     sizeof *measured->conditions, err));
     TRY(memory_resize(&measured->origins, *found, *found + 1, sizeof *measured->origins, err));
     TRY(measured->conditions[*found] = memory_text(text, err));
     measured->condition_count++;
-    place_of_row(table, row, origin, sizeof origin);
     TRY(measured->origins[*found] = memory_text(origin, err));
 cleanup:
     free(text);
@@ -258,7 +238,6 @@ static bool read_row(Measurements *measured, const Table *table, int32_t row, Er
 {
     Datum datum = {0};
     int32_t along = -1;
-    if (!check_condition(table, row, err)) return false;
     if (!find_condition(measured, table, row, &datum.condition, err)) return false;
     for (int32_t k = 0; k < table->csv.columns; k++)
         if (table->columns[k].kind == COLUMN_ALONG) along = k;
@@ -308,28 +287,24 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Both name one file, by whatever path.
-static bool is_same_file(const Study *study, YamlNode one, YamlNode other)
-{
-    char path[2 * SCENE_TEXT_SIZE];
-    struct stat seen[2];
-    folder_beside(study->path, yaml_text(study->file, one), path, sizeof path);
-    if (stat(path, &seen[0]) != 0) return false;
-    folder_beside(study->path, yaml_text(study->file, other), path, sizeof path);
-    return stat(path, &seen[1]) == 0 && seen[0].st_dev == seen[1].st_dev &&
-           seen[0].st_ino == seen[1].st_ino;
-}
-
 bool measurements_read(const Study *study, Measurements *measured, Error *err)
 {
     YamlNode node = study->search.measured;
+    char path[2 * SCENE_TEXT_SIZE];
+    struct stat seen[2];
     *measured = (Measurements){0};
     if (yaml_kind(study->file, node) != YAML_LIST) return read_named(study, node, measured, err);
     YAML_EACH (one, study->file, node) {
         if (!read_named(study, one, measured, err)) return false;
         YAML_EACH (before, study->file, node) {
             if (before == one) break;
-            if (is_same_file(study, before, one))
+
+            // Both name one file, by whatever path.
+            folder_beside(study->path, yaml_text(study->file, before), path, sizeof path);
+            if (stat(path, &seen[0]) != 0) continue;
+            folder_beside(study->path, yaml_text(study->file, one), path, sizeof path);
+            if (stat(path, &seen[1]) == 0 && seen[0].st_dev == seen[1].st_dev &&
+                seen[0].st_ino == seen[1].st_ino)
                 return yaml_refuse(study->file, one, "measured", "each table once", err);
         }
     }
@@ -345,17 +320,6 @@ void measurements_destroy(Measurements *measured)
 }
 
 // --- what a run came to -------------------------------------------------------------------------
-
-// Value of y where x first reaches `at` from either side, both at the steps of a run; linear
-// between steps; NaN: x does not reach it.
-static double read_along(const double *x, const double *y, int64_t count, double at)
-{
-    for (int64_t k = 1; k < count; k++) {
-        double part = (at - x[k - 1]) / (x[k] - x[k - 1]);
-        if (part >= 0 && part <= 1) return y[k - 1] + part * (y[k] - y[k - 1]);
-    }
-    return NAN;
-}
 
 bool measurements_curve(const Datum *datum, const char *history, double **x, double **y,
                         int64_t *count, Error *err)
@@ -377,16 +341,6 @@ bool measurements_curve(const Datum *datum, const char *history, double **x, dou
              datum->along);
 cleanup:
     array_file_close(file, &ignored);
-    return error_is_clean(err);
-}
-
-static bool find_on_curve(const Datum *datum, const char *history, double *value, Error *err)
-{
-    double *x = NULL, *y = NULL;
-    int64_t rows = 0;
-    if (measurements_curve(datum, history, &x, &y, &rows, err))
-        *value = read_along(x, y, rows, datum->at);
-    memory_free_all(x, y);
     return error_is_clean(err);
 }
 
@@ -429,7 +383,21 @@ bool measurements_find(const Datum *datum, const char *report, const char *histo
         if (isnan(*error)) *error = 0;
         return true;
     }
-    if (*datum->along) return find_on_curve(datum, history, value, err);
+    if (*datum->along) {
+        // The value of y where x first reaches `at` from either side, linear between steps; NaN: x
+        // does not reach it.
+        double *x = NULL, *y = NULL;
+        int64_t rows = 0;
+        bool read = measurements_curve(datum, history, &x, &y, &rows, err);
+        for (int64_t k = 1; read && k < rows; k++) {
+            double part = (datum->at - x[k - 1]) / (x[k] - x[k - 1]);
+            if (!(part >= 0 && part <= 1)) continue;
+            *value = y[k - 1] + part * (y[k] - y[k - 1]);
+            break;
+        }
+        memory_free_all(x, y);
+        return read;
+    }
     PointValue found = point_value(report, study_record_path(datum->name));
     *value = found.value;
     if (isfinite(found.known_to)) *error = found.known_to / 2;

@@ -13,9 +13,8 @@
 
 enum {
     // Parts of the search; between them designs along the keys through the best so far, which lead
-    // out of where the library has settled. Of 160 searches for the best pads, on a smooth model of
-    // 726 of them with their scatter, one part came above 0.302 in 68, two in 81, three in 91, four
-    // in 94 (87, 99, 106 and 112 designs).
+    // out of where the library has settled. More parts find the best more often and take more
+    // designs; a fourth one gains little.
     PARTS = 3,
     SECTION_POINTS = 5,   // along a key
     LEADERS = 4,   // computed with a smaller error at a time
@@ -100,45 +99,40 @@ static int32_t next_leader(const Search *search, int32_t best, const bool *taken
     return leader;
 }
 
-// A design that comes to nothing with a smaller error keeps what it had.
-static bool decide_round(Search *search, int32_t best, bool *again, Error *err)
+// Rounds of smaller errors, as long as another design may be as good as the best. A design that
+// comes to nothing with a smaller error keeps what it had.
+static bool decide(Search *search, Error *err)
 {
-    bool *taken = NEW_ARRAY(bool, DESIGNS_MAX, err);
-    int32_t leaders[LEADERS], count = 0;
-    Design before[LEADERS];
-    TRY(taken);
-    *again = false;
-    for (int32_t d; count < LEADERS && (d = next_leader(search, best, taken)) >= 0;) {
-        Design *design = &search->designs.list[d];
-        taken[d] = true;
-        before[count] = *design;
-        if (next_accuracy(search, design, search->study->rank.refine, err)) leaders[count++] = d;
-        TRY(error_is_clean(err));
-    }
-    if (count == 0) goto cleanup;
-    TRY(search_compute(search, leaders, count, err));
-    for (int32_t k = 0; k < count; k++) {
-        Design *design = &search->designs.list[leaders[k]];
-        if (isnan(design->value)) *design = before[k], design->settled = true;
-        *again = true;
+    bool again = search->study->rank.refine > 0, *taken = NULL;
+    while (again) {
+        int32_t leaders[LEADERS], count = 0, best = designs_best(&search->designs);
+        Design before[LEADERS];
+        bool open = false;
+        again = false;
+        for (int32_t d = 0; d < search->designs.count; d++)
+            open = open || designs_may_equal(&search->designs, best, d);
+        if (!open) break;
+        memory_free(taken);
+        TRY(taken = NEW_ARRAY(bool, DESIGNS_MAX, err));
+        for (int32_t d; count < LEADERS && (d = next_leader(search, best, taken)) >= 0;) {
+            Design *design = &search->designs.list[d];
+            taken[d] = true;
+            before[count] = *design;
+            if (next_accuracy(search, design, search->study->rank.refine, err))
+                leaders[count++] = d;
+            TRY(error_is_clean(err));
+        }
+        if (count == 0) break;
+        TRY(search_compute(search, leaders, count, err));
+        for (int32_t k = 0; k < count; k++) {
+            Design *design = &search->designs.list[leaders[k]];
+            if (isnan(design->value)) *design = before[k], design->settled = true;
+        }
+        again = true;
     }
 cleanup:
     memory_free(taken);
     return error_is_clean(err);
-}
-
-static bool decide(Search *search, Error *err)
-{
-    bool again = search->study->rank.refine > 0;
-    while (again) {
-        int32_t best = designs_best(&search->designs);
-        bool open = false;
-        for (int32_t d = 0; d < search->designs.count; d++)
-            open = open || designs_may_equal(&search->designs, best, d);
-        again = false;
-        if (open && !decide_round(search, best, &again, err)) return false;
-    }
-    return true;
 }
 
 // The best design, or if that was computed once more the next one, where its value is now the
@@ -190,38 +184,6 @@ static int32_t count_parts(const Search *search)
     return has_front(search) ? 1 + search->designs.aims : PARTS;
 }
 
-static bool search_in_parts(Search *search, Error *err)
-{
-    int32_t chosen = 0, wanted = search->study->search.designs, parts = count_parts(search);
-    for (int32_t part = 1; part <= parts; part++) {
-        int32_t until = wanted * part / parts;
-        if (has_front(search)) set_aim(search, part - 2);
-        if (!search_designs(search, until - chosen, err)) return false;
-        chosen = until;
-        int32_t best = designs_best(&search->designs);
-        if (best >= 0 && !compute_sections(search, best, err)) return false;
-    }
-    if (has_front(search)) set_aim(search, -1);
-    return true;
-}
-
-static bool finish_search(Search *search, Error *err)
-{
-    int32_t best = designs_best(&search->designs);
-    for (int32_t k = has_front(search) ? BESTS_MAX : 0, last = -1;
-         k < BESTS_MAX && best >= 0 && best != last; k++) {
-        if (!compute_sections(search, best, err)) return false;
-        if (!decide(search, err) || !confirm(search, err)) return false;
-        last = best;
-        best = designs_best(&search->designs);
-    }
-    if (best < 0)
-        return FAULT(err, ERROR_COMPUTE, "%s: no design of %d came to a value of %s; see sweep.csv",
-                     search->study->path, search->designs.count,
-                     search->study->records[search->study->rank.record].name);
-    return true;
-}
-
 // --- the whole ----------------------------------------------------------------------------------
 
 static bool open_study(Search *search, const char *path, const SweepOptions *options, Error *err)
@@ -241,28 +203,6 @@ static bool open_study(Search *search, const char *path, const SweepOptions *opt
     return true;
 }
 
-static void summarise(const Search *search, OptimiseSummary *summary)
-{
-    const Designs *designs = &search->designs;
-    int32_t best = designs_best(designs);
-    const Design *top = &designs->list[best];
-    *summary = (OptimiseSummary){.computed = search->computed,
-                                 .value = top->value,
-                                 .bar = top->bar,
-                                 .decided = true,
-                                 .start_value = NAN,
-                                 .start_bar = NAN,
-                                 .seconds = clock_seconds() - search->started};
-    design_words(search->study, top, summary->best);
-    for (int32_t d = 0; d < designs->count; d++) {
-        summary->designs += !isnan(designs->list[d].value);
-        if (designs_may_equal(designs, best, d)) summary->decided = false;
-    }
-    if (search->start < 0) return;
-    summary->start_value = designs->list[search->start].value;
-    summary->start_bar = designs->list[search->start].bar;
-}
-
 bool amontons_optimise(const char *path, const SweepOptions *options, OptimiseSummary *summary,
                        Error *err)
 {
@@ -271,9 +211,50 @@ bool amontons_optimise(const char *path, const SweepOptions *options, OptimiseSu
     Search *search = NEW_ARRAY(Search, 1, err);
     TRY(search);
     TRY(open_study(search, path, options, err));
-    TRY(search_in_parts(search, err));
-    TRY(finish_search(search, err));
-    summarise(search, summary);
+    Designs *designs = &search->designs;
+
+    // Parts of the search, and between them designs along the keys through the best.
+    int32_t chosen = 0, wanted = search->study->search.designs, parts = count_parts(search);
+    for (int32_t part = 1; part <= parts; part++) {
+        int32_t until = wanted * part / parts;
+        if (has_front(search)) set_aim(search, part - 2);
+        TRY(search_designs(search, until - chosen, err));
+        chosen = until;
+        int32_t top = designs_best(designs);
+        if (top >= 0) TRY(compute_sections(search, top, err));
+    }
+    if (has_front(search)) set_aim(search, -1);
+
+    // The best is decided, which may make another one the best.
+    int32_t best = designs_best(designs);
+    for (int32_t k = has_front(search) ? BESTS_MAX : 0, last = -1;
+         k < BESTS_MAX && best >= 0 && best != last; k++) {
+        TRY(compute_sections(search, best, err));
+        TRY(decide(search, err) && confirm(search, err));
+        last = best;
+        best = designs_best(designs);
+    }
+    if (best < 0)
+        FAIL(err, ERROR_COMPUTE, "%s: no design of %d came to a value of %s; see sweep.csv",
+             search->study->path, designs->count,
+             search->study->records[search->study->rank.record].name);
+
+    *summary = (OptimiseSummary){.computed = search->computed,
+                                 .value = designs->list[best].value,
+                                 .bar = designs->list[best].bar,
+                                 .decided = true,
+                                 .start_value = NAN,
+                                 .start_bar = NAN,
+                                 .seconds = clock_seconds() - search->started};
+    design_words(search->study, &designs->list[best], summary->best);
+    for (int32_t d = 0; d < designs->count; d++) {
+        summary->designs += !isnan(designs->list[d].value);
+        if (designs_may_equal(designs, best, d)) summary->decided = false;
+    }
+    if (search->start >= 0) {
+        summary->start_value = designs->list[search->start].value;
+        summary->start_bar = designs->list[search->start].bar;
+    }
     TRY(optimise_report(search, summary, err));
 cleanup:
     if (search) search_close(search, err);

@@ -5,7 +5,6 @@
 #include "io/text/json_reader.h"
 #include "study/search/pareto_front.h"
 #include "study/search/search_answer.h"
-#include "study/search/search_figure.h"
 #include "study/sweep/computing/point.h"
 
 #include <math.h>
@@ -40,28 +39,6 @@ static void print_estimate(const Design *design, FILE *out)
     if (design->has_bar || isnan(design->value)) return;
     amontons_known_to(design->value, design->bar, text);
     fprintf(out, ", %s", text);
-}
-
-static void print_gain(const Search *search, const OptimiseSummary *summary, int32_t best,
-                       FILE *out)
-{
-    char words[OPTIMISE_WORDS_SIZE];
-    if (isnan(summary->start_value)) return;
-    if (best == search->start) {
-        fprintf(out, "  this is the scene as it is\n");
-        return;
-    }
-    double ratio = summary->value / summary->start_value;
-    double error = fabs(ratio) *
-                   hypot(summary->bar / summary->value, summary->start_bar / summary->start_value);
-    design_words(search->study, &search->designs.list[search->start], words);
-    fprintf(out, "  the scene as it is, %s: ", words);
-    print_estimate(&search->designs.list[search->start], out);
-    fprintf(out, "; the best differs by %+.1f %%", 100 * (ratio - 1));
-    if (isnan(error))
-        fprintf(out, ", whose error is not known\n");
-    else
-        fprintf(out, " +- %.1f %%\n", 100 * error);
 }
 
 // Time of a design's points, s.
@@ -168,7 +145,23 @@ static void print_answer(const Search *search, const OptimiseSummary *summary, i
         fprintf(out,
                 "  computed once more for half its bar, as the best of many is so by luck, too%s\n",
                 finer > 1 ? "; what was better before came out worse" : "");
-    print_gain(search, summary, best, out);
+    if (best == search->start && !isnan(summary->start_value))
+        fprintf(out, "  this is the scene as it is\n");
+    else if (!isnan(summary->start_value)) {
+        const Design *start = &designs->list[search->start];
+        char words[OPTIMISE_WORDS_SIZE];
+        double ratio = summary->value / summary->start_value;
+        double error = fabs(ratio) * hypot(summary->bar / summary->value,
+                                           summary->start_bar / summary->start_value);
+        design_words(search->study, start, words);
+        fprintf(out, "  the scene as it is, %s: ", words);
+        print_estimate(start, out);
+        fprintf(out, "; the best differs by %+.1f %%", 100 * (ratio - 1));
+        if (isnan(error))
+            fprintf(out, ", whose error is not known\n");
+        else
+            fprintf(out, " +- %.1f %%\n", 100 * error);
+    }
     print_open(search, best, out);
     for (int32_t k = 0; k < search->study->search.key_count; k++)
         print_section(search, best, k, out);

@@ -3,7 +3,7 @@
 
 #include "base/memory.h"
 #include "base/order.h"
-#include "study/search/search_figure.h"
+#include "study/search/search_answer.h"
 #include "study/sweep/reading/study_point.h"
 
 #include <math.h>

@@ -56,51 +56,7 @@ double response_at(const Response *r, int32_t datum, const double *place)
 
 // --- through designs ----------------------------------------------------------------------------
 
-// A design counts half where its misfit is `far` above the least; at least as many count as a
-// polynomial of second order needs. *best: the one with the least.
-static bool weigh(const ResponseDef *def, double *weights, int32_t *best, Error *err)
-{
-    double *sorted = NEW_ARRAY(double, def->designs, err);
-    TRY(sorted);
-    for (int32_t d = 0; d < def->designs; d++) sorted[d] = def->list[d].misfit;
-    qsort(sorted, (size_t)def->designs, sizeof *sorted, order_doubles);
-    int32_t needed = (int32_t)(MORE * full_terms(def->keys));
-    double reach = sorted[needed < def->designs ? needed : def->designs - 1] - sorted[0];
-    double far = fmax(def->far, reach);
-    for (int32_t d = 0; d < def->designs; d++) {
-        double above = (def->list[d].misfit - sorted[0]) / far;
-        weights[d] = 1 / (1 + above * above);
-        if (def->list[d].misfit == sorted[0]) *best = d;
-    }
-cleanup:
-    memory_free(sorted);
-    return error_is_clean(err);
-}
-
-// Coefficients of one result; the factor of the normal equations is the same for all.
-static void solve_datum(const ResponseDef *def, const double *weights, const double *rows,
-                        const double *factor, Response *r, int32_t datum)
-{
-    double *b = &r->coefficients[(int64_t)datum * r->terms];
-    double sum = 0, square = 0, scatter = 0, own = 0;
-    for (int32_t d = 0; d < def->designs; d++)
-        dense_add_scaled(weights[d] * def->list[d].found[datum], &rows[(int64_t)d * r->terms],
-                         r->terms, b);
-    dense_lower_solve(factor, r->terms, b);
-    dense_lower_solve_transposed(factor, r->terms, b);
-    for (int32_t d = 0; d < def->designs; d++) {
-        double off = def->list[d].found[datum] -
-                     dense_dot(b, &rows[(int64_t)d * r->terms], r->terms);
-        sum += weights[d];
-        square += weights[d] * weights[d];
-        scatter += weights[d] * off * off;
-        own += weights[d] * def->list[d].own[datum];
-    }
-    double count = sum * sum / square;   // designs that count
-    scatter = count > r->terms ? scatter / sum * count / (count - r->terms) : 0;
-    r->own[datum] = fmax(own / sum, sqrt(scatter));
-}
-
+// Coefficients and errors of all results; the factor of the normal equations is the same for all.
 static bool solve(const ResponseDef *def, const double *weights, Response *r, Error *err)
 {
     int32_t n = r->terms;
@@ -116,7 +72,24 @@ static bool solve(const ResponseDef *def, const double *weights, Response *r, Er
     for (int32_t k = 0; k < n; k++) matrix[k * n + k] *= 1 + RIDGE;
     if (!dense_cholesky(matrix, n))
         FAIL(err, ERROR_COMPUTE, "designs do not differ in all keys: there is nothing to fit");
-    for (int32_t k = 0; k < r->data; k++) solve_datum(def, weights, rows, matrix, r, k);
+    for (int32_t k = 0; k < r->data; k++) {
+        double *b = &r->coefficients[(int64_t)k * n];
+        double sum = 0, square = 0, scatter = 0, own = 0;
+        for (int32_t d = 0; d < def->designs; d++)
+            dense_add_scaled(weights[d] * def->list[d].found[k], &rows[(int64_t)d * n], n, b);
+        dense_lower_solve(matrix, n, b);
+        dense_lower_solve_transposed(matrix, n, b);
+        for (int32_t d = 0; d < def->designs; d++) {
+            double off = def->list[d].found[k] - dense_dot(b, &rows[(int64_t)d * n], n);
+            sum += weights[d];
+            square += weights[d] * weights[d];
+            scatter += weights[d] * off * off;
+            own += weights[d] * def->list[d].own[k];
+        }
+        double count = sum * sum / square;   // designs that count
+        scatter = count > n ? scatter / sum * count / (count - n) : 0;
+        r->own[k] = fmax(own / sum, sqrt(scatter));
+    }
 cleanup:
     memory_free_all(rows, matrix);
     return error_is_clean(err);
@@ -124,8 +97,8 @@ cleanup:
 
 bool response_make(const ResponseDef *def, Response *r, Error *err)
 {
-    double *weights = NULL;
-    int32_t best = 0, n = def->keys;
+    double *weights = NULL, *sorted = NULL;
+    int32_t best = 0, n = def->keys, needed = (int32_t)(MORE * full_terms(n));
     *r =
         (Response){.keys = n, .data = def->data, .terms = full_terms(n), .measured = def->measured};
     if (def->designs < MORE * r->terms) r->terms = 1 + 2 * n;
@@ -143,7 +116,19 @@ bool response_make(const ResponseDef *def, Response *r, Error *err)
     TRY(weights = NEW_ARRAY(double, def->designs, err));
     TRY(r->coefficients = NEW_ARRAY(double, (int64_t)r->data * r->terms, err));
     TRY(r->own = NEW_ARRAY(double, r->data, err));
-    TRY(weigh(def, weights, &best, err));
+
+    // A design counts half where its misfit is `far` above the least; at least as many count as a
+    // polynomial of second order needs. The best has the least.
+    TRY(sorted = NEW_ARRAY(double, def->designs, err));
+    for (int32_t d = 0; d < def->designs; d++) sorted[d] = def->list[d].misfit;
+    qsort(sorted, (size_t)def->designs, sizeof *sorted, order_doubles);
+    double reach = sorted[needed < def->designs ? needed : def->designs - 1] - sorted[0];
+    double far = fmax(def->far, reach);
+    for (int32_t d = 0; d < def->designs; d++) {
+        double above = (def->list[d].misfit - sorted[0]) / far;
+        weights[d] = 1 / (1 + above * above);
+        if (def->list[d].misfit == sorted[0]) best = d;
+    }
 
     // Variables begin at the best design, and are as long as designs that count lie about it.
     for (int32_t k = 0; k < r->keys; k++) {
@@ -159,7 +144,7 @@ bool response_make(const ResponseDef *def, Response *r, Error *err)
 
     TRY(solve(def, weights, r, err));
 cleanup:
-    memory_free(weights);
+    memory_free_all(weights, sorted);
     return error_is_clean(err);
 }
 
@@ -215,21 +200,6 @@ void response_curvature(const Response *r, const double *place, double *curvatur
     derive(r, place, curvature, gradient);
 }
 
-// Rows and columns of keys that do not move become those of 1: fixed ones, and such at an end of
-// their range that would go beyond.
-static void hold(const Response *r, const bool *fixed, const double *place, double *matrix,
-                 double *step)
-{
-    int32_t n = r->keys;
-    for (int32_t k = 0; k < n; k++) {
-        bool out = (place[k] <= 0 && step[k] < 0) || (place[k] >= 1 && step[k] > 0);
-        if (!out && !(fixed && fixed[k]) && matrix[k * n + k] > 0) continue;
-        for (int32_t i = 0; i < n; i++) matrix[i * n + k] = matrix[k * n + i] = 0;
-        matrix[k * n + k] = 1;
-        step[k] = 0;
-    }
-}
-
 // One step from `place`, and its misfit; next: where it leads.
 static double step_from(const Response *r, const bool *fixed, const double *place, double damped,
                         double *next)
@@ -238,7 +208,16 @@ static double step_from(const Response *r, const bool *fixed, const double *plac
     int32_t n = r->keys;
     derive(r, place, matrix, step);
     for (int32_t k = 0; k < n; k++) step[k] = -step[k];
-    hold(r, fixed, place, matrix, step);
+
+    // Rows and columns of keys that do not move become those of 1: fixed ones, and such at an end
+    // of their range that would go beyond.
+    for (int32_t k = 0; k < n; k++) {
+        bool out = (place[k] <= 0 && step[k] < 0) || (place[k] >= 1 && step[k] > 0);
+        if (!out && !(fixed && fixed[k]) && matrix[k * n + k] > 0) continue;
+        for (int32_t i = 0; i < n; i++) matrix[i * n + k] = matrix[k * n + i] = 0;
+        matrix[k * n + k] = 1;
+        step[k] = 0;
+    }
     for (int32_t k = 0; k < n; k++) matrix[k * n + k] *= 1 + damped;
     if (!dense_cholesky(matrix, n)) return INFINITY;
     dense_lower_solve(matrix, n, step);

@@ -6,8 +6,8 @@
 #include "base/clock.h"
 #include "base/formula.h"
 #include "base/memory.h"
-#include "io/text/json_reader.h"
 #include "base/module.h"
+#include "io/text/json_reader.h"
 #include "scene/formulas.h"
 #include "study/sweep/computing/tally.h"
 #include "study/sweep/reading/study_point.h"
@@ -50,28 +50,11 @@ static void show_point(const SweepView *view, void *context)
     if (search->options->on_point) search->options->on_point(&shown, search->options->context);
 }
 
-static bool take_design(Search *search, int32_t d, Error *err)
-{
-    const Design *design = &search->designs.list[d];
-    for (int32_t c = 0; c < search->designs.conditions; c++) {
-        char *report = point_report(search->sweep, design->point + c, err);
-        if (!error_is_clean(err)) return false;
-        bool done = point_status(report) == POINT_DONE;
-        if (!done && report && search->failed++ == 0)
-            json_find_text(report, "message", search->failure, sizeof search->failure);
-        search->judge.take(search, d, c, done ? report : NULL, err);
-        memory_free(report);
-        if (!error_is_clean(err)) return false;
-    }
-    search->judge.judge(search, d);
-    return error_is_clean(err);
-}
-
 bool search_compute(Search *search, const int32_t *which, int32_t count, Error *err)
 {
     Designs *designs = &search->designs;
     int32_t first = search->sweep->point_count;
-    char *text = NULL;
+    char *text = NULL, *report = NULL;
     Design *list = NEW_ARRAY(Design, count, err);
     TRY(list);
     if (count == 0) goto cleanup;
@@ -80,11 +63,21 @@ bool search_compute(Search *search, const int32_t *which, int32_t count, Error *
     TRY(sweep_add(search->sweep, text, err));
     TRY(sweep_compute(search->sweep, err));
     for (int32_t k = 0; k < count; k++) {
-        designs->list[which[k]].point = first + k * designs->conditions;
-        TRY(take_design(search, which[k], err));
+        int32_t d = which[k], point = first + k * designs->conditions;
+        designs->list[d].point = point;
+        for (int32_t c = 0; c < designs->conditions; c++) {
+            memory_free(report);
+            report = point_report(search->sweep, point + c, err);
+            TRY(error_is_clean(err));
+            bool done = point_status(report) == POINT_DONE;
+            if (!done && report && search->failed++ == 0)
+                json_find_text(report, "message", search->failure, sizeof search->failure);
+            TRY(search->judge.take(search, d, c, done ? report : NULL, err));
+        }
+        search->judge.judge(search, d);
     }
 cleanup:
-    memory_free_all(list, text);
+    memory_free_all(list, text, report);
     return error_is_clean(err);
 }
 
@@ -96,23 +89,6 @@ bool search_compute_from(Search *search, int32_t first, Error *err)
 }
 
 // --- designs ------------------------------------------------------------------------------------
-
-// At the first condition.
-static bool check_limits(const Search *search, bool *allowed, Error *err)
-{
-    const Study *study = search->study;
-    for (int32_t k = 0; k < study->search.limit_count && *allowed; k++) {
-        const SearchLimit *limit = &study->search.limits[k];
-        double value = 0;
-        const char *formula = strchr(yaml_text(study->file, limit->formula), '=') + 1;
-        if (!formula_value(formula, scene_number, search->scene, &value, err)) {
-            error_context(err, "%s:%d: where", study->path, yaml_line(study->file, limit->formula));
-            return false;
-        }
-        *allowed = value >= limit->least && value <= limit->most;
-    }
-    return true;
-}
 
 // A scene that two keys together make impossible is no design: it is passed over, and counted.
 static bool make_scene(Search *search, const StudyCase *trial, int32_t condition, bool *allowed,
@@ -133,60 +109,45 @@ static bool make_scene(Search *search, const StudyCase *trial, int32_t condition
     return true;
 }
 
-// Whether its scenes, those of `vary` or of what was measured, are accepted and keep all of
-// `where`; the first comes last, as limits are checked at it.
-static bool is_allowed(Search *search, const double *x, bool *allowed, Error *err)
+// A design is allowed if its scenes, those of `vary` or of what was measured, are accepted and keep
+// all of `where`; the first comes last, as limits are checked at it.
+bool search_add(Search *search, double *x, int32_t *added, Error *err)
 {
-    const Designs *designs = &search->designs;
+    const Study *study = search->study;
+    Designs *designs = &search->designs;
     Design design = {.choice = -1};
     YamlDocument *document = NULL;
+    char *text = NULL;
+    bool allowed = true;
+    *added = -1;
+    designs_round(study, x);
+    if (designs->count == DESIGNS_MAX || designs_find(designs, x) >= 0) return true;
     memcpy(design.x, x, sizeof design.x);
-    char *text = designs_text(designs, &design, 1, err);
-    *allowed = true;
-    TRY(text);
+    TRY(text = designs_text(designs, &design, 1, err));
     TRY(yaml_parse("a design of the search", text, 0, &document, err));
-    StudyCase trial = {document, yaml_first(document, YAML_ROOT)};
-    StudyCase first = trial;
-    for (int32_t c = 1; c < designs->conditions && *allowed; c++) {
+    StudyCase trial = {document, yaml_first(document, YAML_ROOT)}, first = trial;
+    for (int32_t c = 1; c < designs->conditions && allowed; c++) {
         if (designs->texts) trial.map = yaml_next(document, trial.map);
-        TRY(make_scene(search, &trial, c, allowed, err));
+        TRY(make_scene(search, &trial, c, &allowed, err));
     }
-    if (*allowed) TRY(make_scene(search, &first, 0, allowed, err));
-    search->refused += !*allowed;
-    if (*allowed) TRY(check_limits(search, allowed, err));
+    if (allowed) TRY(make_scene(search, &first, 0, &allowed, err));
+    search->refused += !allowed;
+
+    for (int32_t k = 0; k < study->search.limit_count && allowed; k++) {
+        const SearchLimit *limit = &study->search.limits[k];
+        double value = 0;
+        const char *formula = strchr(yaml_text(study->file, limit->formula), '=') + 1;
+        if (!formula_value(formula, scene_number, search->scene, &value, err)) {
+            error_context(err, "%s:%d: where", study->path, yaml_line(study->file, limit->formula));
+            goto cleanup;
+        }
+        allowed = value >= limit->least && value <= limit->most;
+    }
+    if (allowed) *added = designs_add(designs, x, -1);
 cleanup:
     yaml_destroy(document);
     memory_free(text);
     return error_is_clean(err);
-}
-
-bool search_add(Search *search, double *x, int32_t *added, Error *err)
-{
-    bool allowed = false;
-    *added = -1;
-    designs_round(search->study, x);
-    if (search->designs.count == DESIGNS_MAX || designs_find(&search->designs, x) >= 0) return true;
-    if (!is_allowed(search, x, &allowed, err)) return false;
-    if (allowed) *added = designs_add(&search->designs, x, -1);
-    return true;
-}
-
-// The scene with `set`, at the first point of `vary`, if all that is searched has a value there
-// within its range. One that lacks what a formula takes from a searched key is none.
-static bool add_start(Search *search, Error *err)
-{
-    const StudySearch *keys = &search->study->search;
-    double x[STUDY_SEARCH_MAX] = {0};
-    bool within = true;
-    Error ignored = {0};
-    if (!study_scene(search->study, &(PointChoice){.point = 0}, search->scene, &ignored))
-        return true;
-    for (int32_t k = 0; k < keys->key_count; k++) {
-        char words[SCENE_TEXT_SIZE];
-        study_scene_value(search->scene, keys->keys[k].key, words, sizeof words, &x[k]);
-        within = within && x[k] >= keys->keys[k].least && x[k] <= keys->keys[k].most;
-    }
-    return !within || search_add(search, x, &search->start, err);
 }
 
 // Value as the chooser is told it. Misfits are on a logarithmic scale, as they differ by powers of
@@ -223,12 +184,6 @@ static bool tell(Search *search, int32_t choice, int32_t design, Error *err)
     return search->module->tell(search->chooser, choice, told_of(search, design), err);
 }
 
-static double on_lattice(const Search *search, double x, double least, double most)
-{
-    double step = (most - least) / LATTICE;
-    return search->study->search.fits ? x : least + step * round((x - least) / step);
-}
-
 // The next design that is allowed and new. *added: there is one.
 static bool choose(Search *search, bool *added, Error *err)
 {
@@ -245,7 +200,9 @@ static bool choose(Search *search, bool *added, Error *err)
         for (int32_t i = 0; i < keys->key_count; i++) {
             const SearchKey *key = &keys->keys[i];
             double least = search_scaled(key, key->least), most = search_scaled(key, key->most);
-            if (key->scale != SEARCH_WHOLE) x[i] = on_lattice(search, x[i], least, most);
+            double step = (most - least) / LATTICE;
+            if (key->scale != SEARCH_WHOLE && !keys->fits)
+                x[i] = least + step * round((x[i] - least) / step);
             x[i] = search_unscaled(key, x[i]);
         }
         TRY(search_add(search, x, &design, err));
@@ -303,10 +260,27 @@ cleanup:
 
 bool search_designs(Search *search, int32_t count, Error *err)
 {
+    const StudySearch *keys = &search->study->search;
     bool added = true;
     if (!open_chooser(search, err)) return false;
-    if (search->designs.count == 0 && !add_start(search, err)) return false;
+
+    // The start: the scene with `set`, at the first point of `vary`, if all that is searched has a
+    // value there within its range. One that lacks what a formula takes from a searched key is
+    // none.
+    if (search->designs.count == 0) {
+        double x[STUDY_SEARCH_MAX] = {0};
+        Error ignored = {0};
+        bool within =
+            study_scene(search->study, &(PointChoice){.point = 0}, search->scene, &ignored);
+        for (int32_t k = 0; k < keys->key_count && within; k++) {
+            char words[SCENE_TEXT_SIZE];
+            study_scene_value(search->scene, keys->keys[k].key, words, sizeof words, &x[k]);
+            within = x[k] >= keys->keys[k].least && x[k] <= keys->keys[k].most;
+        }
+        if (within && !search_add(search, x, &search->start, err)) return false;
+    }
     if (search->designs.count == 1 && !search_compute_from(search, 0, err)) return false;
+
     for (int32_t chosen = 0; chosen < count && added;) {
         int32_t first = search->designs.count;
         for (int32_t k = 0; k < search->side_by_side && chosen < count && added; k++) {

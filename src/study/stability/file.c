@@ -83,11 +83,14 @@ static bool write_numbers(const StabilityPath *path, const StabilitySummary *sum
 }
 
 // Shapes: nodes and critical mode [contact nodes], modes [points][2][contact nodes], front
-// [points], rate [points][2].
-static bool fill_arrays(ArrayFile *file, const StabilityPath *path, Error *err)
+// [points], rate [points][2]. A file that could not be completed never gets its final name.
+bool stability_write(const StabilityPath *path, const StabilitySummary *summary, Error *err)
 {
+    char name[AMONTONS_PATH_SIZE + 32];
     const Interface *interface = &path->model->interface;
     int32_t nodes = interface->contact_count;
+    const StabilityPoint *points = path->points;
+    int32_t stride = sizeof *points / sizeof(double);
     ArraySeries x = {"nodes/x", ARRAY_FLOAT64, 1, "length", "position of the contact nodes"};
     ArraySeries y = {"nodes/y", ARRAY_FLOAT64, 1, "length", "the same across the drive"};
     ArraySeries critical = {"critical/slip", ARRAY_FLOAT64, 1, "1",
@@ -100,24 +103,15 @@ static bool fill_arrays(ArrayFile *file, const StabilityPath *path, Error *err)
                          "l, how far the front is from the trailing end"};
     ArraySeries rate = {"points/rate", ARRAY_FLOAT64, 2, "1/time",
                         "rightmost lambda of exp(lambda t), real and imaginary part"};
-    if (!array_file_write(file, &x, interface->x, 0, nodes, err)) return false;
-    if (interface->y && !array_file_write(file, &y, interface->y, 0, nodes, err)) return false;
-    if (!array_file_write(file, &critical, path->critical_mode, 0, nodes, err)) return false;
-    if (!array_file_write(file, &modes, path->modes, 0, path->count, err)) return false;
-    const StabilityPoint *points = path->points;
-    int32_t stride = sizeof *points / sizeof(double);
-    return array_file_write(file, &front, &points->front, stride, path->count, err) &&
-           array_file_write(file, &rate, &points->rate_re, stride, path->count, err);
-}
-
-// A file that could not be completed never gets its final name.
-bool stability_write(const StabilityPath *path, const StabilitySummary *summary, Error *err)
-{
-    char name[AMONTONS_PATH_SIZE + 32];
     snprintf(name, sizeof name, "%s/stability.h5", path->options->folder);
     ArrayFile *file = array_file_create(name, err);
     if (!file) goto cleanup;
-    TRY(fill_arrays(file, path, err));
+    TRY(array_file_write(file, &x, interface->x, 0, nodes, err));
+    if (interface->y) TRY(array_file_write(file, &y, interface->y, 0, nodes, err));
+    TRY(array_file_write(file, &critical, path->critical_mode, 0, nodes, err));
+    TRY(array_file_write(file, &modes, path->modes, 0, path->count, err));
+    TRY(array_file_write(file, &front, &points->front, stride, path->count, err));
+    TRY(array_file_write(file, &rate, &points->rate_re, stride, path->count, err));
 cleanup:
     if (error_is_clean(err))
         return array_file_close(file, err) && write_numbers(path, summary, err);

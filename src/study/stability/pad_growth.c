@@ -43,32 +43,6 @@ typedef struct PadWork {
     double *matrix, *values, *work;   // [contact_count^2], [contact_count], DENSE_EIGEN_WORK
 } PadWork;
 
-// S_K (lifted, where the free block leaves it singular), a trial state and room for one pad.
-static bool work_create(StabilityPath *path, PadWork *work, Error *err)
-{
-    Model *model = path->model;
-    int64_t count = model->interface.contact_count;
-    *work = (PadWork){.path = path, .interface = &model->interface};
-    OperatorTerms terms = {.stiffness = 1, .lift = true};
-    TRY((work->stiffness = interface_operator_create(&model->system, terms, err)));
-    TRY(state_create(&model->system, work->interface, &work->trial, err));
-    work->nodes = NEW_ARRAY(int32_t, count, err);
-    work->pivots = NEW_ARRAY(int32_t, count, err);
-    work->matrix = NEW_ARRAY(double, count *count, err);
-    work->values = NEW_ARRAY(double, count, err);
-    work->work = NEW_ARRAY(double, DENSE_EIGEN_WORK(count), err);
-cleanup:
-    return error_is_clean(err);
-}
-
-// Zeroed and half-built too.
-static void work_destroy(PadWork *work)
-{
-    interface_operator_destroy(work->stiffness);
-    state_destroy(&work->trial);
-    memory_free_all(work->nodes, work->pivots, work->matrix, work->values, work->work);
-}
-
 // The smallest eigenvalue of w^-1/2 S[T,T] w^-1/2 over the whole pad. condensed: NULL where the
 // matrix is singular; then it is 0.
 static bool softest_slip(PadWork *work, const InterfaceOperator *condensed, double *smallest,
@@ -184,23 +158,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// The longest contact at which nothing grows, length; 0: none, as where the block then rocks. And
-// the longest part of a contact that is held elsewhere; NaN: all of it, or friction has no memory.
-static bool measure_lengths(PadWork *work, double length, StabilitySummary *summary, Error *err)
-{
-    double nodes = 0, elements = fmax(work->count - 1, 1);
-    if (work->path->grows && !work->path->options->at_end) {
-        TRY(steady_nodes(work, true, &nodes, err));
-        summary->steady_contact = length * (nodes - 1) / elements;
-    }
-    if (!work->path->nodes) goto cleanup;
-    TRY(steady_nodes(work, false, &nodes, err));
-    // A part slips between its held neighbours.
-    if (nodes < work->count) summary->nucleation_length = length * nodes / elements;
-cleanup:
-    return error_is_clean(err);
-}
-
 // How far mu falls when the shear of all of the pad falls to mu_K p and everything else holds.
 static double fall_of_mu(PadWork *work)
 {
@@ -236,38 +193,6 @@ static double fall_of_mu(PadWork *work)
     return fall / load;
 }
 
-// Loads, lengths and the mode's share; a mean over the nodes by their weights.
-static void sum_pad(const PadWork *work, StabilityPad *pad)
-{
-    const StabilityPath *path = work->path;
-    const Interface *interface = work->interface;
-    const State *state = &path->runaway;
-    const double *re = path->modes + 2 * (int64_t)path->at_rod * interface->contact_count;
-    const double *im = re + interface->contact_count;
-    for (int32_t a = 0; a < work->count; a++) {
-        int32_t i = work->nodes[a];
-        double weight = interface->weight[i];
-        pad->length += weight;
-        pad->pressure += state->reaction[interface_normal(interface, i)];
-        if (state->status[i] != CONTACT_STICK) pad->slipping += weight;
-        pad->mode += weight * hypot(re[i], im[i]);
-    }
-    pad->pressure /= pad->length;
-    pad->mode /= pad->length;
-}
-
-// Mean of the critical stiffness of all nodes at the pad's mean pressure, before lengths are
-// divided by the pad's breadth.
-static double critical_stiffness(const PadWork *work, const StabilityPad *pad)
-{
-    double sum = 0;
-    for (int32_t a = 0; a < work->count; a++) {
-        int32_t i = work->nodes[a];
-        sum += work->interface->weight[i] * stability_critical_spring(work->path, i, pad->pressure);
-    }
-    return sum / pad->length;
-}
-
 // The work is on pad p from here on.
 static void take_pad(PadWork *work, int32_t p)
 {
@@ -280,15 +205,36 @@ static void take_pad(PadWork *work, int32_t p)
 // All of one pad, p; nodes of the others stay out. ERROR_COMPUTE: no eigenvalue was found.
 static bool measure_pad(PadWork *work, int32_t p, StabilityPad *pad, Error *err)
 {
+    const StabilityPath *path = work->path;
     const Interface *interface = work->interface;
+    const State *state = &path->runaway;
+    const double *re = path->modes + 2 * (int64_t)path->at_rod * interface->contact_count;
+    const double *im = re + interface->contact_count;
+    double spring = 0;
     take_pad(work, p);
     *pad = (StabilityPad){0};
     snprintf(pad->name, sizeof pad->name, "%s", interface->pad_name[p]);
-    sum_pad(work, pad);
-    TRY(softest_slip(work, work->path->control.certificate.damping, &pad->drag, err));
+
+    // Loads, lengths and the mode's share: means over the nodes by their weights, which lengths
+    // keep until they are divided by the pad's breadth.
+    for (int32_t a = 0; a < work->count; a++) {
+        int32_t i = work->nodes[a];
+        double weight = interface->weight[i];
+        pad->length += weight;
+        pad->pressure += state->reaction[interface_normal(interface, i)];
+        if (state->status[i] != CONTACT_STICK) pad->slipping += weight;
+        pad->mode += weight * hypot(re[i], im[i]);
+    }
+    pad->pressure /= pad->length;
+    pad->mode /= pad->length;
+    for (int32_t a = 0; a < work->count; a++) {
+        int32_t i = work->nodes[a];
+        spring += interface->weight[i] * stability_critical_spring(path, i, pad->pressure);
+    }
+    TRY(softest_slip(work, path->control.certificate.damping, &pad->drag, err));
     TRY(softest_slip(work, work->stiffness, &pad->stiffness, err));
     pad->load = ratio_of(work, work->count);
-    pad->critical_stiffness = critical_stiffness(work, pad);
+    pad->critical_stiffness = spring / pad->length;
     pad->l_c = critical_length(work);
     pad->mu_fall = fall_of_mu(work);
     double breadth = pad_size(interface, p).breadth;
@@ -302,15 +248,27 @@ cleanup:
 bool stability_measure_pads(StabilityPath *path, StabilitySummary *summary, Error *err)
 {
     const Interface *interface = &path->model->interface;
-    PadWork work = {0};
-    double most = 0;
+    int64_t count = interface->contact_count;
+    PadWork work = {.path = path, .interface = interface};
+    double most = 0, nodes = 0;
     path->grows = path->at_rod >= 0;
     if (!path->grows) {   // it slides because all of it slips, nothing grows before
         path->at_rod = path->count - 1;
         state_copy(&path->last, &path->runaway);
     }
     summary->steady_contact = summary->nucleation_length = NAN;
-    TRY(work_create(path, &work, err));
+
+    // S_K (lifted, where the free block leaves it singular), a trial state and room for one pad.
+    BulkOperator *system = &path->model->system;
+    OperatorTerms terms = {.stiffness = 1, .lift = true};
+    TRY((work.stiffness = interface_operator_create(system, terms, err)));
+    TRY(state_create(system, interface, &work.trial, err));
+    TRY((work.nodes = NEW_ARRAY(int32_t, count, err)));
+    TRY((work.pivots = NEW_ARRAY(int32_t, count, err)));
+    TRY((work.matrix = NEW_ARRAY(double, count *count, err)));
+    TRY((work.values = NEW_ARRAY(double, count, err)));
+    TRY((work.work = NEW_ARRAY(double, DENSE_EIGEN_WORK(count), err)));
+
     for (int32_t p = 0; p < interface->pad_count && p < STABILITY_PADS_MAX; p++) {
         TRY(measure_pad(&work, p, &summary->pads[p], err));
         if (summary->pads[p].mode > most) summary->pad = p;
@@ -318,12 +276,25 @@ bool stability_measure_pads(StabilityPath *path, StabilitySummary *summary, Erro
         summary->pad_count = p + 1;
     }
     for (int32_t p = 0; p < summary->pad_count && most > 0; p++) summary->pads[p].mode /= most;
-    if (interface->dim == 2) {
-        take_pad(&work, summary->pad);
-        work.pressure = summary->pads[summary->pad].pressure;
-        TRY(measure_lengths(&work, summary->pads[summary->pad].length, summary, err));
+    if (interface->dim > 2) goto cleanup;
+
+    // The longest contact at which nothing grows, length; 0: none, as where the block then rocks.
+    take_pad(&work, summary->pad);
+    work.pressure = summary->pads[summary->pad].pressure;
+    double length = summary->pads[summary->pad].length, elements = fmax(work.count - 1, 1);
+    if (path->grows && !path->options->at_end) {
+        TRY(steady_nodes(&work, true, &nodes, err));
+        summary->steady_contact = length * (nodes - 1) / elements;
+    }
+    // The longest part of a contact that is held elsewhere, which slips between its held
+    // neighbours; NaN: all of it, or friction has no memory.
+    if (path->nodes) {
+        TRY(steady_nodes(&work, false, &nodes, err));
+        if (nodes < work.count) summary->nucleation_length = length * nodes / elements;
     }
 cleanup:
-    work_destroy(&work);
+    interface_operator_destroy(work.stiffness);
+    state_destroy(&work.trial);
+    memory_free_all(work.nodes, work.pivots, work.matrix, work.values, work.work);
     return error_is_clean(err);
 }

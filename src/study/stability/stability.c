@@ -78,27 +78,6 @@ static int32_t count_slidings(const Simulation *simulation)
     return drops_count(&simulation->drops, DROP_LOAD);
 }
 
-// Time stepping until the block has come to rest after the wanted number of slidings.
-static bool run_slidings(StabilityPath *path, Error *err)
-{
-    Simulation *simulation = path->simulation;
-    const Events *events = &simulation->events;
-    bool finished = false;
-    while (count_slidings(simulation) < path->options->slidings || events->rapid >= 0) {
-        if (stop_wanted(path, err)) goto cleanup;
-        if (finished)
-            FAIL(err, ERROR_INPUT,
-                 "%s: only %d of %d slidings, or drops of the load by 5 %%, ended before the "
-                 "scene's end at U = %g: give a later one (--set time.until.U=%g), or start the "
-                 "path earlier (--from start, fewer --slidings)",
-                 simulation->scene.path, count_slidings(simulation), path->options->slidings,
-                 simulation->seen.U, 4 * simulation->seen.U);
-        TRY(amontons_simulation_step(simulation, NULL, &finished, err));
-    }
-cleanup:
-    return error_is_clean(err);
-}
-
 // The path's own steps, from the state of the simulation: tolerance and certificate off, so that
 // every step is PATH_STEP_LIMIT long, and a rod of its own velocity that continues from where
 // the simulation's rod is. Memory for a point per contact node and the two ends.
@@ -165,25 +144,6 @@ static void keep_slip(const Interface *interface, const double *mode, double *sl
         slip[i] = mode[interface_tangent(interface, i)];
 }
 
-// Nodes that begin to slip from one point of the path to the next: each in the plane, in space a
-// third of those that stand across it.
-static int32_t between_points(const Interface *interface)
-{
-    double across = interface->contact_count / interface_nodes_along(interface);
-    return (int32_t)fmax(across / 3, 1);
-}
-
-// Over all of it.
-static double slipping_area(const Interface *interface, const Observation *seen)
-{
-    double all = 0, slips = 0;
-    for (int32_t i = 0; i < interface->contact_count; i++) {
-        all += interface->weight[i];
-        if (seen_status(seen, i) != CONTACT_STICK) slips += interface->weight[i];
-    }
-    return slips / all;
-}
-
 static int32_t count_slipping(const Observation *seen)
 {
     int32_t count = 0;
@@ -195,7 +155,7 @@ static int32_t count_slipping(const Observation *seen)
 // F_T/F_N at the scene's V, of a state of the path, whose mu is for V -> 0. Slip at a rate v meets
 // mu(v), as if mu_S were smaller; the path gives v over that of the rod. What the load has gained
 // since slip set out goes with mu_S - mu_K, so it is smaller by the same part, a mean over the
-// pressure behind the front. (Without it the path's mu was 0.1 to 2 % above that of runs.)
+// pressure behind the front. Without it the path's mu is above that of runs.
 static double mu_at_V(const StabilityPath *path, const State *state, double mu)
 {
     const Friction *friction = &path->model->friction;
@@ -222,12 +182,6 @@ static double mu_at_V(const StabilityPath *path, const State *state, double mu)
     return pressed > 0 ? mu - (mu - start) * lost / (pressed * friction->drop) : mu;
 }
 
-// At the scene's V: by half a period's growth, or for certain: a real rate has been found.
-static bool runs_away(const StabilityPath *path, int32_t k)
-{
-    return path->critical >= 0 || stability_half_period(path, k) >= 0;
-}
-
 // One more point: the growth rates of `last`, as it was seen. Keeps the shape of the fastest mode,
 // of the first real one, and the state at which slip first runs away.
 static bool add_point(StabilityPath *path, const Observation *seen, Error *err)
@@ -238,6 +192,11 @@ static bool add_point(StabilityPath *path, const Observation *seen, Error *err)
     Observation last = *seen;
     last.state = &path->last;
     last.creep /= path->pace;
+    double all = 0, slips = 0;   // areas
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        all += interface->weight[i];
+        if (seen_status(&last, i) != CONTACT_STICK) slips += interface->weight[i];
+    }
     // With memory: nothing grows that is as fast as the slowest rate that is looked for.
     double reach = path->nodes ? 1 / path->slowest : 0, started = clock_seconds();
     TRY(growth_rates(path->growth, &path->last, &rates, err));
@@ -252,7 +211,7 @@ static bool add_point(StabilityPath *path, const Observation *seen, Error *err)
         .real_rate = rates.real.re,
         .load = growth_scan(path->growth, &path->last).ratio,
         .certified = certificate_holds(&path->control.certificate, &path->last, reach),
-        .area = slipping_area(interface, &last)};
+        .area = slips / all};
     double *mode = path->modes + 2 * (int64_t)path->count * interface->contact_count;
     keep_slip(interface, rates.mode_re, mode);
     keep_slip(interface, rates.mode_im, mode + interface->contact_count);
@@ -260,7 +219,9 @@ static bool add_point(StabilityPath *path, const Observation *seen, Error *err)
         path->critical = path->count;
         keep_slip(interface, rates.real_mode, path->critical_mode);
     }
-    if (path->at_rod < 0 && runs_away(path, path->count)) {
+    // At the scene's V slip runs away by half a period's growth, or for certain: by a real rate.
+    bool runs_away = path->critical >= 0 || stability_half_period(path, path->count) >= 0;
+    if (path->at_rod < 0 && runs_away) {
         path->at_rod = path->count;
         state_copy(&path->last, &path->runaway);
     }
@@ -293,18 +254,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// A node has jumped in the newest step, from `last` on.
-static void note_snap(StabilityPath *path, double mu)
-{
-    const State *now = &path->control.now;
-    path->mu_snap = mu_at_V(path, &path->last, mu);
-    const Interface *interface = &path->model->interface;
-    for (int32_t i = 0; i < now->contact_count; i++)
-        if (slip_size(interface, i, now->slip_rate) >
-            slip_size(interface, path->snap_node, now->slip_rate))
-            path->snap_node = i;
-}
-
 // Steps until the front has reached the end (whose own state is the last point), or is some
 // positions beyond l_c. A node that goes SNAP_LIMIT times as far in one step as the rod has jumped:
 // where a pad rests on its leading edge, slow slip has no state to go on to once the edge reaches
@@ -315,7 +264,10 @@ static bool follow_path(StabilityPath *path, Error *err)
     double end = interface->x[interface->contact_count - 1];
     Observation before = {0};
     int32_t most = 0;   // nodes that slipped at a time, so far
-    int32_t more = between_points(interface);
+    // Nodes that begin to slip from one point of the path to the next: each in the plane, in space
+    // a third of those that stand across it.
+    double across = interface->contact_count / interface_nodes_along(interface);
+    int32_t more = (int32_t)fmax(across / 3, 1);
     for (int32_t step = 0; step < PATH_STEPS_LIMIT; step++) {
         if (stop_wanted(path, err)) goto cleanup;
         stability_look(path);
@@ -323,7 +275,13 @@ static bool follow_path(StabilityPath *path, Error *err)
         Observation seen = observe(&path->control, &path->scales);
         int32_t slipping = count_slipping(&seen);
         bool snaps = seen.max_slip_rate > SNAP_LIMIT * path->rod.velocity;
-        if (snaps && step > 0 && isnan(path->mu_snap)) note_snap(path, before.mu);
+        if (snaps && step > 0 && isnan(path->mu_snap)) {
+            const double *rate = path->control.now.slip_rate;
+            path->mu_snap = mu_at_V(path, &path->last, before.mu);
+            for (int32_t i = 0; i < interface->contact_count; i++)
+                if (slip_size(interface, i, rate) > slip_size(interface, path->snap_node, rate))
+                    path->snap_node = i;
+        }
         bool next = slipping >= most + more;
         if (step > 0 && next) TRY(add_point(path, &before, err));
         if (next) most = slipping;
@@ -359,7 +317,23 @@ bool amontons_stability(const Scene *scene, const StabilityOptions *options,
     RunOptions run = {.on_step = options->on_step, .context = options->context};
     TRY(amontons_simulation_create(scene, &run, &path.simulation, err));
     path.model = &path.simulation->model;
-    if (!options->at_end) TRY(run_slidings(&path, err));
+
+    // Time stepping until the block has come to rest after the wanted number of slidings.
+    Simulation *simulation = path.simulation;
+    bool finished = false;
+    while (!options->at_end &&
+           (count_slidings(simulation) < options->slidings || simulation->events.rapid >= 0)) {
+        if (stop_wanted(&path, err)) goto cleanup;
+        if (finished)
+            FAIL(err, ERROR_INPUT,
+                 "%s: only %d of %d slidings, or drops of the load by 5 %%, ended before the "
+                 "scene's end at U = %g: give a later one (--set time.until.U=%g), or start the "
+                 "path earlier (--from start, fewer --slidings)",
+                 simulation->scene.path, count_slidings(simulation), options->slidings,
+                 simulation->seen.U, 4 * simulation->seen.U);
+        TRY(amontons_simulation_step(simulation, NULL, &finished, err));
+    }
+
     double before = clock_seconds();
     if (options->at_end) {
         TRY(take_end(&path, err));

@@ -26,10 +26,14 @@ static const char *name_of(const StabilitySummary *summary, int32_t pad)
     return summary->pad_count > 1 ? summary->pads[pad].name : "the contact";
 }
 
+// Which pad runs away, at which mu, and, unless friction remembers, whether it does so alone.
 static void say_what_decides(const StabilityPath *path, StabilitySummary *summary)
 {
     const StabilityPad *pad = &summary->pads[summary->pad];
-    double slips = pad->slipping / pad->length;
+    const char *name = name_of(summary, summary->pad);
+    double slips = pad->slipping / pad->length, steady = summary->steady_contact;
+    char others[160] = "";
+    size_t used = 0;
     if (summary->pad_count == 1 && path->model->interface.dim > 2)
         say(summary,
             "Slip runs away when %.2f of the contact slips, its front at %.3f L along the middle, "
@@ -39,19 +43,29 @@ static void say_what_decides(const StabilityPath *path, StabilitySummary *summar
         say(summary, "Slip runs away when its front has come to %.3f L, at mu %.4f.",
             summary->l_c_rod, summary->mu_rod);
     else if (slips > 1 - 1e-9)
-        say(summary, "Slip runs away once all of %s slips, at mu %.4f.",
-            name_of(summary, summary->pad), summary->mu_rod);
+        say(summary, "Slip runs away once all of %s slips, at mu %.4f.", name, summary->mu_rod);
     else
-        say(summary, "Slip runs away on %s when %.2f of it slips, at mu %.4f.",
-            name_of(summary, summary->pad), slips, summary->mu_rod);
-}
+        say(summary, "Slip runs away on %s when %.2f of it slips, at mu %.4f.", name, slips,
+            summary->mu_rod);
+    if (path->nodes) return;
 
-// Says on which contact a pad that runs away by itself would not do so.
-static void say_what_would_hold(StabilitySummary *summary)
-{
-    const StabilityPad *pad = &summary->pads[summary->pad];
-    double steady = summary->steady_contact;
-    if (steady >= pad->length)
+    // Names of all that take part in the mode but the one that decides: "contact_1, contact_3".
+    for (int32_t p = 0; p < summary->pad_count && used < sizeof others; p++) {
+        if (p == summary->pad || summary->pads[p].mode < TAKES_PART) continue;
+        used += (size_t)snprintf(others + used, sizeof others - used, "%s%s", used > 0 ? ", " : "",
+                                 summary->pads[p].name);
+    }
+    if (!(pad->load >= 1) && *others)
+        say(summary,
+            "It cannot run away alone (weakening is %.2f of what it resists): slip of %s takes "
+            "part.",
+            pad->load, others);
+    else if (!(pad->load >= 1))
+        say(summary,
+            "With pressures held weakening would be only %.2f of what it resists: it runs away as "
+            "slip takes pressure off it.",
+            pad->load);
+    else if (steady >= pad->length)   // it runs away alone: on which contact it would not
         say(summary,
             "With its load spread evenly, slip on this pad would be steady: a part of it carries "
             "more than its mean pressure of %.3g.",
@@ -63,96 +77,52 @@ static void say_what_would_hold(StabilitySummary *summary)
             steady, steady / pad->length, pad->pressure);
 }
 
-static void say_whether_alone(StabilitySummary *summary)
+void stability_explain(const StabilityPath *path, StabilitySummary *summary)
 {
-    const StabilityPad *pad = &summary->pads[summary->pad];
-    char others[160];
-
-    // Names of all that take part in the mode but the one that decides: "contact_1, contact_3".
-    size_t used = 0;
-    *others = 0;
-    for (int32_t p = 0; p < summary->pad_count && used < sizeof others; p++) {
-        if (p == summary->pad || summary->pads[p].mode < TAKES_PART) continue;
-        used += (size_t)snprintf(others + used, sizeof others - used, "%s%s", used > 0 ? ", " : "",
-                                 summary->pads[p].name);
-    }
-
-    if (pad->load >= 1)
-        say_what_would_hold(summary);
-    else if (*others)
-        say(summary,
-            "It cannot run away alone (weakening is %.2f of what it resists): slip of %s takes "
-            "part.",
-            pad->load, others);
-    else
-        say(summary,
-            "With pressures held weakening would be only %.2f of what it resists: it runs away as "
-            "slip takes pressure off it.",
-            pad->load);
-}
-
-// Says, for friction that remembers, how stiff a body must be and on which length slip begins.
-static void say_what_memory_asks(const StabilityPath *path, StabilitySummary *summary)
-{
+    const Interface *interface = &path->model->interface;
     const StabilityPad *pad = &summary->pads[summary->pad];
     char length[120] = "";
-    if (!path->nodes || isnan(pad->critical_stiffness)) return;
+    if (path->options->at_end) return;
+    if (path->grows)
+        say_what_decides(path, summary);
+    else if (path->at_end)
+        say(summary,
+            "Nothing runs away before all of the contact slips: it then slides, at mu %.4f.",
+            summary->mu_rod);
+    else
+        say(summary, "The path ended before anything ran away.");
+
+    // Friction that remembers: how stiff a body must be, and on which length slip begins.
     if (!isnan(summary->nucleation_length))
         snprintf(length, sizeof length,
                  " Slip that all else holds grows on a part longer than %.3g (nucleation length).",
                  summary->nucleation_length);
-    say(summary,
-        "Slip of a massless body at V is steady on a stiffness above %.3g (critical); that of %s, "
-        "all else held, is %.3g.%s",
-        pad->critical_stiffness, name_of(summary, summary->pad), pad->stiffness, length);
-}
+    if (path->nodes && !isnan(pad->critical_stiffness))
+        say(summary,
+            "Slip of a massless body at V is steady on a stiffness above %.3g (critical); that of "
+            "%s, all else held, is %.3g.%s",
+            pad->critical_stiffness, name_of(summary, summary->pad), pad->stiffness, length);
 
-// Says what a run may show before: oscillations and jumps.
-static void say_what_comes_before(const StabilityPath *path, StabilitySummary *summary)
-{
-    const Interface *interface = &path->model->interface;
-    double same = summary->mu_rod * (1 - EARLIER);
-    if (summary->mu_sc < same)
+    // A run may show oscillations and jumps before.
+    if (summary->mu_sc < summary->mu_rod * (1 - EARLIER))
         say(summary,
             "From mu %.4f on (l_sc) oscillations grow, at first too slowly for this V: precursors "
             "may come in bursts, and a run may slide somewhat earlier.",
             summary->mu_sc);
-    if (summary->mu_snap < summary->mu_rod * (1 + EARLIER)) {
-        int32_t pad = interface->pad[path->snap_node];
+    if (summary->mu_snap < summary->mu_rod * (1 + EARLIER))
         say(summary,
             "At mu %.4f a node of %s, at x = %.4g, reaches mu_S and has no slow state to go on to: "
             "it slips fast at once, whatever grows, and a run may slide there.",
-            summary->mu_snap, name_of(summary, pad), interface->x[path->snap_node]);
-    }
-}
+            summary->mu_snap, name_of(summary, interface->pad[path->snap_node]),
+            interface->x[path->snap_node]);
 
-// A pad that slides alone need not be a drop of the load, and no sliding of the block.
-static void say_what_follows(StabilitySummary *summary)
-{
-    double fall = summary->pads[summary->pad].mu_fall;
-    bool alone = summary->pad_count > 1 && summary->pads[summary->pad].load >= 1;
-    if (!alone || !(fall < LEAST_DROP * summary->mu_rod)) return;
-    say(summary,
-        "If the other pads hold, mu falls by %.1f %% at most, less than the %.0f %% of a load "
-        "drop: then the load rises on, and mu_M and mu_hold of a run are higher than this mu.",
-        100 * fall / summary->mu_rod, 100 * LEAST_DROP);
-}
-
-void stability_explain(const StabilityPath *path, StabilitySummary *summary)
-{
-    if (path->options->at_end) return;
-    if (!path->grows && path->at_end)
+    // A pad that slides alone need not be a drop of the load, and no sliding of the block.
+    bool alone = path->grows && summary->pad_count > 1 && pad->load >= 1;
+    if (alone && pad->mu_fall < LEAST_DROP * summary->mu_rod)
         say(summary,
-            "Nothing runs away before all of the contact slips: it then slides, at mu %.4f.",
-            summary->mu_rod);
-    else if (!path->grows)
-        say(summary, "The path ended before anything ran away.");
-    else
-        say_what_decides(path, summary);
-    if (path->grows && !path->nodes) say_whether_alone(summary);
-    say_what_memory_asks(path, summary);
-    say_what_comes_before(path, summary);
-    if (path->grows) say_what_follows(summary);
+            "If the other pads hold, mu falls by %.1f %% at most, less than the %.0f %% of a load "
+            "drop: then the load rises on, and mu_M and mu_hold of a run are higher than this mu.",
+            100 * pad->mu_fall / summary->mu_rod, 100 * LEAST_DROP);
     if (summary->l_c_scan < summary->l_sc - summary->element)
         say(summary, "l_c (scan) is shorter than l_sc as it leaves out that slip shifts pressure, "
                      "which here steadies it.");

@@ -3,8 +3,8 @@
 // table, and what the study wants shown of it.
 #include "study/sweep/sweep.h"
 
-#include "base/clock.h"
 #include "algebra/dense.h"
+#include "base/clock.h"
 #include "base/decimal_point.h"
 #include "base/memory.h"
 #include "base/module.h"
@@ -17,25 +17,89 @@
 #include "study/sweep/computing/tally.h"
 #include "study/sweep/reading/study_point.h"
 #include "study/sweep/reading/study_read.h"
-#include "study/sweep/reading/study_vary.h"
-#include "study/sweep/refine.h"
 #include "study/sweep/showing/figure_plot.h"
 #include "study/sweep/showing/figure_ranking.h"
 
 #include <errno.h>
+#include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 // Points of a sweep that was killed die with it, and leave its lock a moment later; s.
 static const double LOCK_WAIT = 1;
+static const double SMALLER = 0.9;   // of the error before: a round of refinement was of use
 
-// A file of somebody's with the name of one of the sweep's tables or figures is told before hours
-// of computing, not behind them.
-static bool refuse_taken(const Sweep *sweep, Error *err)
+// Scenes and hashes of the points that the study has more than before: what is wrong with any of
+// them shows before the first is run.
+static bool plan_points(Sweep *sweep, Error *err)
+{
+    const Study *study = &sweep->study;
+    int32_t count = study->point_count;
+    bool found = false;
+    TRY(memory_resize(&sweep->points, sweep->point_count, count, sizeof *sweep->points, err));
+    for (int32_t k = sweep->point_count; k < count; k++) {
+        const Scene *scene = point_scene(sweep, k, err);
+        TRY(scene && point_hash(sweep, scene, sweep->points[k].hash, err));
+
+        // `keep: table` keeps nothing but numbers, and cannot do what needs more.
+        if (study->keep_table &&
+            (scene->output.history || scene->output.fields || scene->output.figures.count > 0))
+            FAIL(err, ERROR_INPUT,
+                 "%s: keep: with `table` points have no folder for a history, fields or figures: "
+                 "say `keep: points`",
+                 study->path);
+        if (study->keep_table && study->rank.refine > 0)
+            FAIL(err, ERROR_INPUT, "%s: keep: `table` does not go with `refine`", study->path);
+        if (study->rank.refine > 0 && !(scene->accuracy.mu > 0))
+            FAIL(err, ERROR_INPUT,
+                 "%s: rank: `refine` halves accuracy.mu, which must be given to begin with, as in "
+                 "`set: {accuracy.mu: 3%%}`",
+                 study->path);
+    }
+    TRY(points_find_same(sweep, err));
+
+    // The baseline of each point: the one whose scene is its own with the keys of `rank.against`.
+    // Where no point at all has one the ranking would have no gains.
+    for (int32_t k = 0; study->rank.against == AGAINST_KEYS && k < count; k++) {
+        char hash[HASH_TEXT_SIZE];
+        TRY(study_scene(study, &(PointChoice){.point = k, .baseline = true}, sweep->scene, err));
+        TRY(point_hash(sweep, sweep->scene, hash, err));
+        sweep->points[k].baseline = points_look_up(sweep, hash);
+        found = found || sweep->points[k].baseline >= 0;
+    }
+    if (study->rank.against == AGAINST_KEYS && !found)
+        TRY(yaml_error(study->file, study->rank.baseline, err,
+                       "against: no point of the study has these values"));
+    sweep->point_count = sweep->planned = count;
+cleanup:
+    return error_is_clean(err);
+}
+
+// Makes the sweep's folder and takes its lock, which the system removes when the process ends,
+// however it ends. A file of somebody's with the name of one of the sweep's tables or figures is
+// told before hours of computing, not behind them.
+static bool make_folder(Sweep *sweep, Error *err)
 {
     static const char *const tables[] = {"sweep.csv", "sweep.h5", "ranking.csv", "reports"};
     static const char *const endings[] = {"json", "h5", "png"};
     const Study *study = &sweep->study;
     char path[POINT_PATH_SIZE + STUDY_NAME_SIZE];
+    if (snprintf(sweep->folder, sizeof sweep->folder, "%s", sweep->options->folder) >=
+        (int)sizeof sweep->folder)
+        return REFUSE(err, "the path of the sweep's folder is too long");
+    if (!folder_make(sweep->folder, err)) return false;
+
+    snprintf(path, sizeof path, "%s/amontons.lock", sweep->folder);
+    bool locked = file_lock_take(&sweep->lock, path, LOCK_WAIT);
+    if (!locked && sweep->lock.busy)
+        return FAULT(err, ERROR_FILE,
+                     "another sweep is running in %s: wait for it, or choose another folder (-o)",
+                     sweep->folder);
+    if (!locked)
+        return FAULT(err, ERROR_FILE, "cannot write into %s: %s", sweep->folder, strerror(errno));
+    const char *unlocked = file_lock_warning(&sweep->lock);
+    if (unlocked && sweep->options->out) fprintf(sweep->options->out, "%s\n\n", unlocked);
+
     for (size_t k = 0; k < sizeof tables / sizeof tables[0]; k++) {
         snprintf(path, sizeof path, "%s/%s", sweep->folder, tables[k]);
         if (!own_list_refuse_taken(path, err)) return false;
@@ -46,96 +110,26 @@ static bool refuse_taken(const Sweep *sweep, Error *err)
                      k < 0 ? "ranking" : study->plots[k].name, endings[e]);
             if (!own_list_refuse_taken(path, err)) return false;
         }
-    return true;
-}
+    if (!own_list_check(sweep->folder, err) || !own_list_make(sweep->folder, err)) return false;
 
-static bool take_lock(Sweep *sweep, Error *err)
-{
-    char path[POINT_PATH_SIZE];
-    snprintf(path, sizeof path, "%s/amontons.lock", sweep->folder);
-    if (file_lock_take(&sweep->lock, path, LOCK_WAIT)) {
-        const char *unlocked = file_lock_warning(&sweep->lock);
-        if (unlocked && sweep->options->out) fprintf(sweep->options->out, "%s\n\n", unlocked);
-        return true;
-    }
-    if (sweep->lock.busy)
-        return FAULT(err, ERROR_FILE,
-                     "another sweep is running in %s: wait for it, or choose another folder (-o)",
-                     sweep->folder);
-    return FAULT(err, ERROR_FILE, "cannot write into %s: %s", sweep->folder, strerror(errno));
-}
-
-static bool open_reports(Sweep *sweep, Error *err)
-{
-    char path[POINT_PATH_SIZE];
-    if (!sweep->study.keep_table) return true;
+    snprintf(path, sizeof path, "%s/points", sweep->folder);
+    if (!study->keep_table && !folder_make(path, err)) return false;
+    if (!slurm_end_leftovers(sweep, err)) return false;
     snprintf(path, sizeof path, "%s/reports", sweep->folder);
-    return reports_open(&sweep->reports, path, sweep->options->fresh, err);
+    return !study->keep_table || reports_open(&sweep->reports, path, sweep->options->fresh, err);
 }
 
-// Reports of an earlier sweep, also of points that the study no longer has, or not yet.
-static bool list_reports(Sweep *sweep, Error *err)
+// The folder is made when the study has turned out to be right. Reports of an earlier sweep are
+// listed, also of points that the study no longer has, or not yet.
+bool sweep_plan(Sweep *sweep, Error *err)
 {
-    return !sweep->study.keep_table ||
-           (reports_list(&sweep->reports, points_note_place, sweep, err) &&
-            share_take_all(sweep, err));
-}
-
-// The baseline of each point: the one whose scene is its own with the keys of `rank.against`.
-// ERROR_INPUT where no point at all has one: the ranking would have no gains.
-static bool find_baselines(Sweep *sweep, Error *err)
-{
-    const Study *study = &sweep->study;
-    bool found = false;
-    if (study->rank.against != AGAINST_KEYS) return true;
-    for (int32_t k = 0; k < study->point_count; k++) {
-        char hash[HASH_TEXT_SIZE];
-        if (!study_scene(study, &(PointChoice){.point = k, .baseline = true}, sweep->scene, err))
-            return false;
-        if (!point_hash(sweep, sweep->scene, hash, err)) return false;
-        sweep->points[k].baseline = points_look_up(sweep, hash);
-        found = found || sweep->points[k].baseline >= 0;
-    }
-    return found || yaml_error(study->file, study->rank.baseline, err,
-                               "against: no point of the study has these values");
-}
-
-static bool plan_point(Sweep *sweep, int32_t k, Error *err)
-{
-    const Scene *scene = point_scene(sweep, k, err);
-    if (!scene || !point_hash(sweep, scene, sweep->points[k].hash, err)) return false;
-
-    if (sweep->study.keep_table) {
-        // `keep: table` keeps nothing but numbers, and cannot do what needs more.
-        if (scene->output.history || scene->output.fields || scene->output.figures.count > 0)
-            return REFUSE(err,
-                          "%s: keep: with `table` points have no folder for a history, fields or "
-                          "figures: say `keep: points`",
-                          sweep->study.path);
-        if (sweep->study.rank.refine > 0)
-            return REFUSE(err, "%s: keep: `table` does not go with `refine`", sweep->study.path);
-    }
-
-    if (sweep->study.rank.refine > 0 && !(scene->accuracy.mu > 0))
-        return REFUSE(err,
-                      "%s: rank: `refine` halves accuracy.mu, which must be given to begin with, "
-                      "as in `set: {accuracy.mu: 3%%}`",
-                      sweep->study.path);
-    return true;
-}
-
-// Scenes and hashes of the points that the study has more than before: what is wrong with any of
-// them shows before the first is run.
-static bool plan_points(Sweep *sweep, Error *err)
-{
-    int32_t count = sweep->study.point_count;
-    TRY(memory_resize(&sweep->points, sweep->point_count, count, sizeof *sweep->points, err));
-    for (int32_t k = sweep->point_count; k < count; k++) TRY(plan_point(sweep, k, err));
-    TRY(points_find_same(sweep, err));
-    TRY(find_baselines(sweep, err));
-    sweep->point_count = sweep->planned = count;
-cleanup:
-    return error_is_clean(err);
+    int32_t first = sweep->point_count;
+    if (!plan_points(sweep, err)) return false;
+    if (!sweep->folder[0] && !make_folder(sweep, err)) return false;
+    if (sweep->study.keep_table && !(reports_list(&sweep->reports, points_note_place, sweep, err) &&
+                                     share_take_all(sweep, err)))
+        return false;
+    return sweep_take_finished(sweep, first, err);
 }
 
 bool sweep_show(const Sweep *sweep, bool whole, Error *err)
@@ -179,25 +173,119 @@ bool sweep_compute(Sweep *sweep, Error *err)
     return whole;
 }
 
-// Rounds of smaller errors for points whose rank is open. ERROR_INTERRUPT: stopped in one of them;
-// its points then have the results they had.
+// --- ranks that errors leave open ---------------------------------------------------------------
+
+// A refined point is an ordinary point with another accuracy.mu: it has a hash and a folder of its
+// own, so that the same command finds it again, and goes the same way to the same table.
+
+// Gives the point of a row a smaller accuracy.mu, and looks for what an earlier sweep left of it.
+// *chosen: there is a next accuracy.
+static bool choose_accuracy(Sweep *sweep, const RankRow *row, bool *chosen, Error *err)
+{
+    int32_t k = row->point;
+    SweepPoint *point = &sweep->points[k];
+    char *report = NULL;
+    const Scene *scene = point_scene(sweep, k, err);
+    TRY(scene);
+
+    // Half the error bar that was asked for or, where that is smaller, of the one that came out,
+    // relative; two digits read well in a table. Not below the limit; 0: the point is there
+    // already.
+    double asked = scene->accuracy.mu;
+    double came_out = row->error / fabs(row->value);
+    char digits[20];
+    if (came_out < asked) asked = came_out;
+    snprintf(digits, sizeof digits, "%.2g", asked / 2);
+    double accuracy =
+        asked > sweep->study.rank.refine ? fmax(strtod(digits, NULL), sweep->study.rank.refine) : 0;
+
+    TRY((*chosen = accuracy > 0));
+    point->accuracy = accuracy;
+    TRY(point_scene(sweep, k, err));   // with it
+    TRY(point_hash(sweep, scene, point->hash, err));
+    report = point_report(sweep, k, err);
+    TRY(error_is_clean(err));
+    point->status = sweep->options->fresh ? POINT_PENDING : point_status(report);
+    point->reused = point->status != POINT_PENDING;
+cleanup:
+    memory_free(report);
+    return error_is_clean(err);
+}
+
+// Reads the ranked result from a point's run.json.
+static PointValue read_ranked(const Sweep *sweep, int32_t k, Error *err)
+{
+    char *report = point_report(sweep, k, err);
+    PointValue ranked = point_value(report, sweep->study.records[sweep->study.rank.record].path);
+    memory_free(report);
+    return ranked;
+}
+
+// Points whose rank is open are computed again with half the error bar, round by round, until the
+// order is decided or the study's limit (`rank.refine`) is reached. Of a round that is not computed
+// whole, as of any, a point that came to no result with a smaller error keeps the one it had, and
+// is not chosen again. ERROR_INTERRUPT: stopped in a round.
 static bool decide_ranks(Sweep *sweep, Error *err)
 {
-    SweepPoint *before = NULL;
-    int32_t count = 1;
+    SweepTable table = {0};
+    Ranking ranking = {0};
+    SweepPoint *before = NULL;   // the points as they were
+    int32_t points = sweep->study.point_count, count = 1;
     while (sweep->study.rank.refine > 0 && count > 0) {
         int32_t computed = sweep->computed;
-        Error ended = {0};
-        TRY(refine_begin(sweep, &before, &count, err));
+        memory_free(before);
+        TRY((before = NEW_ARRAY(SweepPoint, points, err)));
+        memcpy(before, sweep->points, (size_t)points * sizeof *before);
+
+        // Points that are shown, and others that might be among them.
+        ranking_destroy(&ranking);
+        table_destroy(&table);
+        TRY(table_write(sweep, &table, err));
+        TRY(ranking_make(sweep, &table, &ranking, err));
+        sweep->mesh = (PointMesh){0};
+        count = 0;
+        for (int32_t k = 0; k < ranking.ranked; k++) {
+            const RankRow *row = &ranking.rows[k];
+            bool chosen = false;
+            if (row->from >= row->to || row->from > sweep->study.rank.top ||
+                sweep->points[row->point].settled)
+                continue;
+            TRY(choose_accuracy(sweep, row, &chosen, err));
+            count += chosen;
+        }
+        TRY(points_find_same(sweep, err));   // those of an earlier round count
+        for (int32_t k = 0; k < points; k++) sweep->planned += sweep_is_waiting(sweep, k);
+
         sweep_compute(sweep, err);
         sweep->refined += sweep->computed - computed;
-        if (!refine_end(sweep, before, &ended) && error_is_clean(err)) *err = ended;
+        Error ended = {0};
+        for (int32_t k = 0; k < points && error_is_clean(&ended); k++) {
+            SweepPoint *point = &sweep->points[k];
+            SweepPoint refined = *point;
+            PointValue found = point_value(NULL, "");
+            if (strcmp(refined.hash, before[k].hash) == 0) continue;
+            if (refined.status == POINT_DONE) found = read_ranked(sweep, k, &ended);
+            *point = before[k];
+            PointValue last = read_ranked(sweep, k, &ended);
+            if (!error_is_clean(&ended)) continue;
+            double error = isnan(last.error) ? INFINITY : last.error;
+            if (found.error < error) {
+                double moved = fabs(found.value - last.value) / error;
+                *point = refined;
+                point->refined = true;
+                point->moved =
+                    fmax(before[k].moved, moved);   // fmax of NaN and a number is the number
+            }
+            point->settled = !(found.error < SMALLER * error);
+        }
+        if (error_is_clean(&ended)) points_find_same(sweep, &ended);
+        if (error_is_clean(err)) *err = ended;
         TRY(error_is_clean(err));
-        memory_free(before);
-        before = NULL;
     }
 cleanup:
     memory_free(before);
+    ranking_destroy(&ranking);
+    table_destroy(&table);
     return error_is_clean(err);
 }
 
@@ -213,30 +301,6 @@ bool sweep_open(const char *path, const SweepOptions *options, Sweep **opened, E
     dense_use_one_thread();   // before forking
     return study_read(path, options->overrides, options->override_count, options->trust,
                       &sweep->study, err);
-}
-
-// The folder is made when the study has turned out to be right.
-bool sweep_plan(Sweep *sweep, Error *err)
-{
-    int32_t first = sweep->point_count;
-    if (!plan_points(sweep, err)) return false;
-    if (!sweep->folder[0]) {
-        // The system removes the lock when the process ends, however it ends.
-        char path[POINT_PATH_SIZE];
-        if (snprintf(sweep->folder, sizeof sweep->folder, "%s", sweep->options->folder) >=
-            (int)sizeof sweep->folder)
-            return REFUSE(err, "the path of the sweep's folder is too long");
-        if (!folder_make(sweep->folder, err) || !take_lock(sweep, err) ||
-            !refuse_taken(sweep, err) || !own_list_check(sweep->folder, err) ||
-            !own_list_make(sweep->folder, err))
-            return false;
-        snprintf(path, sizeof path, "%s/points", sweep->folder);
-        if (!(sweep->study.keep_table || folder_make(path, err))) return false;
-
-        if (!slurm_end_leftovers(sweep, err)) return false;
-        if (!open_reports(sweep, err)) return false;
-    }
-    return list_reports(sweep, err) && sweep_take_finished(sweep, first, err);
 }
 
 bool sweep_add(Sweep *sweep, const char *designs, Error *err)

@@ -25,43 +25,36 @@ static const char RUN_REPORT[] = "run.json";   // whose presence makes a point f
 static const char CHECKPOINT[] =
     "checkpoint.bin";   // of a run that was cut off; short ones have none
 
-// The content of the mesh file decides, not its path; where it draws on others, the mesh that gmsh
-// makes of it with this point's parameters, every time.
-static bool hash_mesh(const Scene *scene, PointMesh *mesh, Error *err)
-{
-    MeshFile made = {0};
-    bool whole = false;
-    if (strcmp(mesh->path, scene->mesh.file) == 0) return true;
-    mesh->hash = hash_start();
-    TRY(mesh_source_hash(scene->mesh.file, NULL, 0, &mesh->hash, &whole, err));
-    if (whole) {
-        memcpy(mesh->path, scene->mesh.file, SCENE_TEXT_SIZE);
-    } else {
-        Error failed = {0};   // it will be this point's own, when it is computed
-        if (mesh_file_read(scene->mesh.file, scene->mesh.parameters, scene->mesh.parameter_count,
-                           scene->trusted, NULL, &made, &failed))
-            mesh_file_hash(&made, &mesh->hash);
-    }
-cleanup:
-    mesh_file_destroy(&made);
-    return error_is_clean(err);
-}
-
 static bool key_counts(const char *key)
 {
     return strcmp(key, "title") != 0 && strcmp(key, "mesh.file") != 0;
 }
 
 // Hashes all that decides the result of a point, the mesh by its content. The title and the path of
-// the mesh do not count.
+// the mesh do not count. Where the mesh file draws on others, the mesh counts that gmsh makes of it
+// with this point's parameters, every time.
 bool point_hash(Sweep *sweep, const Scene *scene, char text[HASH_TEXT_SIZE], Error *err)
 {
+    PointMesh *mesh = &sweep->mesh;
+    MeshFile made = {0};
+    bool whole = false;
     Hash hash = computation_hash();
-    if (!hash_mesh(scene, &sweep->mesh, err)) return false;
-    hash_bytes(&hash, &sweep->mesh.hash, sizeof sweep->mesh.hash);
-    if (!scene_hash(scene, key_counts, &hash, err)) return false;
+    if (strcmp(mesh->path, scene->mesh.file) != 0) {
+        mesh->hash = hash_start();
+        TRY(mesh_source_hash(scene->mesh.file, NULL, 0, &mesh->hash, &whole, err));
+        Error failed = {0};   // it will be this point's own, when it is computed
+        if (whole)
+            memcpy(mesh->path, scene->mesh.file, SCENE_TEXT_SIZE);
+        else if (mesh_file_read(scene->mesh.file, scene->mesh.parameters,
+                                scene->mesh.parameter_count, scene->trusted, NULL, &made, &failed))
+            mesh_file_hash(&made, &mesh->hash);
+    }
+    hash_bytes(&hash, &mesh->hash, sizeof mesh->hash);
+    TRY(scene_hash(scene, key_counts, &hash, err));
     hash_write(&hash, text);
-    return true;
+cleanup:
+    mesh_file_destroy(&made);
+    return error_is_clean(err);
 }
 
 static int compare_hashes(const void *a, const void *b)
@@ -197,19 +190,6 @@ static void take_report(const char *json, void *context)
     *report = memory_text(json, &ignored);
 }
 
-// Without any file.
-static bool run_for_table(const Scene *scene, char **report, Error *err)
-{
-    RunSummary summary;
-    RunOptions options = {.on_report = take_report, .context = report};
-    bool done = amontons_run(scene, &options, &summary, err);
-    if (!*report) return done;
-    json_drop(*report, "scene");
-    json_drop(*report, "results.events");
-    json_compact(*report);
-    return done;
-}
-
 bool point_keep(Sweep *sweep, int32_t point, const char *report, Error *err)
 {
     SweepPoint *at = &sweep->points[point];
@@ -226,11 +206,17 @@ bool point_run(const Sweep *sweep, int32_t point, char **report, Error *err)
     const Scene *scene = point_scene(sweep, point, err);
     *report = NULL;
     TRY(scene);
-    point_path(sweep, point, "", folder);
-    if (sweep->reports.open) {
-        TRY(run_for_table(scene, report, err));
+    if (sweep->reports.open) {   // without any file
+        options = (RunOptions){.on_report = take_report, .context = report};
+        amontons_run(scene, &options, &summary, err);
+        if (*report) {
+            json_drop(*report, "scene");
+            json_drop(*report, "results.events");
+            json_compact(*report);
+        }
         goto cleanup;
     }
+    point_path(sweep, point, "", folder);
     point_path(sweep, point, CHECKPOINT, checkpoint);
     options.resume = access(checkpoint, F_OK) == 0 && !(scene->accuracy.mu > 0);
     if (amontons_run(scene, &options, &summary, err) || !options.resume) goto cleanup;

@@ -27,13 +27,13 @@ enum {
     POINTS_EACH = 256   // of a child: whatever a library does not free goes with it
 };
 
-typedef struct Worker {
+typedef struct PoolChild {
     pid_t process;   // 0: none
     int socket;   // our end
     int32_t point;   // under way; -1: none
     int32_t given;   // points so far
     double started;   // the point; wall clock, s
-} Worker;
+} PoolChild;
 
 // A point has ended; `size` bytes of its report follow.
 typedef struct Reply {
@@ -46,10 +46,9 @@ typedef struct Reply {
 // must not take its neighbours along.
 typedef struct Pool {
     Sweep *sweep;
-    int32_t size;   // workers at a time
-    Worker *workers;   // [size]; owned
-    struct pollfd *polled;   // [size]; owned
-    int32_t next, step;   // point to look at for the next worker; to the one behind it
+    int32_t size;   // children at a time
+    PoolChild *children;   // [size]; owned
+    int32_t next, step;   // point to look at for the next child; to the one behind it
 } Pool;
 
 // --- in the child -------------------------------------------------------------------------------
@@ -83,167 +82,142 @@ static void be_child(const Sweep *sweep, int socket, pid_t parent)
 
 // The child's pid is compared with ours after the fork (be_child): a parent that died in between
 // would leave it without one. What streams hold is written before: the child has a copy of them.
-static bool start_worker(Pool *pool, Worker *worker, Error *err)
+static bool start_child(Pool *pool, PoolChild *child, Error *err)
 {
     int ends[2] = {-1, -1};
     pid_t parent = getpid();
     if (socketpair(AF_UNIX, SOCK_STREAM, 0, ends) != 0)
         return FAULT(err, ERROR_FILE, "cannot open a socket: %s", strerror(errno));
     fflush(NULL);
-    *worker = (Worker){.process = fork(), .socket = ends[0], .point = -1};
-    if (worker->process == 0) {
+    *child = (PoolChild){.process = fork(), .socket = ends[0], .point = -1};
+    if (child->process == 0) {
         close(ends[0]);
         be_child(pool->sweep, ends[1], parent);
     }
     close(ends[1]);
-    if (worker->process < 0) {
+    if (child->process < 0) {
         int cause = errno;
-        worker->process = 0;
+        child->process = 0;
         close(ends[0]);
         return FAULT(err, ERROR_FILE, "cannot start a process: %s", strerror(cause));
     }
     return true;
 }
 
-// Takes what a point left, or else says why it left nothing: the message of its child, or how that
-// ended (as process_wait has it).
-static bool note_result(Pool *pool, const Worker *of, const Reply *reply, int ending, Error *err)
-{
-    const char *said = reply->message, *failure = *said ? "not begun" : "crashed";
-    if (*said && (reply->code == ERROR_FILE || reply->code == ERROR_MEMORY))
-        failure = amontons_error_name(reply->code);   // the machine's, not the point's
-    char message[ERROR_MESSAGE_SIZE], how[200];
-    double seconds = clock_seconds() - of->started;
-    bool left = false;
-    process_describe(ending, how, sizeof how);
-    if (!sweep_take_ended(pool->sweep, of->point, seconds, &left, err)) return false;
-    if (left) return true;
-    if (*said)
-        snprintf(message, sizeof message, "%s", said);
-    else
-        snprintf(message, sizeof message, "the process ended %s, without a word", how);
-    return sweep_take_lost(pool->sweep, of->point, seconds, failure, message, err);
-}
-
-// Waits for the child, which ends by itself once it has nothing to read, and frees its worker. The
+// Waits for the child, which ends by itself once it has nothing to read, and frees its place. The
 // status as process_wait has it.
-static int reap(Worker *worker)
+static int reap(PoolChild *child)
 {
-    shutdown(worker->socket, SHUT_WR);   // also where another child has a copy of it
-    int ending = process_wait(worker->process, NULL);
-    close(worker->socket);
-    worker->process = 0;
+    shutdown(child->socket, SHUT_WR);   // also where another child has a copy of it
+    int ending = process_wait(child->process, NULL);
+    close(child->socket);
+    child->process = 0;
     return ending;
 }
 
-// Gives an idle worker the next pending point; without one it stays idle. A child that cannot be
+// Gives an idle child the next pending point; without one it stays idle. A child that cannot be
 // written to has died: that shows when it is read.
-static bool give_point(Pool *pool, Worker *worker, Error *err)
+static bool give_point(Pool *pool, PoolChild *child, Error *err)
 {
     Sweep *sweep = pool->sweep;
     while (pool->next < sweep->study.point_count && !sweep_is_waiting(sweep, pool->next))
         pool->next++;
     if (pool->next >= sweep->study.point_count) return true;
-    if (worker->process && worker->given == POINTS_EACH) reap(worker);
-    if (!worker->process && !start_worker(pool, worker, err)) return false;
-    worker->point = pool->next;
+    if (child->process && child->given == POINTS_EACH) reap(child);
+    if (!child->process && !start_child(pool, child, err)) return false;
+    child->point = pool->next;
     pool->next += pool->step;
-    worker->given++;
-    worker->started = clock_seconds();
-    send(worker->socket, &worker->point, sizeof worker->point, MSG_NOSIGNAL);
+    child->given++;
+    child->started = clock_seconds();
+    send(child->socket, &child->point, sizeof child->point, MSG_NOSIGNAL);
     return true;
 }
 
-static bool fill_workers(Pool *pool, Error *err)
-{
-    for (int32_t k = 0; k < pool->size; k++) {
-        Worker *worker = &pool->workers[k];
-        if ((!worker->process || worker->point < 0) && !give_point(pool, worker, err)) return false;
-    }
-    return true;
-}
-
-// *report: what follows the reply; NULL: nothing. false: the child has ended.
-static bool receive(int socket, Reply *reply, char **report, Error *err)
-{
-    if (transfer_read(socket, reply, sizeof *reply, -1) != sizeof *reply) return false;
-    if (reply->size <= 0) return true;
-    *report = memory_array((int64_t)reply->size + 1, 1, err);
-    return *report && transfer_read(socket, *report, reply->size, -1) == reply->size;
-}
-
-// The next point is handed out before the result of the last is looked at.
-static bool read_worker(Pool *pool, Worker *worker, Error *err)
+// Takes the reply of a child whose socket has something to read, and what its point left, or else
+// records why that left nothing: the message of its child, or how that ended. The next point is
+// handed out before the result of the last is looked at.
+static bool read_child(Pool *pool, PoolChild *child, Error *err)
 {
     Reply reply = {0};
-    Worker before = *worker;
+    PoolChild before = *child;
     Error unable = {0};
-    char *report = NULL;
+    char *report = NULL, message[ERROR_MESSAGE_SIZE], how[200];
     int ending = 0;
-    bool whole = receive(worker->socket, &reply, &report, err);
+    bool left = false;
+    bool whole = transfer_read(child->socket, &reply, sizeof reply, -1) == sizeof reply;
+    if (whole && reply.size > 0) {
+        report = memory_array((int64_t)reply.size + 1, 1, err);
+        whole = report && transfer_read(child->socket, report, reply.size, -1) == reply.size;
+    }
     if (whole)
-        worker->point = -1;
+        child->point = -1;
     else
-        ending = reap(worker);
+        ending = reap(child);   // the child has ended
     if (before.point < 0) goto cleanup;
-    give_point(pool, worker, &unable);
+    give_point(pool, child, &unable);
     if (whole && report) TRY(point_keep(pool->sweep, before.point, report, err));
-    TRY(note_result(pool, &before, &reply, ending, err));
+
+    double seconds = clock_seconds() - before.started;
+    process_describe(ending, how, sizeof how);
+    TRY(sweep_take_ended(pool->sweep, before.point, seconds, &left, err));
+    if (!left) {
+        const char *said = reply.message, *failure = *said ? "not begun" : "crashed";
+        if (*said && (reply.code == ERROR_FILE || reply.code == ERROR_MEMORY))
+            failure = amontons_error_name(reply.code);   // the machine's, not the point's
+        if (*said)
+            snprintf(message, sizeof message, "%s", said);
+        else
+            snprintf(message, sizeof message, "the process ended %s, without a word", how);
+        TRY(sweep_take_lost(pool->sweep, before.point, seconds, failure, message, err));
+    }
     if (!error_is_clean(&unable)) *err = unable;
 cleanup:
     memory_free(report);
     return error_is_clean(err);
 }
 
-// Waits for output or the end of any worker. *running: how many there are.
-static bool read_workers(Pool *pool, int32_t *running, Error *err)
-{
-    *running = 0;
-    for (int32_t k = 0; k < pool->size; k++) {
-        const Worker *worker = &pool->workers[k];
-        pool->polled[k] =
-            (struct pollfd){.fd = worker->process ? worker->socket : -1, .events = POLLIN};
-        *running += worker->process != 0 && worker->point >= 0;
-    }
-    if (*running == 0) return true;
-    if (poll(pool->polled, (nfds_t)pool->size, WAKE_MS) <= 0) return true;
-    for (int32_t k = 0; k < pool->size; k++)
-        if (pool->polled[k].revents && !read_worker(pool, &pool->workers[k], err)) return false;
-    return true;
-}
-
-// A point that was written before the signal came is finished like any other.
-static void end_workers(Pool *pool)
-{
-    for (int32_t k = 0; k < pool->size; k++) {
-        Error ignored = {0};   // the caller tells why the pool ends
-        Worker *worker = &pool->workers[k];
-        bool left = false;
-        if (!worker->process) continue;
-        kill(worker->process, SIGTERM);
-        reap(worker);
-        if (worker->point >= 0)
-            sweep_take_ended(pool->sweep, worker->point, clock_seconds() - worker->started, &left,
-                             &ignored);
-    }
-}
-
 // Children are watched by poll, not by signals: a pipe closes however its child ends.
-bool pool_run(Sweep *sweep, int32_t workers, int32_t step, Error *err)
+bool pool_run(Sweep *sweep, int32_t jobs, int32_t step, Error *err)
 {
     int32_t cores = (int32_t)sysconf(_SC_NPROCESSORS_ONLN), running = 0;
-    Pool pool = {.sweep = sweep, .size = workers, .step = step};
+    Pool pool = {.sweep = sweep, .size = jobs, .step = step};
+    struct pollfd *polled = NULL;   // [size]
     if (pool.size < 1) pool.size = cores > 0 ? cores : 1;
     if (pool.size > JOBS_MAX) pool.size = JOBS_MAX;
-    TRY((pool.workers = NEW_ARRAY(Worker, pool.size, err)));
-    TRY((pool.polled = NEW_ARRAY(struct pollfd, pool.size, err)));
+    TRY((pool.children = NEW_ARRAY(PoolChild, pool.size, err)));
+    TRY((polled = NEW_ARRAY(struct pollfd, pool.size, err)));
     do {
         TRY(sweep_check_stop(sweep, err));
-        TRY(fill_workers(&pool, err));
-        TRY(read_workers(&pool, &running, err));
+        running = 0;
+        for (int32_t k = 0; k < pool.size; k++) {
+            PoolChild *child = &pool.children[k];
+            if (!child->process || child->point < 0) TRY(give_point(&pool, child, err));
+        }
+
+        // Output, or the end, of any child.
+        for (int32_t k = 0; k < pool.size; k++) {
+            const PoolChild *child = &pool.children[k];
+            polled[k] =
+                (struct pollfd){.fd = child->process ? child->socket : -1, .events = POLLIN};
+            running += child->process != 0 && child->point >= 0;
+        }
+        if (running == 0 || poll(polled, (nfds_t)pool.size, WAKE_MS) <= 0) continue;
+        for (int32_t k = 0; k < pool.size; k++)
+            if (polled[k].revents) TRY(read_child(&pool, &pool.children[k], err));
     } while (running > 0);
 cleanup:
-    if (pool.workers) end_workers(&pool);
-    memory_free_all(pool.workers, pool.polled);
+    // A point that was written before the signal came is finished like any other.
+    for (int32_t k = 0; pool.children && k < pool.size; k++) {
+        Error ignored = {0};   // the caller tells why the pool ends
+        PoolChild *child = &pool.children[k];
+        bool left = false;
+        if (!child->process) continue;
+        kill(child->process, SIGTERM);
+        reap(child);
+        if (child->point >= 0)
+            sweep_take_ended(sweep, child->point, clock_seconds() - child->started, &left,
+                             &ignored);
+    }
+    memory_free_all(pool.children, polled);
     return error_is_clean(err);
 }

@@ -5,7 +5,7 @@
 
 #include "study/sweep/computing/point.h"
 
-// workers: points at a time; 0: as many as there are cores. Every step-th point is looked at.
-bool pool_run(Sweep *sweep, int32_t workers, int32_t step, Error *err);
+// jobs: points at a time; 0: as many as there are cores. Every step-th point is looked at.
+bool pool_run(Sweep *sweep, int32_t jobs, int32_t step, Error *err);
 
 #endif

@@ -48,15 +48,6 @@ static void write_head(const char *hash, const char *json, size_t size, char hea
     snprintf(head, HEAD_LENGTH + 1, "%.32s %s ", hash, checksum);
 }
 
-// length: without the end of the line.
-static bool is_report(const char *line, int64_t length)
-{
-    char head[HEAD_LENGTH + 1];
-    if (length <= HEAD_LENGTH) return false;
-    write_head(line, line + HEAD_LENGTH, (size_t)(length - HEAD_LENGTH), head);
-    return memcmp(line, head, HEAD_LENGTH) == 0;
-}
-
 bool reports_list(Reports *reports, ReportFound found, void *context, Error *err)
 {
     char *line = NULL;
@@ -68,7 +59,10 @@ bool reports_list(Reports *reports, ReportFound found, void *context, Error *err
     for (ssize_t length; (length = getline(&line, &room, file)) > 0; reports->end += length) {
         if (line[length - 1] != '\n') break;
         ReportPlace place = {reports->end + HEAD_LENGTH, (int32_t)length - HEAD_LENGTH - 1};
-        if (!is_report(line, length - 1)) continue;
+        char head[HEAD_LENGTH + 1];
+        if (place.size <= 0) continue;
+        write_head(line, line + HEAD_LENGTH, (size_t)place.size, head);
+        if (memcmp(line, head, HEAD_LENGTH) != 0) continue;
         line[HASH_LENGTH] = 0;
         found(context, line, place);
     }

@@ -7,7 +7,7 @@
 #include "io/files/text_file.h"
 #include "io/text/text_writer.h"
 #include "study/sweep/computing/pool.h"
-#include "study/sweep/reading/study_vary.h"
+#include "study/sweep/reading/study_read.h"
 
 #include <dirent.h>
 #include <stdlib.h>
@@ -60,19 +60,6 @@ cleanup:
 
 // --- in the process of the element --------------------------------------------------------------
 
-static bool read_designs(Sweep *sweep, Error *err)
-{
-    char path[SHARE_PATH_SIZE], *text = NULL;
-    int32_t size = 0;
-    snprintf(path, sizeof path, "%s/slurm/designs", sweep->folder);
-    TRY(text_file_bytes(path, SHARE_BYTES_MAX, &text, &size, err));
-    for (const char *design = text; design < text + size; design += strlen(design) + 1)
-        TRY(study_add_designs(&sweep->study, design, err));
-cleanup:
-    memory_free(text);
-    return error_is_clean(err);
-}
-
 // Marks the point of a line as waiting. Its scene must have the hash that it had when the sweep
 // began: a study that was changed meanwhile would answer another question.
 static bool add_point(Sweep *sweep, const char *line, Error *err)
@@ -93,32 +80,31 @@ static bool add_point(Sweep *sweep, const char *line, Error *err)
     return true;
 }
 
-static bool read_points(Sweep *sweep, const char *path, Error *err)
+bool share_run(Sweep *sweep, int32_t share, Error *err)
 {
-    char *text = NULL, *rest = NULL;
+    char path[SHARE_PATH_SIZE], *designs = NULL, *text = NULL, *rest = NULL;
     int32_t size = 0;
+    if (sweep->study.search.node != YAML_NO_NODE) {
+        snprintf(path, sizeof path, "%s/slurm/designs", sweep->folder);
+        TRY(text_file_bytes(path, SHARE_BYTES_MAX, &designs, &size, err));
+        for (const char *one = designs; one < designs + size; one += strlen(one) + 1)
+            TRY(study_add_designs(&sweep->study, one, err));
+    }
+
+    share_path(sweep, share, "points", path);
     TRY((sweep->points = NEW_ARRAY(SweepPoint, sweep->study.point_count, err)));
     for (int32_t k = 0; k < sweep->study.point_count; k++) sweep->points[k].same_as = -1;
     TRY(text_file_read(path, SHARE_BYTES_MAX, &text, &size, err));
     for (const char *line = strtok_r(text, "\n", &rest); line; line = strtok_r(NULL, "\n", &rest))
         TRY(add_point(sweep, line, err));
-cleanup:
-    memory_free(text);
-    return error_is_clean(err);
-}
 
-bool share_run(Sweep *sweep, int32_t share, Error *err)
-{
-    char path[SHARE_PATH_SIZE];
-    share_path(sweep, share, "points", path);
-    TRY(sweep->study.search.node == YAML_NO_NODE || read_designs(sweep, err));
-    TRY(read_points(sweep, path, err));
     share_path(sweep, share, "reports", path);
     if (sweep->study.keep_table) TRY(reports_open(&sweep->reports, path, true, err));
     sweep->checked = true;   // what is recorded: by the sweep
     TRY(pool_run(sweep, 1, 1, err));
 cleanup:
     reports_close(&sweep->reports);
+    memory_free_all(designs, text);
     return error_is_clean(err);
 }
 

@@ -47,64 +47,12 @@ typedef struct SlurmRun {
     char cause[ERROR_MESSAGE_SIZE];   // of the first of them
 } SlurmRun;
 
-static bool submit(SlurmRun *run, Error *err)
-{
-    const Sweep *sweep = run->sweep;
-    char script[POINT_PATH_SIZE];
-    slurm_path(&run->jobs, "array.sh", script, sizeof script);
-    if (!share_write_designs(sweep, err)) return false;
-    for (int32_t k = 0; k < run->count; k++)
-        if (!share_write(sweep, k, run->waiting, run->waiting_count, run->count, err)) return false;
-    return slurm_write_script(&run->jobs, script, sweep->study.path, sweep->options, err) &&
-           slurm_submit(&run->jobs, script, run->count, sweep->options, run->id, err);
-}
-
-// --- waiting ------------------------------------------------------------------------------------
-
-static void note_line(SlurmRun *run, const SlurmLine *line)
-{
-    if (strcmp(run->id, line->id) != 0 || line->index < 0 || line->index >= run->count) return;
-    Element *element = &run->elements[line->index];
-    element->listed = true;
-    element->ended = slurm_is_end(line->state);
-    memcpy(element->state, line->state, sizeof element->state);
-    memcpy(element->reason, line->reason, sizeof element->reason);
-}
-
-static bool look_at_queue(SlurmRun *run, bool *answered, Error *err)
-{
-    SlurmLine line;
-    char *rest = NULL;
-    if (!slurm_list(&run->jobs, answered, err)) return false;
-    if (!*answered) return true;
-    for (int32_t k = 0; k < run->count; k++)
-        run->elements[k].listed = run->elements[k].ended = false;
-    while (slurm_next_line(&run->jobs, &rest, &line)) note_line(run, &line);
-    return error_is_clean(err);
-}
-
-// The last line of what the element printed; "" where there is none.
-static void last_words(const SlurmRun *run, const char *job, char *words, size_t size)
-{
-    Error ignored = {0};
-    char path[POINT_PATH_SIZE], file[SLURM_JOB_SIZE + 8], *text = NULL;
-    int32_t length = 0;
-    *words = 0;
-    snprintf(file, sizeof file, "%s.out", job);
-    slurm_path(&run->jobs, file, path, sizeof path);
-    if (access(path, R_OK) != 0 || !text_file_read(path, 1 << 20, &text, &length, &ignored)) return;
-    while (length && text[length - 1] == '\n') text[--length] = 0;
-    const char *line = strrchr(text, '\n');
-    if (*text) snprintf(words, size, ": %.1000s", line ? line + 1 : text);
-    memory_free(text);
-}
-
-// How element `k` ended, in Slurm's words and its own last ones. One that was cancelled before it
-// began is no longer listed.
+// How element `k` ended, in Slurm's words and its own last ones: the last line that it printed. One
+// that was cancelled before it began is no longer listed.
 static void describe_end(SlurmRun *run, int32_t k, char message[ERROR_MESSAGE_SIZE])
 {
     const Element *element = &run->elements[k];
-    char state[SLURM_WORD_SIZE + SLURM_REASON_SIZE + 40], words[1100], job[SLURM_JOB_SIZE];
+    char state[SLURM_WORD_SIZE + SLURM_REASON_SIZE + 40], words[1100] = "", job[SLURM_JOB_SIZE];
     bool has_reason = *element->reason && strcmp(element->reason, "None") != 0;
     bool waited = strcmp(element->state, "PENDING") == 0;
     snprintf(job, sizeof job, "%s_%d", run->id, k);   // what Slurm calls it
@@ -116,25 +64,24 @@ static void describe_end(SlurmRun *run, int32_t k, char message[ERROR_MESSAGE_SI
         snprintf(state, sizeof state, "%s (%s)", last, element->reason);
     else
         snprintf(state, sizeof state, "%s", last);
-    last_words(run, job, words, sizeof words);
+
+    Error ignored = {0};
+    char path[POINT_PATH_SIZE], file[SLURM_JOB_SIZE + 8], *text = NULL;
+    int32_t length = 0;
+    snprintf(file, sizeof file, "%s.out", job);
+    slurm_path(&run->jobs, file, path, sizeof path);
+    if (access(path, R_OK) == 0 && text_file_read(path, 1 << 20, &text, &length, &ignored)) {
+        while (length && text[length - 1] == '\n') text[--length] = 0;
+        const char *line = strrchr(text, '\n');
+        if (*text) snprintf(words, sizeof words, ": %.1000s", line ? line + 1 : text);
+        memory_free(text);
+    }
     if (element->ended)
         snprintf(message, ERROR_MESSAGE_SIZE, "the Slurm job ended as %s%s", state, words);
     else
         snprintf(message, ERROR_MESSAGE_SIZE,
                  "the Slurm job left the queue without a result, last seen as %s%s", state,
                  waited ? ": cancelled before it began" : words);
-}
-
-// Element `k` has ended without a run.json of `point`, which it was at: its failure is recorded.
-static bool take_lost(SlurmRun *run, int32_t k, int32_t point, Error *err)
-{
-    const Element *element = &run->elements[k];
-    char message[ERROR_MESSAGE_SIZE];
-    bool cancelled = strcmp(element->state, "PENDING") == 0 ||
-                     strcmp(element->state, "CANCELLED") == 0;
-    describe_end(run, k, message);
-    return sweep_take_lost(run->sweep, point, NAN, cancelled ? "cancelled" : "crashed", message,
-                           err);
 }
 
 // The points of element `k` that have a result. *undone: how many have none; *first: of them.
@@ -165,8 +112,13 @@ static bool take_element(SlurmRun *run, int32_t k, Error *err)
                      strcmp(element->reason, "NonZeroExitCode") == 0;
         if (element->gone_since == 0) element->gone_since = clock_seconds();
         if (comes && clock_seconds() - element->gone_since < REPORT_PAUSE) goto cleanup;
-        if (!run->sweep->study.keep_table) {
-            TRY(take_lost(run, k, first, err));
+        if (!run->sweep->study.keep_table) {   // the point it was at has failed
+            char message[ERROR_MESSAGE_SIZE];
+            bool cancelled = strcmp(element->state, "PENDING") == 0 ||
+                             strcmp(element->state, "CANCELLED") == 0;
+            describe_end(run, k, message);
+            TRY(sweep_take_lost(run->sweep, first, NAN, cancelled ? "cancelled" : "crashed",
+                                message, err));
             undone--;
         }
         if (undone > 0 && run->undone == 0) describe_end(run, k, run->cause);
@@ -181,9 +133,22 @@ cleanup:
 // squeue is asked every LOOK_PAUSE seconds, the stop flag far more often.
 static bool wait_for_all(SlurmRun *run, Error *err)
 {
-    bool answered = false;
     while (run->left > 0) {
-        if (!look_at_queue(run, &answered, err)) return false;
+        bool answered = false;
+        SlurmLine line;
+        char *rest = NULL;
+        if (!slurm_list(&run->jobs, &answered, err)) return false;
+        for (int32_t k = 0; answered && k < run->count; k++)
+            run->elements[k].listed = run->elements[k].ended = false;
+        while (answered && slurm_next_line(&run->jobs, &rest, &line)) {
+            if (strcmp(run->id, line.id) != 0 || line.index < 0 || line.index >= run->count)
+                continue;
+            Element *element = &run->elements[line.index];
+            element->listed = true;
+            element->ended = slurm_is_end(line.state);
+            memcpy(element->state, line.state, sizeof element->state);
+            memcpy(element->reason, line.reason, sizeof element->reason);
+        }
         for (int32_t k = 0; answered && k < run->count; k++) {
             const Element *element = &run->elements[k];
             bool gone = !element->listed || element->ended;
@@ -198,30 +163,7 @@ static bool wait_for_all(SlurmRun *run, Error *err)
     return true;
 }
 
-// A point that was written before the elements were cancelled is finished like any other.
-static void take_finished(SlurmRun *run)
-{
-    for (int32_t k = 0; k < run->count; k++) {
-        Error ignored = {0};   // the caller tells why the sweep ends
-        int32_t undone = 0, first = 0;
-        if (!run->elements[k].taken) take_points(run, k, &undone, &first, &ignored);
-    }
-}
-
 // --- the whole ----------------------------------------------------------------------------------
-
-// The file `running` exists as long as jobs may be in the queue.
-static bool mark_running(const SlurmRun *run, Error *err)
-{
-    char path[POINT_PATH_SIZE], why[OPEN_WHY_SIZE];
-    slurm_path(&run->jobs, "", path, sizeof path);
-    if (!folder_make(path, err)) return false;
-    slurm_path(&run->jobs, "running", path, sizeof path);
-    int file = open_to_write(path, OPEN_KEPT, why);
-    if (file < 0) return FAULT(err, ERROR_FILE, "cannot write %s: %s", path, why);
-    close(file);
-    return true;
-}
 
 bool slurm_end_leftovers(const Sweep *sweep, Error *err)
 {
@@ -237,44 +179,35 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Mean time of some points that are done, without their mesh and basis, which the next ones find in
-// the cache; s. *tried: how many they are.
-static bool mean_time(const Sweep *sweep, int32_t *tried, double *mean, Error *err)
-{
-    double sum = 0;
-    int32_t count = sweep->study.point_count, step = 1 + count / TRIED_MAX;
-    *tried = 0;
-    for (int32_t k = 0; k < count; k++) {
-        double total = 0, mesh = 0, reduce = 0;
-        if (k % step != 0 || sweep->points[k].status != POINT_DONE) continue;
-        char *report = point_report(sweep, k, err);
-        if (!report) return false;
-        json_find_number(report, "timing_s.total", &total);
-        json_find_number(report, "timing_s.mesh", &mesh);
-        json_find_number(report, "timing_s.reduce", &reduce);
-        memory_free(report);
-        sum += total - mesh - reduce;
-        ++*tried;
-    }
-    *mean = *tried > 0 ? sum / *tried : SHARE_SECONDS;
-    return error_is_clean(err);
-}
-
+// Points that wait are cut into elements, one each. With `keep: table` an element takes as many as
+// need some minutes by the mean time of some points that are done, without their mesh and basis,
+// which the next ones find in the cache; as many elements as may run at a time (-j) there are in
+// any case.
 static bool list_elements(SlurmRun *run, Error *err)
 {
     const Sweep *sweep = run->sweep;
-    int32_t limit = 0;
-    if (!(run->waiting = NEW_ARRAY(int32_t, sweep->study.point_count, err))) return false;
-    for (int32_t k = 0; k < sweep->study.point_count; k++)
+    int32_t limit = 0, points = sweep->study.point_count, tried = 0;
+    if (!(run->waiting = NEW_ARRAY(int32_t, points, err))) return false;
+    for (int32_t k = 0; k < points; k++)
         if (sweep_is_waiting(sweep, k)) run->waiting[run->waiting_count++] = k;
     run->count = run->waiting_count;
     if (run->count == 0) return true;
 
     if (sweep->study.keep_table) {
-        // Shares of some minutes; as many as may run at a time (-j) there are in any case.
-        double mean = 0;
-        int32_t tried = 0;
-        if (!mean_time(sweep, &tried, &mean, err)) return false;
+        double sum = 0;
+        for (int32_t k = 0; k < points; k += 1 + points / TRIED_MAX) {
+            double total = 0, mesh = 0, reduce = 0;
+            if (sweep->points[k].status != POINT_DONE) continue;
+            char *report = point_report(sweep, k, err);
+            if (!report) return false;
+            json_find_number(report, "timing_s.total", &total);
+            json_find_number(report, "timing_s.mesh", &mesh);
+            json_find_number(report, "timing_s.reduce", &reduce);
+            memory_free(report);
+            sum += total - mesh - reduce;
+            tried++;
+        }
+        double mean = tried > 0 ? sum / tried : SHARE_SECONDS;
         run->count = (int32_t)ceil(run->waiting_count * fmin(mean / SHARE_SECONDS, 1));
         if (run->count < sweep->options->jobs) run->count = sweep->options->jobs;
         if (run->count > run->waiting_count) run->count = run->waiting_count;
@@ -286,23 +219,36 @@ static bool list_elements(SlurmRun *run, Error *err)
     return (run->elements = NEW_ARRAY(Element, run->count, err)) != NULL;
 }
 
-// Also after an error no job of ours stays in the queue: the file `running` is removed only when
-// that is known, and otherwise tells the next sweep to look.
+// Also after an error no job of ours stays in the queue: the file `running`, which exists as long
+// as jobs may be there, is removed only when that is known, and otherwise tells the next sweep to
+// look.
 bool slurm_run(Sweep *sweep, Error *err)
 {
     SlurmRun run = {.sweep = sweep};
+    const Study *study = &sweep->study;
     Error ignored = {0};
-    char path[POINT_PATH_SIZE];
+    char path[POINT_PATH_SIZE], script[POINT_PATH_SIZE], why[OPEN_WHY_SIZE];
     bool out = false;   // jobs may be
-    TRY(slurm_jobs_open(sweep->folder, sweep->study.point_count, &run.jobs, err));
+    TRY(slurm_jobs_open(sweep->folder, study->point_count, &run.jobs, err));
     // How long points take is found out here, before shares are cut: some of them, from all over.
-    if (sweep->study.keep_table)
-        TRY(pool_run(sweep, 1, 1 + sweep->study.point_count / TRIED_MAX, err));
+    if (study->keep_table) TRY(pool_run(sweep, 1, 1 + study->point_count / TRIED_MAX, err));
     TRY(list_elements(&run, err));
     if (run.count == 0) goto cleanup;
-    TRY(mark_running(&run, err));
+
+    slurm_path(&run.jobs, "", path, sizeof path);
+    TRY(folder_make(path, err));
+    slurm_path(&run.jobs, "running", path, sizeof path);
+    int file = open_to_write(path, OPEN_KEPT, why);
+    if (file < 0) FAIL(err, ERROR_FILE, "cannot write %s: %s", path, why);
+    close(file);
     out = true;
-    TRY(submit(&run, err));
+
+    TRY(share_write_designs(sweep, err));
+    for (int32_t k = 0; k < run.count; k++)
+        TRY(share_write(sweep, k, run.waiting, run.waiting_count, run.count, err));
+    slurm_path(&run.jobs, "array.sh", script, sizeof script);
+    TRY(slurm_write_script(&run.jobs, script, study->path, sweep->options, err));
+    TRY(slurm_submit(&run.jobs, script, run.count, sweep->options, run.id, err));
     TRY(wait_for_all(&run, err));
     if (run.undone > 0)
         FAIL(err, ERROR_INTERRUPT, "%d points are not computed, the same command goes on: %.1500s",
@@ -310,7 +256,12 @@ bool slurm_run(Sweep *sweep, Error *err)
 cleanup:
     if (!error_is_clean(err) && out) {
         out = !slurm_cancel(&run.jobs, &ignored);
-        take_finished(&run);
+        // A point that was written before the elements were cancelled is finished like any other.
+        for (int32_t k = 0; k < run.count; k++) {
+            Error none = {0};   // the caller tells why the sweep ends
+            int32_t undone = 0, first = 0;
+            if (!run.elements[k].taken) take_points(&run, k, &undone, &first, &none);
+        }
     } else {
         out = false;
     }

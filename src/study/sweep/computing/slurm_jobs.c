@@ -109,29 +109,22 @@ static void print_quoted(FILE *file, const char *before, const char *text)
     fputc('\'', file);
 }
 
-// The program `amontons`: this one, or where another (Python) calls the library, the one beside it.
-static bool find_program(char program[PATH_MAX], Error *err)
-{
-    static const char *const places[] = {AMONTONS_PROGRAM_FROM_LIBRARY, "amontons"};
-    char found[PATH_MAX];
-    system_program_path(program, PATH_MAX);
-    const char *name = strrchr(program, '/');
-    if (name && strncmp(name + 1, "amontons", 8) == 0) return true;
-    if (place_find(places, 2, found, sizeof found) && realpath(found, program)) return true;
-    FAIL(err, ERROR_FILE,
-         "cannot find the program `amontons`, which Slurm is to run: it is neither beside the "
-         "library nor in %s of its folder",
-         AMONTONS_PROGRAM_FROM_LIBRARY);
-cleanup:
-    return false;
-}
-
 bool slurm_write_script(const SlurmJobs *jobs, const char *path, const char *study,
                         const SweepOptions *options, Error *err)
 {
-    char program[PATH_MAX] = "", *here = getcwd(NULL, 0);
+    static const char *const places[] = {AMONTONS_PROGRAM_FROM_LIBRARY, "amontons"};
+    char program[PATH_MAX] = "", found[PATH_MAX], *here = getcwd(NULL, 0);
     TextWriter script = {0};
-    TRY(find_program(program, err));
+
+    // The program: this one, or where another (Python) calls the library, the one beside it.
+    system_program_path(program, PATH_MAX);
+    const char *name = strrchr(program, '/');
+    bool is_ours = name && strncmp(name + 1, "amontons", 8) == 0;
+    if (!is_ours && !(place_find(places, 2, found, sizeof found) && realpath(found, program)))
+        FAIL(err, ERROR_FILE,
+             "cannot find the program `amontons`, which Slurm is to run: it is neither beside the "
+             "library nor in %s of its folder",
+             AMONTONS_PROGRAM_FROM_LIBRARY);
     if (!here) FAIL(err, ERROR_FILE, "cannot find the path of this folder: %s", strerror(errno));
     TRY(text_writer_open(&script, path, false, err));
     FILE *out = script.out;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A study: one base scene and how it is varied. Read from a YAML file; the points it stands for are
-// scenes, each made on demand (study_point). study_read reads it, by study_vary and study_wanted.
+// scenes, each made on demand (study_point). study_read reads it, with study_wanted for results.
 //
 //     title: mu_M against pressure
 //     scene: fig1.yaml                          # relative to the study's folder
@@ -14,7 +14,23 @@
 //     rank: {by: mu_M, order: highest, top: 10, against: {rod.kind: push}, refine: 0.5%}
 //     plot: {x: load.pressure, y: mu_M, series: mesh.set.length, log: x}   # or a list of plots
 //
-// One that searches has a goal in place of `cases` (study_goal).
+// One that searches (study/search) has `search`, and `where` and `best` where they are wanted, in
+// place of `cases`: designs, each computed at all points of `vary`.
+//
+//     search: {mesh.set.n: {whole: [1, 12]}, mesh.set.pad_height: {log: [0.01, 0.2]}}
+//     where: [{value: = mesh.set.n * mesh.set.pad_height, most: 0.6}]
+//     best: {over: worst, designs: 40, seed: 1}   # or mean, deviation, front
+//
+// Or it fits measurements (study/search/fit):
+//
+//     fit: {measured: measured.csv, sure: 95%, designs: 40, seed: 1}
+//
+// A plot, also that of `amontons render --plot`, has quantities that are columns of the sweep's
+// table, or formulas over columns that begin with `=`:
+//
+//     {x: load.pressure, y: mu_M, series: mesh.set.length, log: x}          curves
+//     {x: load.pressure, y: mesh.set.length, color: mu_M, contours: l_c}    a map
+//     {x: load.pressure, y: mu_M, compare: measured.csv}    beside measurements
 //
 // A value that begins with `=` is a formula (scene/formulas) over the numbers of the scene;
 // formulas are worked out last, in the order of the file. Later ones win: the base scene, what
@@ -25,9 +41,6 @@
 
 #include "io/text/yaml_document.h"
 #include "scene/scene.h"
-#include "study/sweep/reading/plot_words.h"
-#include "study/sweep/reading/study_goal.h"
-#include "study/sweep/reading/wanted_keys.h"
 
 enum {
     STUDY_AXES_MAX = 16,
@@ -39,12 +52,73 @@ enum {
     STUDY_POINTS_MAX = 1000000,
     STUDY_PLOTS_MAX = 8,
     STUDY_ALSO_MAX = 3,
+    STUDY_SEARCH_MAX = 12,   // keys that are searched
+    STUDY_LIMITS_MAX = 16,
+    STUDY_DESIGNS_MAX = 1000,
 };
 
 // A sweep wants numbers: nothing is kept of a point but run.json, and it ends when it is periodic.
 #define STUDY_STANDARD                                                                             \
     "{time.until.periodic: true, output.history: false, output.fields: none, output.figures: []}"
 
+enum { STUDY_NAME_SIZE = 96, PLOT_TEXT_SIZE = 200, PLOT_FOLDER_SIZE = 512, PLOT_WITH_MAX = 6 };
+
+typedef enum PlotKey {
+    PLOT_X,
+    PLOT_Y,
+    PLOT_COLOR,   // given: the plot is a map
+    PLOT_CONTOURS,
+    PLOT_SERIES,   // a key: a curve for each of its values
+    PLOT_PANELS,   // a key: a panel for each of its values
+    PLOT_KEYS,
+} PlotKey;
+
+typedef struct StudyPlot {
+    char name[STUDY_NAME_SIZE];   // of its files
+    char text[PLOT_KEYS][PLOT_TEXT_SIZE];   // empty: not given
+    YamlNode node[PLOT_KEYS];   // where it stands
+    bool log_given, log_x, log_y;
+    int32_t with_count;
+    char with[PLOT_WITH_MAX][PLOT_FOLDER_SIZE];   // other sweeps to show beside: their folders, as
+        // seen from the file's, or from the working folder where there is none
+    char compare[PLOT_FOLDER_SIZE];   // a table of measurements, seen likewise; empty: none
+} StudyPlot;
+
+typedef enum SearchScale { SEARCH_LINEAR, SEARCH_LOG, SEARCH_WHOLE } SearchScale;
+
+typedef struct SearchKey {
+    char key[STUDY_NAME_SIZE];
+    SearchScale scale;
+    double least, most;
+    char unit[12];   // " m": numbers are handed to the scene with it; "": as they are
+} SearchKey;
+
+// Limits of one formula of `where`: a design is computed only if the value is between them.
+typedef struct SearchLimit {
+    YamlNode formula;
+    double least, most;   // infinite: no limit
+} SearchLimit;
+
+// How the value of a design follows from its values at the points of `vary`.
+typedef enum SearchOver {
+    OVER_WORST,
+    OVER_MEAN,
+    OVER_DEVIATION,   // the standard deviation: least is best
+    OVER_FRONT,   // each point is an aim of its own (study/search/pareto_front)
+} SearchOver;
+
+typedef struct StudySearch {
+    YamlNode node;   // of `search`; YAML_NO_NODE: the study does not search
+    int32_t key_count, limit_count;
+    SearchKey keys[STUDY_SEARCH_MAX];
+    SearchLimit limits[STUDY_LIMITS_MAX];
+    SearchOver over;
+    int32_t designs;   // that are chosen by the search
+    uint32_t seed;
+    bool fits;   // measurements: it has `fit`, not `best`
+    YamlNode measured;   // of `fit`: a path, or a list of them
+    double sure;   // of its regions: 0.95
+} StudySearch;
 typedef struct StudyRecord {
     char name[STUDY_NAME_SIZE];   // of the column
     char path[STUDY_NAME_SIZE];   // in run.json
@@ -127,13 +201,25 @@ typedef struct Study {
 void study_destroy(Study *study);   // also of one half read
 
 // --- what the files that read a study share
+typedef struct WantedKey {
+    const char *name;   // "by"
+    YamlNode node;   // found under it; YAML_NO_NODE: not given
+} WantedKey;
+
+enum { WANTED_KEYS_MAX = 16 };
+
+// Finds `keys` ([count]) in `map`, called `what`; refuses every other key.
+bool wanted_find(const YamlDocument *file, YamlNode map, const char *what, WantedKey *keys,
+                 int32_t count, Error *err);
+// The index in `words` ([count]) of the text at `key`, which may be missing: 0 then.
+bool wanted_choice(const YamlDocument *file, const WantedKey *key, const char *const *words,
+                   int32_t count, int32_t *choice, Error *err);
+
 // Makes `key` a column, once; its index; -1: the error says why not.
 int32_t study_add_column(Study *study, const char *key, Error *err);
 // The index in `columns` of the key `name`; -1: it does not vary.
 int32_t study_column(const Study *study, const char *name);
 bool study_is_chosen(const Study *study, const char *key);
-// *values: the children of a list, to be found by number at once (memory_free).
-bool study_list(const YamlDocument *document, YamlNode list, YamlNode **values, Error *err);
 bool study_plain_number(const Study *study, YamlNode node, double *value);   // false: is none
 // [from, to] of a key, in SI base units where both have units; unit: the base unit then ("m"), with
 // which numbers are to be handed to the scene, else "". false: it is none.

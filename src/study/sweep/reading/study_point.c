@@ -115,22 +115,6 @@ static bool gather(const Study *study, const PointChoice *choice, PointSettings 
     return !choice->baseline || add_map(settings, study->file, study->rank.baseline, err);
 }
 
-// Formula `k` over `scene`, which gets its value.
-static bool work_out(const Study *study, PointSettings *settings, int32_t k, Scene *scene,
-                     Error *err)
-{
-    const SceneSetting *formula = &settings->formulas[k];
-    char name[SCENE_TEXT_SIZE + 120];
-    snprintf(name, sizeof name, "%s:%d:%d, value of `%.80s`", study->path,
-             yaml_line(formula->document, formula->node),
-             yaml_column(formula->document, formula->node),
-             yaml_text(formula->document, formula->node));
-    if (!scene_work_out(scene, formula, name, &settings->values[k], err)) return false;
-    SceneSetting setting = {
-        .key = formula->key, .document = settings->values[k], .node = YAML_ROOT};
-    return scene_source_add(study->source, &setting, scene, err);
-}
-
 // The scene is made anew after each formula: the next one may use its value.
 bool study_scene(const Study *study, const PointChoice *choice, Scene *scene, Error *err)
 {
@@ -138,8 +122,18 @@ bool study_scene(const Study *study, const PointChoice *choice, Scene *scene, Er
     TRY(settings);
     TRY(gather(study, choice, settings, err));
     TRY(scene_source_begin(study->source, settings->list, settings->count, scene, err));
-    for (int32_t k = 0; k < settings->formula_count; k++)
-        TRY(work_out(study, settings, k, scene, err));
+    for (int32_t k = 0; k < settings->formula_count; k++) {
+        const SceneSetting *formula = &settings->formulas[k];
+        char name[SCENE_TEXT_SIZE + 120];
+        snprintf(name, sizeof name, "%s:%d:%d, value of `%.80s`", study->path,
+                 yaml_line(formula->document, formula->node),
+                 yaml_column(formula->document, formula->node),
+                 yaml_text(formula->document, formula->node));
+        TRY(scene_work_out(scene, formula, name, &settings->values[k], err));
+        SceneSetting value = {
+            .key = formula->key, .document = settings->values[k], .node = YAML_ROOT};
+        TRY(scene_source_add(study->source, &value, scene, err));
+    }
 cleanup:
     for (int32_t k = 0; settings && k < settings->formula_count; k++)
         yaml_destroy(settings->values[k]);

@@ -61,32 +61,25 @@ bool figure_end(Figure *figure, Error *err)
            amontons_render_plot_file(path, picture, figure->style, err);
 }
 
-// A long array becomes a column of figures/NAME.h5, and the text says which.
-static bool store_numbers(Figure *figure, const char *key, const double *values, int32_t count,
-                          Error *err)
-{
-    char path[AMONTONS_PATH_SIZE], name[NAME_SIZE], place[AMONTONS_PATH_SIZE];
-    ArraySeries series = {.name = name,
-                          .type = ARRAY_FLOAT64,
-                          .width = 1,
-                          .unit = "of the scene",
-                          .description = "drawn by the file of the same name"};
-    snprintf(name, sizeof name, "%.12s_%d", key, figure->stored++);
-    if (!figure->arrays) {
-        if (!figure_path(figure, "h5", path, err)) return false;
-        if (!(figure->arrays = array_file_create(path, err))) return false;
-    }
-    if (!array_file_write(figure->arrays, &series, values, 0, count, err)) return false;
-    snprintf(place, sizeof place, "%.200s.h5:%s", figure->name, name);
-    json_text(figure->json, key, place);
-    return true;
-}
-
 bool figure_write_numbers(Figure *figure, const char *key, const double *values, int32_t count,
                           Error *err)
 {
-    if (figure->written + count > TEXT_NUMBERS_MAX)
-        return store_numbers(figure, key, values, count, err);
+    if (figure->written + count > TEXT_NUMBERS_MAX) {
+        // A long array becomes a column of figures/NAME.h5, and the text says which.
+        char path[AMONTONS_PATH_SIZE], name[NAME_SIZE], place[AMONTONS_PATH_SIZE];
+        ArraySeries series = {.name = name,
+                              .type = ARRAY_FLOAT64,
+                              .width = 1,
+                              .unit = "of the scene",
+                              .description = "drawn by the file of the same name"};
+        snprintf(name, sizeof name, "%.12s_%d", key, figure->stored++);
+        if (!figure->arrays && !figure_path(figure, "h5", path, err)) return false;
+        if (!figure->arrays && !(figure->arrays = array_file_create(path, err))) return false;
+        if (!array_file_write(figure->arrays, &series, values, 0, count, err)) return false;
+        snprintf(place, sizeof place, "%.200s.h5:%s", figure->name, name);
+        json_text(figure->json, key, place);
+        return true;
+    }
     figure->written += count;
     json_begin_list(figure->json, key);
     for (int32_t k = 0; k < count; k++) json_number(figure->json, NULL, values[k]);
@@ -105,35 +98,30 @@ void figure_write_axis(Figure *figure, const char *name, const QuantityLabel *la
     json_end(figure->json);
 }
 
-// Both ends of error bars.
-static bool write_bars(Figure *figure, const Curve *curve, Error *err)
-{
-    const double *value = curve->lying ? curve->x : curve->y;
-    double *ends = NEW_ARRAY(double, curve->count, err);
-    TRY(ends);
-    for (int32_t k = 0; k < curve->count; k++) ends[k] = value[k] - curve->error[k];
-    TRY(figure_write_numbers(figure, "low", ends, curve->count, err));
-    for (int32_t k = 0; k < curve->count; k++) ends[k] = value[k] + curve->error[k];
-    TRY(figure_write_numbers(figure, "high", ends, curve->count, err));
-cleanup:
-    memory_free(ends);
-    return error_is_clean(err);
-}
-
 bool figure_write_curve(Figure *figure, const Curve *curve, Error *err)
 {
     JsonWriter *json = figure->json;
+    const double *value = curve->lying ? curve->x : curve->y;
+    double *ends = NULL;   // of error bars
     json_begin_object(json, NULL);
     json_text(json, "label", curve->label);
-    if (!figure_write_numbers(figure, "x", curve->x, curve->count, err)) return false;
-    if (!figure_write_numbers(figure, "y", curve->y, curve->count, err)) return false;
-    if (curve->error && !write_bars(figure, curve, err)) return false;
+    TRY(figure_write_numbers(figure, "x", curve->x, curve->count, err));
+    TRY(figure_write_numbers(figure, "y", curve->y, curve->count, err));
+    if (curve->error) {
+        TRY(ends = NEW_ARRAY(double, curve->count, err));
+        for (int32_t k = 0; k < curve->count; k++) ends[k] = value[k] - curve->error[k];
+        TRY(figure_write_numbers(figure, "low", ends, curve->count, err));
+        for (int32_t k = 0; k < curve->count; k++) ends[k] = value[k] + curve->error[k];
+        TRY(figure_write_numbers(figure, "high", ends, curve->count, err));
+    }
     json_integer(json, "color", curve->color);
     json_text(json, "marker", curve->marker ? curve->marker : "none");
     json_boolean(json, "filled", curve->filled);
     json_text(json, "line", curve->line);
     json_end(json);
-    return true;
+cleanup:
+    memory_free(ends);
+    return error_is_clean(err);
 }
 
 bool figure_write_entry(Figure *figure, const Curve *curve, Error *err)

@@ -9,8 +9,9 @@
 #include "base/order.h"
 #include "io/files/folder.h"
 #include "render/picture_options.h"
-#include "study/sweep/showing/plot_sources.h"
+#include "study/sweep/reading/study_wanted.h"
 #include "study/sweep/showing/figure_file.h"
+#include "study/sweep/showing/plot_table.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -18,6 +19,27 @@
 #include <string.h>
 
 enum { CURVES_MAX = 15, COLORS = 7, MARKERS = 4 };
+enum { SOURCES_MAX = 1 + PLOT_WITH_MAX, VALUES_MAX = 24, GROUP_LABEL_SIZE = 96 };
+enum { DOUBTS_MAX = 31 };   // names; the last one stands for all that are more
+
+static const double LOG_SUITS = 0.75;   // scatter of ratios (their logarithms) over that of steps
+
+// The different values of a key, in the order of the points; one without value where none is asked.
+typedef struct Values {
+    const Quantity *key;   // NULL: all points belong together
+    int32_t count;
+    double value[VALUES_MAX];
+} Values;
+
+// One sweep.
+typedef struct Source {
+    PlotTable table;   // owned, as the next
+    Quantity made[PLOT_KEYS];   // of formulas
+    const Quantity *quantity[PLOT_KEYS];   // NULL: not asked for
+    Values series, panels;
+    uint32_t *doubts;   // [table.count] bits: of the names in PlotFigure, and the last one: error
+        // not known; owned
+} Source;
 
 typedef struct PlotFigure {
     Figure figure;
@@ -33,6 +55,89 @@ typedef struct PlotFigure {
 } PlotFigure;
 
 // --- sweeps -------------------------------------------------------------------------------------
+
+// Lists the different values of a key, which are told apart by curves or panels.
+static bool find_values(const Source *source, const Quantity *key, const char *name, Values *values,
+                        Error *err)
+{
+    *values = (Values){.key = key};
+    values->count = key ? 0 : 1;
+    for (int32_t k = 0; key && k < source->table.count; k++) {
+        int32_t at = 0;
+        while (at < values->count && values->value[at] != key->values[k]) at++;
+        if (at < values->count || isnan(key->values[k])) continue;
+        if (values->count == VALUES_MAX)
+            return REFUSE(err, "plot: %s has more than %d values: too many curves or panels", name,
+                          VALUES_MAX);
+        values->value[values->count++] = key->values[k];
+    }
+    return true;
+}
+
+// Reads a sweep's quantities and which of its points are doubtful. doubts: names of what its runs
+// are warned of are added where they lack. ERROR_INPUT: a name that the table does not have, words
+// where numbers are needed, too many values of a key.
+static bool open_source(const char *folder, const StudyPlot *plot, WordList *doubts, Source *source,
+                        Error *err)
+{
+    PlotTable *table = &source->table;
+    double place[DOUBTS_MAX];
+    if (!plot_table_open(folder, table, err)) return false;
+    for (PlotKey key = PLOT_X; key < PLOT_KEYS; key++) {
+        if (!plot->text[key][0]) continue;
+        source->quantity[key] = plot_table_find(table, plot->text[key], &source->made[key], err);
+        if (!source->quantity[key]) return false;
+        if (key < PLOT_SERIES && source->quantity[key]->words.count > 0)
+            return REFUSE(err,
+                          "plot: %s has words, not numbers: it can be the `series` or the `panels`",
+                          plot->text[key]);
+    }
+
+    // Bits of the sweep's own names of warnings become those of all sweeps' names. The errors that
+    // count are those of what is shown: of y, or of a map's colour.
+    const Quantity *shown = source->quantity[plot->text[PLOT_COLOR][0] ? PLOT_COLOR : PLOT_Y];
+    int32_t kinds = table->kinds.count < DOUBTS_MAX ? table->kinds.count : DOUBTS_MAX;
+    if (!(source->doubts = NEW_ARRAY(uint32_t, table->count, err))) return false;
+    for (int32_t kind = 0; kind < kinds; kind++)
+        if (!words_index(doubts, table->kinds.words[kind], &place[kind], err)) return false;
+    for (int32_t k = 0; k < table->count; k++) {
+        for (int32_t kind = 0; kind < kinds; kind++)
+            if ((uint32_t)table->warned[k] >> kind & 1)
+                source->doubts[k] |= (uint32_t)1 << (int32_t)fmin(place[kind], DOUBTS_MAX - 1);
+        if (shown->errors && isnan(shown->errors[k])) source->doubts[k] |= DOUBT_NO_ERROR;
+    }
+    return find_values(source, source->quantity[PLOT_SERIES], plot->text[PLOT_SERIES],
+                       &source->series, err) &&
+           find_values(source, source->quantity[PLOT_PANELS], plot->text[PLOT_PANELS],
+                       &source->panels, err);
+}
+
+// Whether a point has the which-th value.
+static bool values_hold(const Values *values, int32_t which, int32_t point)
+{
+    return !values->key || values->key->values[point] == values->value[which];
+}
+
+// "length = 0.25", "kind = push"; empty where there is no key. name: of the key.
+static void values_label(const Values *values, int32_t which, const char *name,
+                         char label[GROUP_LABEL_SIZE])
+{
+    const char *word = label_last_word(name);
+    label[0] = 0;
+    if (!values->key) return;
+    if (values->key->words.count > 0)
+        snprintf(label, GROUP_LABEL_SIZE, "%.40s = %.40s", word,
+                 values->key->words.words[(int32_t)values->value[which]]);
+    else {
+        // "~{L} / ~{L}_{0} = 0.25", in SI "~{L} = 0.25 m"; without a symbol the last word of the
+        // key.
+        const QuantityLabel *key = &values->key->label;
+        const char *mark = strstr(key->words, "~{");
+        if (mark && !strstr(mark, "(of")) word = mark;
+        snprintf(label, GROUP_LABEL_SIZE, "%.60s = %.4g%s%s", word, values->value[which],
+                 key->unit ? " " : "", key->unit ? key->unit : "");
+    }
+}
 
 static bool folder_of(const char *beside, const char *given, char folder[AMONTONS_PATH_SIZE],
                       Error *err)
@@ -64,21 +169,6 @@ static void value_label(const PlotFigure *self, const Source *source, PlotKey ke
              names_sweep && value[0] ? ", " : "", value);
 }
 
-static bool add_labels(PlotFigure *self, const Source *source, Error *err)
-{
-    char label[GROUP_LABEL_SIZE];
-    double ignored = 0;
-    for (int32_t k = 0; k < source->panels.count; k++) {
-        value_label(self, source, PLOT_PANELS, k, label);
-        if (!words_index(&self->panels, label, &ignored, err)) return false;
-    }
-    for (int32_t k = 0; k < source->series.count; k++) {
-        values_label(&source->series, k, self->plot->text[PLOT_SERIES], label);
-        if (!words_index(&self->curves, label, &ignored, err)) return false;
-    }
-    return true;
-}
-
 static bool open_sources(PlotFigure *self, const char *folder, const char *beside, Error *err)
 {
     int32_t largest = 0, curves = 0;
@@ -88,13 +178,24 @@ static bool open_sources(PlotFigure *self, const char *folder, const char *besid
         char path[AMONTONS_PATH_SIZE];
         Source *source = &self->sources[k];
         if (k > 0 && !folder_of(beside, self->plot->with[k - 1], path, err)) return false;
-        if (!source_open(k > 0 ? path : folder, self->plot, &self->doubts, source, err))
+        if (!open_source(k > 0 ? path : folder, self->plot, &self->doubts, source, err))
             return false;
         if (source->table.count > largest) largest = source->table.count;
         curves += source->series.count;
     }
-    for (int32_t k = 0; k < self->source_count; k++)
-        if (!add_labels(self, &self->sources[k], err)) return false;
+    for (int32_t k = 0; k < self->source_count; k++) {
+        const Source *source = &self->sources[k];
+        char label[GROUP_LABEL_SIZE];
+        double ignored = 0;
+        for (int32_t i = 0; i < source->panels.count; i++) {
+            value_label(self, source, PLOT_PANELS, i, label);
+            if (!words_index(&self->panels, label, &ignored, err)) return false;
+        }
+        for (int32_t i = 0; i < source->series.count; i++) {
+            values_label(&source->series, i, self->plot->text[PLOT_SERIES], label);
+            if (!words_index(&self->curves, label, &ignored, err)) return false;
+        }
+    }
     if (!self->is_map && curves > CURVES_MAX)
         return REFUSE(err, "plot: %d curves: more than %d are too many", curves, CURVES_MAX);
     return (self->work = NEW_ARRAY(double, 6 * (int64_t)largest, err)) != NULL;
@@ -107,30 +208,27 @@ typedef struct PlotPoint {
     uint32_t doubts;
 } PlotPoint;
 
-// Those of one curve in one panel, along x. points: [count of the table]. Returns how many.
-static int32_t gather_points(const Source *source, int32_t curve, int32_t panel, PlotPoint *points)
+// Points of one curve in one panel, along x: a line with marks and bars, and over it the open marks
+// of points that are doubtful. points: [count of the table], work. A curve without points is not
+// written.
+static bool write_points(PlotFigure *self, const Source *source, int32_t which, int32_t panel,
+                         PlotPoint *points, Curve curve, Error *err)
 {
-    const Quantity *x = source->quantity[PLOT_X], *y = source->quantity[PLOT_Y];
+    const Quantity *key_x = source->quantity[PLOT_X], *key_y = source->quantity[PLOT_Y];
+    uint32_t found = 0;
     int32_t count = 0;
     for (int32_t k = 0; k < source->table.count; k++) {
-        if (!values_hold(&source->series, curve, k) || !values_hold(&source->panels, panel, k))
+        if (!values_hold(&source->series, which, k) || !values_hold(&source->panels, panel, k))
             continue;
-        if (!isfinite(x->values[k]) || !isfinite(y->values[k])) continue;
-        points[count++] = (PlotPoint){.x = x->values[k],
-                                      .y = y->values[k],
-                                      .error = y->errors ? y->errors[k] : (double)NAN,
+        if (!isfinite(key_x->values[k]) || !isfinite(key_y->values[k])) continue;
+        points[count++] = (PlotPoint){.x = key_x->values[k],
+                                      .y = key_y->values[k],
+                                      .error = key_y->errors ? key_y->errors[k] : (double)NAN,
                                       .doubts = source->doubts[k]};
     }
+    if (count == 0) return true;
     qsort(points, (size_t)count, sizeof *points, order_doubles);
-    return count;
-}
-
-// A line with marks and bars, and over it the open marks of points that are doubtful.
-static bool write_points(PlotFigure *self, const PlotPoint *points, int32_t count, Curve curve,
-                         Error *err)
-{
     double *x = self->work, *y = x + count, *error = y + count, *open = error + count;
-    uint32_t found = 0;
     for (int32_t k = 0; k < count; k++) {
         x[k] = points[k].x;
         y[k] = points[k].y;
@@ -144,15 +242,13 @@ static bool write_points(PlotFigure *self, const PlotPoint *points, int32_t coun
     curve.error = error;
     if (!figure_write_curve(&self->figure, &curve, err)) return false;
     self->found |= found;
-    if (found & ~DOUBT_NO_ERROR) {
-        curve.label = "";
-        curve.line = "none";
-        curve.filled = false;
-        curve.y = open;
-        curve.error = NULL;
-        if (!figure_write_curve(&self->figure, &curve, err)) return false;
-    }
-    return true;
+    if (!(found & ~DOUBT_NO_ERROR)) return true;
+    curve.label = "";
+    curve.line = "none";
+    curve.filled = false;
+    curve.y = open;
+    curve.error = NULL;
+    return figure_write_curve(&self->figure, &curve, err);
 }
 
 // Colours and marks tell curves apart, for print in grey too. Where there are several sweeps
@@ -190,27 +286,13 @@ static bool write_curves(PlotFigure *self, const char *panel, bool labelled, Err
             for (int32_t k = 0; k < source->series.count; k++) {
                 value_label(self, source, PLOT_SERIES, k, label);
                 Curve curve = curve_style(self, s, k, labelled ? label : "");
-                int32_t count = gather_points(source, k, p, points);
-                if (count > 0) TRY(write_points(self, points, count, curve, err));
+                TRY(write_points(self, source, k, p, points, curve, err));
             }
         }
     }
 cleanup:
     memory_free(points);
     return error_is_clean(err);
-}
-
-// Writes the legend's entries of the curves, once for all panels.
-static bool write_curve_entries(PlotFigure *self, Error *err)
-{
-    for (int32_t s = 0; s < self->source_count; s++)
-        for (int32_t k = 0; k < self->sources[s].series.count; k++) {
-            char label[GROUP_LABEL_SIZE];
-            value_label(self, &self->sources[s], PLOT_SERIES, k, label);
-            Curve curve = curve_style(self, s, k, label);
-            if (label[0] && !figure_write_entry(&self->figure, &curve, err)) return false;
-        }
-    return true;
 }
 
 // --- maps ---------------------------------------------------------------------------------------
@@ -222,36 +304,15 @@ static int compare_places(const void *left, const void *right)
     return a[1] < b[1] ? -1 : a[1] > b[1];
 }
 
-// ERROR_INPUT: two points at one place, of which a map could show one.
-static bool check_places(const PlotFigure *self, const double *x, const double *y, int32_t count,
-                         Error *err)
-{
-    double *places = NEW_ARRAY(double, 2 * (int64_t)count, err);
-    TRY(places);
-    for (int32_t k = 0; k < count; k++) {
-        places[2 * k] = x[k];
-        places[2 * k + 1] = y[k];
-    }
-    qsort(places, (size_t)count, 2 * sizeof *places, compare_places);
-    for (int32_t k = 0; k + 1 < count; k++)
-        if (compare_places(places + 2 * k, places + 2 * k + 2) == 0)
-            FAIL(err, ERROR_INPUT,
-                 "plot: a map shows one point at a place, and several have %s = %.6g, %s = %.6g: "
-                 "name the key in which they differ in `panels`",
-                 self->plot->text[PLOT_X], places[2 * k], self->plot->text[PLOT_Y],
-                 places[2 * k + 1]);
-cleanup:
-    memory_free(places);
-    return error_is_clean(err);
-}
-
+// Points of a panel of a sweep's map. ERROR_INPUT: two points at one place, of which a map could
+// show one.
 static bool write_map(PlotFigure *self, const Source *source, int32_t panel, Error *err)
 {
     const Quantity *const *quantity = source->quantity;
     const Quantity *lines = quantity[PLOT_CONTOURS];
     int32_t all = source->table.count, count = 0;
     double *x = self->work, *y = x + all, *value = y + all, *contour = value + all;
-    double *open = contour + all;
+    double *open = contour + all, *places = NULL;
     for (int32_t k = 0; k < all; k++) {
         double at_x = quantity[PLOT_X]->values[k], at_y = quantity[PLOT_Y]->values[k];
         if (!values_hold(&source->panels, panel, k) || !isfinite(at_x + at_y)) continue;
@@ -265,15 +326,31 @@ static bool write_map(PlotFigure *self, const Source *source, int32_t panel, Err
         self->found |= warned ? warned : doubts;
         self->some_missing |= !has_value;
     }
-    if (!check_places(self, x, y, count, err)) return false;
+
+    TRY((places = NEW_ARRAY(double, 2 * (int64_t)count, err)));
+    for (int32_t k = 0; k < count; k++) {
+        places[2 * k] = x[k];
+        places[2 * k + 1] = y[k];
+    }
+    qsort(places, (size_t)count, 2 * sizeof *places, compare_places);
+    for (int32_t k = 0; k + 1 < count; k++)
+        if (compare_places(places + 2 * k, places + 2 * k + 2) == 0)
+            FAIL(err, ERROR_INPUT,
+                 "plot: a map shows one point at a place, and several have %s = %.6g, %s = %.6g: "
+                 "name the key in which they differ in `panels`",
+                 self->plot->text[PLOT_X], places[2 * k], self->plot->text[PLOT_Y],
+                 places[2 * k + 1]);
+
     json_begin_object(self->figure.json, "map");
-    if (!figure_write_numbers(&self->figure, "x", x, count, err)) return false;
-    if (!figure_write_numbers(&self->figure, "y", y, count, err)) return false;
-    if (!figure_write_numbers(&self->figure, "value", value, count, err)) return false;
-    if (!figure_write_numbers(&self->figure, "open", open, count, err)) return false;
-    if (lines && !figure_write_numbers(&self->figure, "contour", contour, count, err)) return false;
+    TRY(figure_write_numbers(&self->figure, "x", x, count, err));
+    TRY(figure_write_numbers(&self->figure, "y", y, count, err));
+    TRY(figure_write_numbers(&self->figure, "value", value, count, err));
+    TRY(figure_write_numbers(&self->figure, "open", open, count, err));
+    if (lines) TRY(figure_write_numbers(&self->figure, "contour", contour, count, err));
     json_end(self->figure.json);
-    return true;
+cleanup:
+    memory_free(places);
+    return error_is_clean(err);
 }
 
 // Those of the panel called `panel`: one.
@@ -308,6 +385,40 @@ static bool write_map_entries(PlotFigure *self, Error *err)
 
 // --- the whole ----------------------------------------------------------------------------------
 
+// Standard deviation over mean of the differences of [count] rising values, or of the logarithms of
+// their ratios.
+static double step_scatter(const double *values, int32_t count, bool of_ratios)
+{
+    double sum = 0, squares = 0, steps = count - 1;
+    for (int32_t k = 0; k + 1 < count; k++) {
+        double step = of_ratios ? log(values[k + 1] / values[k]) : values[k + 1] - values[k];
+        sum += step;
+        squares += step * step;
+    }
+    double mean = sum / steps;
+    return sqrt(fmax(squares / steps - mean * mean, 0)) / mean;
+}
+
+// Whether a logarithmic axis suits [count] values: above 0, and nearer to equal ratios than to
+// equal differences.
+static bool values_suit_log(const double *values, int32_t count, bool *suits, Error *err)
+{
+    int32_t kept = 0;
+    double *sorted = NEW_ARRAY(double, count, err);
+    *suits = false;
+    if (!sorted) return false;
+    for (int32_t k = 0; k < count; k++)
+        if (isfinite(values[k])) sorted[kept++] = values[k];
+    qsort(sorted, (size_t)kept, sizeof *sorted, order_doubles);
+    int32_t found = kept > 0;
+    for (int32_t k = 1; k < kept; k++)
+        if (sorted[k] > sorted[found - 1]) sorted[found++] = sorted[k];
+    if (found > 2 && sorted[0] > 0)
+        *suits = step_scatter(sorted, found, true) < LOG_SUITS * step_scatter(sorted, found, false);
+    memory_free(sorted);
+    return true;
+}
+
 static bool write_axes(PlotFigure *self, Error *err)
 {
     const StudyPlot *plot = self->plot;
@@ -331,43 +442,45 @@ static bool write_axes(PlotFigure *self, Error *err)
     return true;
 }
 
-static bool write_panels(PlotFigure *self, Error *err)
+static bool write_figure(PlotFigure *self, Error *err)
 {
-    JsonWriter *json = self->figure.json;
-    json_begin_list(json, "panels");
-    for (int32_t k = 0; k < self->panels.count; k++) {
+    JsonWriter *json = NULL;
+    bool has_panels = self->panels.count > 1;
+    TRY(figure_begin(&self->figure, err));
+    TRY(write_axes(self, err));
+    json = self->figure.json;
+    if (has_panels) json_begin_list(json, "panels");
+    for (int32_t k = 0; has_panels && k < self->panels.count; k++) {
         const char *panel = self->panels.words[k];
         json_begin_object(json, NULL);
         json_text(json, "title", panel);
         if (self->is_map) {
-            if (!write_maps(self, panel, err)) return false;
+            TRY(write_maps(self, panel, err));
         } else {
             json_begin_list(json, "series");
-            if (!write_curves(self, panel, false, err)) return false;
+            TRY(write_curves(self, panel, false, err));
             json_end(json);
         }
         json_end(json);
     }
-    json_end(json);
-    return true;
-}
-
-static bool write_figure(PlotFigure *self, Error *err)
-{
-    bool has_panels = self->panels.count > 1;
-    TRY(figure_begin(&self->figure, err));
-    TRY(write_axes(self, err));
-    if (has_panels) TRY(write_panels(self, err));
+    if (has_panels) json_end(json);
     if (!has_panels && self->is_map) TRY(write_maps(self, self->panels.words[0], err));
-    json_begin_list(self->figure.json, "series");
+
+    // Curves without panels; with panels the entries of the legend, once for all of them.
+    json_begin_list(json, "series");
     if (self->is_map)
         TRY(write_map_entries(self, err));
-    else if (has_panels)
-        TRY(write_curve_entries(self, err));
-    else
+    else if (!has_panels)
         TRY(write_curves(self, self->panels.words[0], true, err));
+    for (int32_t s = 0; !self->is_map && has_panels && s < self->source_count; s++)
+        for (int32_t k = 0; k < self->sources[s].series.count; k++) {
+            char label[GROUP_LABEL_SIZE];
+            value_label(self, &self->sources[s], PLOT_SERIES, k, label);
+            Curve curve = curve_style(self, s, k, label);
+            if (label[0]) TRY(figure_write_entry(&self->figure, &curve, err));
+        }
     TRY(figure_write_doubts(&self->figure, &self->doubts, self->found, self->is_map, err));
-    json_end(self->figure.json);
+    json_end(json);
 cleanup:
     return error_is_clean(err);
 }
@@ -389,7 +502,12 @@ bool figure_of_plot(const char *folder, const char *beside, const StudyPlot *plo
     write_figure(&self, err);
     figure_end(&self.figure, err);
 cleanup:
-    for (int32_t k = 0; self.sources && k < self.source_count; k++) source_close(&self.sources[k]);
+    for (int32_t s = 0; self.sources && s < self.source_count; s++) {
+        Source *source = &self.sources[s];
+        for (int32_t k = 0; k < PLOT_KEYS; k++) quantity_destroy(&source->made[k]);
+        memory_free(source->doubts);
+        plot_table_close(&source->table);
+    }
     memory_free_all(self.sources, self.work);
     words_destroy(&self.doubts);
     words_destroy(&self.curves);

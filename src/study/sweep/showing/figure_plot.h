@@ -5,7 +5,7 @@
 #define AMONTONS_STUDY_SWEEP_SHOWING_FIGURE_PLOT_H
 
 #include "amontons.h"
-#include "study/sweep/reading/plot_words.h"
+#include "study/sweep/reading/study.h"
 
 // Draws a plot of the sweep in `folder`, which holds its table, and of the sweeps that the plot has
 // `with` it. Their paths are seen from `beside` (the study; NULL: from the working folder). style:

@@ -44,15 +44,6 @@ static bool read_values(PlotTable *table, const char *name, double **values, Err
     return true;
 }
 
-static void take_title(PlotTable *table, const char *folder)
-{
-    Error missing = {0};
-    const char *slash = strrchr(folder, '/');
-    snprintf(table->name, sizeof table->name, "%.90s", slash && slash[1] ? slash + 1 : folder);
-    array_file_get_text(table->file, "title", table->title, sizeof table->title, &missing);
-    if (!table->title[0]) snprintf(table->title, sizeof table->title, "%s", table->name);
-}
-
 bool plot_table_open(const char *folder, PlotTable *table, Error *err)
 {
     char units[20] = "";
@@ -63,7 +54,10 @@ bool plot_table_open(const char *folder, PlotTable *table, Error *err)
     if (access(table->path, R_OK) != 0)
         return REFUSE(err, "%s: there is no sweep.h5 in it: no sweep has ended there", folder);
     if (!(table->file = array_file_open(table->path, err))) return false;
-    take_title(table, folder);
+    const char *slash = strrchr(folder, '/');
+    snprintf(table->name, sizeof table->name, "%.90s", slash && slash[1] ? slash + 1 : folder);
+    array_file_get_text(table->file, "title", table->title, sizeof table->title, &missing);
+    if (!table->title[0]) snprintf(table->title, sizeof table->title, "%s", table->name);
     if (!read_values(table, "result/warned", &table->warned, err)) return false;
     if (!table->warned || !array_file_get_text(table->file, "units", units, sizeof units, &missing))
         return REFUSE(err,

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The stored table of a sweep, sweep.h5, as plots need it: columns by name, formulas over them, and
-// which points are doubtful. Called by figure_data.
+// which points are doubtful. Called by figure_plot.
 #ifndef AMONTONS_STUDY_SWEEP_SHOWING_PLOT_TABLE_H
 #define AMONTONS_STUDY_SWEEP_SHOWING_PLOT_TABLE_H
 
 #include "amontons.h"
 #include "io/hdf5/array_file.h"
-#include "study/sweep/reading/plot_words.h"
+#include "study/sweep/reading/study.h"
 #include "study/sweep/showing/quantity_label.h"
 #include "study/sweep/showing/words.h"
 

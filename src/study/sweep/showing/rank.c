@@ -12,14 +12,14 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "io/text/csv_writer.h"
+#include "io/text/json_reader.h"
 #include "study/sweep/reading/study_point.h"
-#include "study/sweep/showing/rank_notes.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { CELL_SIZE = 80, CELLS_MAX = STUDY_COLUMNS_MAX + 6 };
+enum { CELL_SIZE = 80, CELLS_MAX = STUDY_COLUMNS_MAX + 6, RANK_NOTE_SIZE = 120 };
 
 // --- order --------------------------------------------------------------------------------------
 
@@ -102,27 +102,13 @@ static RankRow row_of(const Sweep *sweep, const SweepTable *table, const Ranking
                      .bar = error == known_to ? error : (double)NAN};
 }
 
-static void find_gain(const Sweep *sweep, const SweepTable *table, const Ranking *ranking,
-                      RankRow *row)
-{
-    int32_t base = baseline_of(sweep, ranking, row->point), record = sweep->study.rank.record;
-    row->gain = row->gain_error = NAN;
-    if (base < 0) return;
-    double value = table_value(table, record, base);
-    double error = row_of(sweep, table, ranking, base).error;
-    bool itself = sweep->points[base].same_as == sweep->points[row->point].same_as;
-    row->gain = row->value / value - 1;
-    row->gain_error = itself ? 0 * row->error
-                             : hypot(row->error / value, row->value / value * error / value);
-}
-
 // `lowest` is sorted as `highest` of the negative values, which are turned back afterwards.
 bool ranking_make(const Sweep *sweep, const SweepTable *table, Ranking *ranking, Error *err)
 {
     const Study *study = &sweep->study;
+    int32_t record = study->rank.record;
     double sign = study->rank.lowest ? -1 : 1;
-    *ranking =
-        (Ranking){.count = study->point_count, .has_error = table->error[study->rank.record] >= 0};
+    *ranking = (Ranking){.count = study->point_count, .has_error = table->error[record] >= 0};
     if (!(ranking->rows = NEW_ARRAY(RankRow, study->point_count, err))) return false;
     for (int32_t k = 0; k < ranking->count; k++) {
         const SweepPoint *point = &sweep->points[k];
@@ -138,10 +124,19 @@ bool ranking_make(const Sweep *sweep, const SweepTable *table, Ranking *ranking,
     qsort(ranking->rows, (size_t)ranking->count, sizeof *ranking->rows, compare);
     if (ranking->has_error && !find_places(ranking, err)) return false;
     int32_t base = study->rank.against == AGAINST_KEYS ? -1 : baseline_of(sweep, ranking, 0);
-    ranking->base = base < 0 ? (double)NAN : table_value(table, study->rank.record, base);
+    ranking->base = base < 0 ? (double)NAN : table_value(table, record, base);
     for (int32_t k = 0; k < ranking->count; k++) {
-        ranking->rows[k].value *= sign;
-        find_gain(sweep, table, ranking, &ranking->rows[k]);
+        RankRow *row = &ranking->rows[k];
+        row->value *= sign;
+        row->gain = row->gain_error = NAN;
+        base = baseline_of(sweep, ranking, row->point);
+        if (base < 0) continue;
+        double value = table_value(table, record, base);
+        double error = row_of(sweep, table, ranking, base).error;
+        bool itself = sweep->points[base].same_as == sweep->points[row->point].same_as;
+        row->gain = row->value / value - 1;
+        row->gain_error = itself ? 0 * row->error
+                                 : hypot(row->error / value, row->value / value * error / value);
     }
     return true;
 }
@@ -153,19 +148,70 @@ void ranking_destroy(Ranking *ranking)
     *ranking = (Ranking){0};
 }
 
+// --- notes --------------------------------------------------------------------------------------
+
+static void add_note(char note[RANK_NOTE_SIZE], const char *words)
+{
+    size_t used = strlen(note);
+    snprintf(note + used, RANK_NOTE_SIZE - used, "%s%s", used ? ", " : "", words);
+}
+
+// Says in a few words what makes a value or its rank doubtful.
+static bool rank_notes(const Sweep *sweep, const Ranking *ranking, const RankRow *row,
+                       char note[RANK_NOTE_SIZE], Error *err)
+{
+    PointStatus status = sweep->points[row->point].status;
+    char *report = status == POINT_DONE ? point_report(sweep, row->point, err) : NULL;
+    char text[60], warning[8];
+    double enough = 1, over = 1, period = NAN;   // of the values behind the result; NaN: not known
+    bool by_mu_hold = strcmp(ranked_by(&sweep->study)->path, "results.mu_hold") == 0;
+    *note = 0;
+    TRY(error_is_clean(err));
+    if (report)
+        json_find_number(report, by_mu_hold ? "results.drops.period" : "results.period", &period);
+    if (status != POINT_DONE) add_note(note, point_status_name(status));
+    if (status == POINT_DONE && isnan(row->value)) add_note(note, "no value");
+    snprintf(text, sizeof text, "not decided between %d and %d", row->from, row->to);
+    if (row->from < row->to) add_note(note, text);
+    if (ranking->has_error && !isnan(row->value) && isnan(row->error))
+        add_note(note, "error not known");
+    if (sweep->points[row->point].refined) add_note(note, "refined");
+    if (period == 0) add_note(note, "not periodic");
+    if (report && by_mu_hold && json_find_number(report, "results.drops.enough", &enough) &&
+        enough == 0)
+        add_note(note, "too few drops");
+    if (report && json_find_number(report, "results.run_in.over", &over) && over == 0)
+        add_note(note, "run-in not over");
+    snprintf(text, sizeof text, "period %.0f", period);
+    if (period > 1) add_note(note, text);
+    if (report && json_find_text(report, "warnings.0", warning, sizeof warning))
+        add_note(note, "warned");
+cleanup:
+    memory_free(report);
+    return error_is_clean(err);
+}
+
 // --- ranking.csv --------------------------------------------------------------------------------
 
-static void write_head(CsvWriter *csv, const Study *study)
+// All points, also those that a terminal does not show. The rank of a point without a value is
+// empty; its note gives the reason.
+bool ranking_write(const Sweep *sweep, const SweepTable *table, const Ranking *ranking, Error *err)
 {
+    const Study *study = &sweep->study;
+    const char *name = ranked_by(study)->name;
+    char path[POINT_PATH_SIZE], cell[SCENE_TEXT_SIZE], note[RANK_NOTE_SIZE];
     char error[STUDY_NAME_SIZE + 16], known_to[STUDY_NAME_SIZE + 16];
-    snprintf(error, sizeof error, "%s_error", ranked_by(study)->name);
-    snprintf(known_to, sizeof known_to, "%s_known_to", ranked_by(study)->name);
+    CsvWriter *csv = NULL;
+    snprintf(path, sizeof path, "%s/ranking.csv", sweep->folder);
+    snprintf(error, sizeof error, "%s_error", name);
+    snprintf(known_to, sizeof known_to, "%s_known_to", name);
+    TRY((csv = csv_create(path, err)));
     csv_text(csv, "rank");
     csv_text(csv, "rank_from");
     csv_text(csv, "rank_to");
     csv_text(csv, "point");
     for (int32_t k = 0; k < study->column_count; k++) csv_text(csv, study->columns[k]);
-    csv_text(csv, ranked_by(study)->name);
+    csv_text(csv, name);
     csv_text(csv, error);
     csv_text(csv, known_to);
     csv_text(csv, "gain_percent");
@@ -173,48 +219,30 @@ static void write_head(CsvWriter *csv, const Study *study)
     csv_text(csv, "note");
     csv_text(csv, "warnings");
     csv_end_row(csv);
-}
 
-// The rank of a point without a value is empty; its note gives the reason.
-static bool write_row(CsvWriter *csv, const Sweep *sweep, const SweepTable *table,
-                      const Ranking *ranking, const RankRow *row, Error *err)
-{
-    const Study *study = &sweep->study;
-    char cell[SCENE_TEXT_SIZE], note[RANK_NOTE_SIZE];
-    double ignored = 0;
-    const Scene *scene = point_scene(sweep, row->point, err);
-    TRY(scene);
-    TRY(rank_notes(sweep, ranking, row, note, err));
-    csv_number(csv, isnan(row->value) ? (double)NAN : (double)(row - ranking->rows) + 1);
-    csv_number(csv, row->from > 0 ? row->from : (double)NAN);
-    csv_number(csv, row->to > 0 ? row->to : (double)NAN);
-    csv_number(csv, row->point);
-    for (int32_t c = 0; c < study->column_count; c++) {
-        study_scene_value(scene, study->columns[c], cell, sizeof cell, &ignored);
-        csv_text(csv, cell);
+    for (int32_t k = 0; k < ranking->count; k++) {
+        const RankRow *row = &ranking->rows[k];
+        double ignored = 0;
+        const Scene *scene = point_scene(sweep, row->point, err);
+        TRY(scene);
+        TRY(rank_notes(sweep, ranking, row, note, err));
+        csv_number(csv, isnan(row->value) ? (double)NAN : (double)k + 1);
+        csv_number(csv, row->from > 0 ? row->from : (double)NAN);
+        csv_number(csv, row->to > 0 ? row->to : (double)NAN);
+        csv_number(csv, row->point);
+        for (int32_t c = 0; c < study->column_count; c++) {
+            study_scene_value(scene, study->columns[c], cell, sizeof cell, &ignored);
+            csv_text(csv, cell);
+        }
+        csv_number(csv, row->value);
+        csv_number(csv, table_error(table, study->rank.record, row->point));
+        csv_number(csv, row->error);
+        csv_number(csv, 100 * row->gain);
+        csv_number(csv, 100 * row->gain_error);
+        csv_text(csv, note);
+        csv_text(csv, table->warnings->words.words[(int32_t)table->warnings->values[row->point]]);
+        csv_end_row(csv);
     }
-    csv_number(csv, row->value);
-    csv_number(csv, table_error(table, study->rank.record, row->point));
-    csv_number(csv, row->error);
-    csv_number(csv, 100 * row->gain);
-    csv_number(csv, 100 * row->gain_error);
-    csv_text(csv, note);
-    csv_text(csv, table->warnings->words.words[(int32_t)table->warnings->values[row->point]]);
-    csv_end_row(csv);
-cleanup:
-    return error_is_clean(err);
-}
-
-// All points, also those that a terminal does not show.
-bool ranking_write(const Sweep *sweep, const SweepTable *table, const Ranking *ranking, Error *err)
-{
-    char path[POINT_PATH_SIZE];
-    CsvWriter *csv = NULL;
-    snprintf(path, sizeof path, "%s/ranking.csv", sweep->folder);
-    TRY((csv = csv_create(path, err)));
-    write_head(csv, &sweep->study);
-    for (int32_t k = 0; k < ranking->count; k++)
-        TRY(write_row(csv, sweep, table, ranking, &ranking->rows[k], err));
 cleanup:
     if (error_is_clean(err)) return csv_finish(csv, err);
     csv_abandon(csv);
@@ -291,18 +319,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-static void print_refined(const Ranking *ranking, FILE *out)
-{
-    if (ranking->refined == 0) return;
-    fprintf(out,
-            "  %d of %d points were computed again with smaller error bars, and moved by up to "
-            "%.1f of those before",
-            ranking->refined, ranking->ranked, ranking->moved);
-    if (ranking->moved > 1 && ranking->refined < ranking->ranked)
-        fprintf(out, ": bars of the others count as %.1f times as long in ranks", ranking->moved);
-    fprintf(out, "\n");
-}
-
 // Keys of which the best point has the least or the largest of three values or more.
 static void print_edges(const Sweep *sweep, const SweepTable *table, const Ranking *ranking,
                         FILE *out)
@@ -335,22 +351,6 @@ static void print_edges(const Sweep *sweep, const SweepTable *table, const Ranki
     if (found) fprintf(out, "; look beyond\n");
 }
 
-// rows: [shown + 1] with the head; every cell but the note to the right of its column.
-static void print_rows(const PrintedRow *rows, int32_t shown, int32_t cells, FILE *out)
-{
-    for (int32_t k = 0; k <= shown; k++) {
-        for (int32_t c = 0; c < cells; c++) {
-            int widest = 0;
-            for (int32_t i = 0; i <= shown; i++) {
-                int width = (int)strlen(rows[i].cells[c]);
-                if (width > widest) widest = width;
-            }
-            fprintf(out, "  %*s", widest, rows[k].cells[c]);
-        }
-        fprintf(out, "%s%s\n", rows[k].note[0] ? "  " : "", rows[k].note);
-    }
-}
-
 // Nothing is printed where the caller wants nothing (options->out NULL).
 bool ranking_print(const Sweep *sweep, const SweepTable *table, const Ranking *ranking, Error *err)
 {
@@ -374,10 +374,32 @@ bool ranking_print(const Sweep *sweep, const SweepTable *table, const Ranking *r
 
     for (int32_t k = 0; k < shown; k++) TRY(print_row(sweep, ranking, k, &rows[k + 1], err));
     TRY(print_title(sweep, ranking->has_error, out, err));
-    print_rows(rows, shown, cells, out);
+
+    // Every cell but the note stands to the right of its column.
+    for (int32_t k = 0; k <= shown; k++) {
+        for (int32_t c = 0; c < cells; c++) {
+            int widest = 0;
+            for (int32_t i = 0; i <= shown; i++) {
+                int width = (int)strlen(rows[i].cells[c]);
+                if (width > widest) widest = width;
+            }
+            fprintf(out, "  %*s", widest, rows[k].cells[c]);
+        }
+        fprintf(out, "%s%s\n", rows[k].note[0] ? "  " : "", rows[k].note);
+    }
     if (ranking->count > shown)
         fprintf(out, "  ... %d more in ranking.csv\n", ranking->count - shown);
-    print_refined(ranking, out);
+    if (ranking->refined > 0) {
+        bool longer = ranking->moved > 1 && ranking->refined < ranking->ranked;
+        fprintf(out,
+                "  %d of %d points were computed again with smaller error bars, and moved by up to "
+                "%.1f of those before",
+                ranking->refined, ranking->ranked, ranking->moved);
+        if (longer)
+            fprintf(out, ": bars of the others count as %.1f times as long in ranks",
+                    ranking->moved);
+        fprintf(out, "\n");
+    }
     if (ranking->ranked > 0) print_edges(sweep, table, ranking, out);
 cleanup:
     memory_free(rows);

@@ -3,8 +3,29 @@
 #ifndef AMONTONS_STUDY_SWEEP_SHOWING_RANK_H
 #define AMONTONS_STUDY_SWEEP_SHOWING_RANK_H
 
-#include "study/sweep/showing/ranking.h"
 #include "study/sweep/showing/table.h"
+
+typedef struct RankRow {
+    int32_t point;
+    double value;   // what it is ranked by
+    double error;   // of it: the error bar, else what a mesh usually leaves; NaN
+    double bar;   // error bar; NaN: none
+    double gain, gain_error;   // over the baseline, 1; NaN: there is none, or not known
+    int32_t from, to;   // ranks that it may have, given the errors; alike: it is decided
+} RankRow;
+
+typedef struct Ranking {
+    RankRow *rows;   // [count] the best first; points without a value last; owned
+    int32_t count, ranked;   // all points; those with a value
+    bool has_error;   // the result has an error in run.json
+    // So many points were computed again with smaller bars (decide_ranks in study/sweep/sweep), and
+    // moved by up to so many of their bars before. Where that is more than 1 those of the others
+    // count as so many times as long: what coarse meshes have in common would else stand on one
+    // side alone.
+    int32_t refined;
+    double moved;
+    double base;   // the value that gains are measured from; NaN: each row has its own
+} Ranking;
 
 bool ranking_make(const Sweep *sweep, const SweepTable *table, Ranking *ranking, Error *err);
 bool ranking_write(const Sweep *sweep, const SweepTable *table, const Ranking *ranking, Error *err);

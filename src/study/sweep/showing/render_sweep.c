@@ -6,6 +6,7 @@
 #include "base/decimal_point.h"
 #include "base/text.h"
 #include "io/text/yaml_document.h"
+#include "study/sweep/reading/study_wanted.h"
 #include "study/sweep/showing/figure_plot.h"
 
 #include <dirent.h>
@@ -45,23 +46,19 @@ cleanup:
     return error_is_clean(err);
 }
 
-static bool draw_new(const DrawSweep *draw, Error *err)
+static bool draw_in_child(void *context, FILE *reply, Error *err)
 {
+    const DrawSweep *draw = context;
     YamlDocument *document = NULL;
     StudyPlot plot;
+    (void)reply;   // pictures are files
+    if (!draw->plot) return draw_again(draw, err);
     TRY(yaml_parse("the plot", draw->plot, 0, &document, err));
-    TRY(plot_words_read(document, YAML_ROOT, &plot, err));
+    TRY(plot_read(document, YAML_ROOT, &plot, err));
     TRY(figure_of_plot(draw->folder, NULL, &plot, draw->style, err));
 cleanup:
     yaml_destroy(document);
     return error_is_clean(err);
-}
-
-static bool draw_in_child(void *context, FILE *reply, Error *err)
-{
-    const DrawSweep *draw = context;
-    (void)reply;   // pictures are files
-    return draw->plot ? draw_new(draw, err) : draw_again(draw, err);
 }
 
 // A stranger's table may crash HDF5.

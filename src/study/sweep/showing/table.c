@@ -42,13 +42,6 @@ static void beside(const char *name, int32_t b, char text[TABLE_PATH_SIZE])
     snprintf(text, TABLE_PATH_SIZE, "%s_%s", name, BESIDES[b].ending);
 }
 
-static bool is_recorded(const Study *study, const char *path)
-{
-    for (int32_t k = 0; k < study->record_count; k++)
-        if (strcmp(study->records[k].path, path) == 0) return true;
-    return false;
-}
-
 static TableColumn *add_column(SweepTable *table, const char *group, const char *name,
                                const char *path, const char *description)
 {
@@ -59,21 +52,6 @@ static TableColumn *add_column(SweepTable *table, const char *group, const char 
     return column;
 }
 
-// report: of a point that is done; NULL: none is.
-static void add_record(const Study *study, int32_t k, const char *report, SweepTable *table)
-{
-    const StudyRecord *record = &study->records[k];
-    char name[TABLE_PATH_SIZE], path[TABLE_PATH_SIZE];
-    table->value[k] = table->count;
-    add_column(table, "result", record->name, record->path, record->path);
-    for (int32_t b = 0; report && b < BESIDE_COUNT; b++) {
-        beside(record->name, b, name);
-        beside(record->path, b, path);
-        if (!is_recorded(study, path) && json_may_hold(report, path))
-            add_column(table, "result", name, path, BESIDES[b].description)->of = table->value[k];
-    }
-}
-
 // -1: the table has no such column.
 static int32_t find_beside(const SweepTable *table, const StudyRecord *record, int32_t b)
 {
@@ -82,24 +60,6 @@ static int32_t find_beside(const SweepTable *table, const StudyRecord *record, i
     for (int32_t c = 0; c < table->count; c++)
         if (strcmp(table->columns[c].path, path) == 0) return c;
     return -1;
-}
-
-static void list_columns(const Study *study, const char *report, SweepTable *table)
-{
-    for (int32_t k = 0; k < study->column_count; k++)
-        add_column(table, "scene", study->columns[k], "",
-                   "key of the scene; a word is its index in the attribute `KEY words`");
-    for (int32_t k = 0; k < study->record_count; k++) add_record(study, k, report, table);
-    for (int32_t k = 0; k < study->record_count; k++) {
-        table->error[k] = find_beside(table, &study->records[k], 0);
-        table->known_to[k] = find_beside(table, &study->records[k], 1);
-    }
-    table->status = add_column(table, "result", "status", "", "0 pending, 1 done, 2 failed");
-    table->warnings = add_column(table, "result", "warnings", "",
-                                 "0 none; else an index in the attribute `warnings words`");
-    table->kinds = add_column(table, "result", "warned", "",
-                              "bit k: the run has a warning of the kind that is the k-th in the "
-                              "attribute `warned words`");
 }
 
 // Every run.json of one version has the same keys, so the first that is done tells for all. On
@@ -116,7 +76,37 @@ static bool make_columns(const Sweep *sweep, SweepTable *table, Error *err)
         report = point_report(sweep, k, err);
         TRY(error_is_clean(err));
     }
-    list_columns(study, report, table);
+    for (int32_t k = 0; k < study->column_count; k++)
+        add_column(table, "scene", study->columns[k], "",
+                   "key of the scene; a word is its index in the attribute `KEY words`");
+
+    // Each record, and beside it what run.json has beside it, unless that is recorded itself.
+    for (int32_t k = 0; k < study->record_count; k++) {
+        const StudyRecord *record = &study->records[k];
+        char name[TABLE_PATH_SIZE], path[TABLE_PATH_SIZE];
+        table->value[k] = table->count;
+        add_column(table, "result", record->name, record->path, record->path);
+        for (int32_t b = 0; report && b < BESIDE_COUNT; b++) {
+            beside(record->name, b, name);
+            beside(record->path, b, path);
+            bool recorded = false;
+            for (int32_t i = 0; i < study->record_count; i++)
+                recorded = recorded || strcmp(study->records[i].path, path) == 0;
+            if (!recorded && json_may_hold(report, path))
+                add_column(table, "result", name, path, BESIDES[b].description)->of =
+                    table->value[k];
+        }
+    }
+    for (int32_t k = 0; k < study->record_count; k++) {
+        table->error[k] = find_beside(table, &study->records[k], 0);
+        table->known_to[k] = find_beside(table, &study->records[k], 1);
+    }
+    table->status = add_column(table, "result", "status", "", "0 pending, 1 done, 2 failed");
+    table->warnings = add_column(table, "result", "warnings", "",
+                                 "0 none; else an index in the attribute `warnings words`");
+    table->kinds = add_column(table, "result", "warned", "",
+                              "bit k: the run has a warning of the kind that is the k-th in the "
+                              "attribute `warned words`");
     for (int32_t c = 0; c < table->count; c++)
         TRY((table->columns[c].values = NEW_ARRAY(double, study->point_count, err)));
     TRY(words_index(&table->warnings->words, "", &none, err));
@@ -146,82 +136,34 @@ double table_known_to(const SweepTable *table, int32_t record, int32_t point)
 
 // --- sweep.csv ----------------------------------------------------------------------------------
 
-// Into a row of the CSV file and a row of the arrays at once.
-static bool write_keys(TableWriter *writer, int32_t point, const Scene *scene, Error *err)
-{
-    const Study *study = &writer->sweep->study;
-    for (int32_t k = 0; k < study->column_count; k++) {
-        TableColumn *column = &writer->table->columns[k];
-        double *number = &column->values[point];
-        study_scene_value(scene, study->columns[k], writer->cell, CELL_SIZE, number);
-        csv_text(writer->csv, writer->cell);
-        if (isnan(*number) && !words_index(&column->words, writer->cell, number, err)) return false;
-    }
-    return true;
-}
-
 static const char STEADY[] = "steady sliding";   // results.mu_M_is of a block that only creeps
 
-static bool is_steady(const char *path, const char *report)
+// Adds to the warnings where a point lacks the result that is ranked or drawn, or has another one
+// in its place, and counts it where it has a value that may have an error bar, and more is open
+// than its error says. report: of a point that is done; NULL: it is not.
+static void note_missing(SweepTable *table, const Study *study, int32_t point, const char *report)
 {
-    char is[RUN_WARNING_SIZE] = "";
-    return strcmp(path, "results.mu_M") == 0 &&
-           json_find_text(report, "results.mu_M_is", is, sizeof is) && strcmp(is, STEADY) == 0;
-}
-
-// True if the point has a value that may have an error bar, and more is open than its error says.
-static bool lacks_bar(const SweepTable *table, int32_t record, int32_t point)
-{
-    double known_to = table_known_to(table, record, point);
-    return table->error[record] >= 0 && isfinite(table_value(table, record, point)) &&
-           isfinite(known_to) && known_to != table_error(table, record, point);
-}
-
-// Writes the results of a point. If a result is not finite, the columns beside it are NaN. report:
-// that of a finished point, or NULL.
-static void write_results(TableWriter *writer, int32_t point, const char *report)
-{
-    TableColumn *columns = writer->table->columns;
-    for (TableColumn *column = columns + writer->sweep->study.column_count;
-         column < writer->table->status; column++) {
-        bool is_none = column->of >= 0 && !isfinite(columns[column->of].values[point]);
-        const char *from = is_none ? NULL : report;
-        double *number = &column->values[point];
-        *number = NAN;
-        bool is_number = !from || json_find_number(from, column->path, number);
-        if (!is_number && json_find_text(from, column->path, writer->cell, CELL_SIZE))
-            csv_text(writer->csv, writer->cell);
-        else
-            csv_number(writer->csv, *number);
-    }
-}
-
-// Points without the result that is ranked or drawn, or with another one in its place.
-static void note_missing(TableWriter *writer, int32_t point, const char *report)
-{
-    const Study *study = &writer->sweep->study;
-    SweepTable *table = writer->table;
-    char text[RUN_WARNING_SIZE];
+    char text[RUN_WARNING_SIZE], is[RUN_WARNING_SIZE] = "";   // as run.json says it of mu_M
     bool no_bar = false;
+    if (report && !json_find_text(report, "results.mu_M_is", is, sizeof is)) *is = 0;
     for (int32_t k = 0; k < study->record_count; k++) {
         const StudyRecord *record = &study->records[k];
-        no_bar |= lacks_bar(table, k, point);
+        double known_to = table_known_to(table, k, point);
+        bool has_value = isfinite(table_value(table, k, point));
+        no_bar |= table->error[k] >= 0 && has_value && isfinite(known_to) &&
+                  known_to != table_error(table, k, point);
         if (!report || !record->is_shown) continue;
-        if (!isfinite(table_value(table, k, point))) {
-            // "no mu_M: the block as a whole did not slide in this run": as run.json says it of
-            // mu_M; what else a run has not it has not for the same reason.
-            char why[RUN_WARNING_SIZE];
-            const char *reason = why;
-            if (!json_find_text(report, "results.mu_M_is", why, sizeof why)) *why = 0;
-            if (strncmp(why, "none: ", 6) == 0)
-                reason = why + 6;
-            else
-                reason = strcmp(why, STEADY) == 0 ? "the block slides steadily, no sliding was fast"
-                                                  : "this run has none";
+        if (!has_value) {
+            // "no mu_M: the block as a whole did not slide in this run": what else a run has not it
+            // has not for the same reason.
+            const char *reason = "this run has none";
+            if (strncmp(is, "none: ", 6) == 0)
+                reason = is + 6;
+            else if (strcmp(is, STEADY) == 0)
+                reason = "the block slides steadily, no sliding was fast";
             snprintf(text, RUN_WARNING_SIZE, "no %s: %.300s", record->name, reason);
-
             warned_add(&table->warned, point, text);
-        } else if (is_steady(record->path, report))
+        } else if (strcmp(record->path, "results.mu_M") == 0 && strcmp(is, STEADY) == 0)
             warned_add(
                 &table->warned, point,
                 "steady sliding: mu_M is F_T/F_N at which the block slides slowly as a whole");
@@ -229,52 +171,71 @@ static void note_missing(TableWriter *writer, int32_t point, const char *report)
     table->no_bar += no_bar;
 }
 
-// All warnings of a point in one cell, with // between them. report: as above.
-static bool write_warnings(TableWriter *writer, int32_t point, const char *report, Error *err)
-{
-    SweepTable *table = writer->table;
-    char path[40], sentence[RUN_WARNING_SIZE];
-    size_t used = 0;
-    *writer->cell = 0;
-    for (int32_t k = 0; report; k++) {
-        snprintf(path, sizeof path, "warnings.%d", k);
-        if (!json_find_text(report, path, sentence, sizeof sentence)) break;
-        warned_add(&table->warned, point, sentence);
-        if (used + sizeof sentence + 4 > CELL_SIZE) continue;
-        used += (size_t)snprintf(writer->cell + used, CELL_SIZE - used, "%s%s", used ? " // " : "",
-                                 sentence);
-    }
-    csv_text(writer->csv, writer->cell);
-    return words_index(&table->warnings->words, writer->cell, &table->warnings->values[point], err);
-}
-
-// A failed point keeps its keys and its message, and has no results.
+// Writes a row of the CSV file, and a row of the arrays at once. A failed point keeps its keys and
+// its message, and has no results: what it came to before it failed is none.
 static bool write_row(TableWriter *writer, int32_t point, Error *err)
 {
     const Sweep *sweep = writer->sweep;
+    const Study *study = &sweep->study;
     const SweepPoint *at = &sweep->points[point];
-    char run[HASH_TEXT_SIZE + 8], *report = NULL;
-    const char *results = NULL;   // what a failed point came to before it failed is none
+    SweepTable *table = writer->table;
+    CsvWriter *csv = writer->csv;
+    char run[HASH_TEXT_SIZE + 8], path[40], sentence[RUN_WARNING_SIZE], *report = NULL;
+    char *cell = writer->cell;
     const Scene *scene = point_scene(sweep, point, err);
     TRY(scene);
-    if (point == 0) writer->table->is_si = scene->units == UNITS_SI;
+    if (point == 0) table->is_si = scene->units == UNITS_SI;
     if (at->status != POINT_PENDING) report = point_report(sweep, point, err);
     TRY(error_is_clean(err));
-    csv_number(writer->csv, point);
-    TRY(write_keys(writer, point, scene, err));
-    if (at->status == POINT_DONE) results = report;
-    write_results(writer, point, results);
-    note_missing(writer, point, results);
-    csv_text(writer->csv, point_status_name(at->status));
-    *writer->cell = 0;
+    const char *results = at->status == POINT_DONE ? report : NULL;
+
+    csv_number(csv, point);
+    for (int32_t k = 0; k < study->column_count; k++) {
+        TableColumn *column = &table->columns[k];
+        double *number = &column->values[point];
+        study_scene_value(scene, study->columns[k], cell, CELL_SIZE, number);
+        csv_text(csv, cell);
+        if (isnan(*number)) TRY(words_index(&column->words, cell, number, err));
+    }
+
+    // Results. If one is not finite, the columns beside it are NaN.
+    for (TableColumn *column = table->columns + study->column_count; column < table->status;
+         column++) {
+        bool is_none = column->of >= 0 && !isfinite(table->columns[column->of].values[point]);
+        const char *from = is_none ? NULL : results;
+        double *number = &column->values[point];
+        *number = NAN;
+        bool is_number = !from || json_find_number(from, column->path, number);
+        if (!is_number && json_find_text(from, column->path, cell, CELL_SIZE))
+            csv_text(csv, cell);
+        else
+            csv_number(csv, *number);
+    }
+    note_missing(table, study, point, results);
+    csv_text(csv, point_status_name(at->status));
+    *cell = 0;
     if (at->status == POINT_FAILED && report)
-        json_find_text(report, "message", writer->cell, ERROR_MESSAGE_SIZE);
-    csv_text(writer->csv, writer->cell);
-    TRY(write_warnings(writer, point, results, err));
+        json_find_text(report, "message", cell, ERROR_MESSAGE_SIZE);
+    csv_text(csv, cell);
+
+    // All warnings of the point in one cell, with // between them.
+    size_t used = 0;
+    *cell = 0;
+    for (int32_t k = 0; results; k++) {
+        snprintf(path, sizeof path, "warnings.%d", k);
+        if (!json_find_text(results, path, sentence, sizeof sentence)) break;
+        warned_add(&table->warned, point, sentence);
+        if (used + sizeof sentence + 4 > CELL_SIZE) continue;
+        used +=
+            (size_t)snprintf(cell + used, CELL_SIZE - used, "%s%s", used ? " // " : "", sentence);
+    }
+    csv_text(csv, cell);
+    TRY(words_index(&table->warnings->words, cell, &table->warnings->values[point], err));
+
     snprintf(run, sizeof run, "%s%s", sweep->reports.open ? "" : "points/", at->hash);
-    csv_text(writer->csv, run);
-    csv_end_row(writer->csv);
-    writer->table->status->values[point] = at->status;
+    csv_text(csv, run);
+    csv_end_row(csv);
+    table->status->values[point] = at->status;
 cleanup:
     memory_free(report);
     return error_is_clean(err);
@@ -282,35 +243,14 @@ cleanup:
 
 // --- sweep.h5 -----------------------------------------------------------------------------------
 
-// The words of a column are an attribute, "push|bonded": the word of index k is the k-th.
-static bool write_column(ArrayFile *file, const TableColumn *column, int32_t count, Error *err)
-{
-    char name[TABLE_PATH_SIZE + 8], *text = NULL;
-    ArraySeries series = {.name = name,
-                          .type = ARRAY_FLOAT64,
-                          .width = 1,
-                          .unit = "of the scene",
-                          .description = column->description};
-    snprintf(name, sizeof name, "%s/%s", column->group, column->name);
-    TRY(array_file_write(file, &series, column->values, 0, count, err));
-    if (column->words.count == 0) goto cleanup;
-    snprintf(name, sizeof name, "%s words", column->name);
-    TRY((text = words_join(&column->words, err)));
-    TRY(array_file_set_text(file, name, text, err));
-cleanup:
-    memory_free(text);
-    return error_is_clean(err);
-}
-
-// Written after sweep.csv: the arrays are filled by its rows.
+// Written after sweep.csv: the arrays are filled by its rows. Groups scene/ and result/, a column
+// each, [points].
 static bool write_h5(const Sweep *sweep, const SweepTable *table, Error *err)
 {
-    char path[POINT_PATH_SIZE];
+    char path[POINT_PATH_SIZE], *words = NULL;
     snprintf(path, sizeof path, "%s/sweep.h5", sweep->folder);
     ArrayFile *file = array_file_create(path, err);
     TRY(file);
-
-    // Groups scene/ and result/, a column each, [points].
     TRY(array_file_set_text(file, "title", sweep->study.title, err));
     TRY(array_file_set_text(file, "units", table->is_si ? "si" : "normalised", err));
 
@@ -323,9 +263,25 @@ static bool write_h5(const Sweep *sweep, const SweepTable *table, Error *err)
                                      column->name);
     TRY(array_file_set_text(file, "columns", names, err));
 
-    for (int32_t c = 0; c < table->count; c++)
-        TRY(write_column(file, &table->columns[c], sweep->study.point_count, err));
+    // The words of a column are an attribute, "push|bonded": the word of index k is the k-th.
+    for (int32_t c = 0; c < table->count; c++) {
+        const TableColumn *column = &table->columns[c];
+        char name[TABLE_PATH_SIZE + 8];
+        ArraySeries series = {.name = name,
+                              .type = ARRAY_FLOAT64,
+                              .width = 1,
+                              .unit = "of the scene",
+                              .description = column->description};
+        snprintf(name, sizeof name, "%s/%s", column->group, column->name);
+        TRY(array_file_write(file, &series, column->values, 0, sweep->study.point_count, err));
+        if (column->words.count == 0) continue;
+        snprintf(name, sizeof name, "%s words", column->name);
+        memory_free(words);
+        TRY((words = words_join(&column->words, err)));
+        TRY(array_file_set_text(file, name, words, err));
+    }
 cleanup:
+    memory_free(words);
     if (error_is_clean(err)) return array_file_close(file, err);
     array_file_abandon(file);
     return false;

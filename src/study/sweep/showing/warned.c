@@ -32,34 +32,6 @@ static bool alike(const char *one, const char *other)
     return !*a && !*b;
 }
 
-static void widen(WarnedKind *kind, const char *sentence)
-{
-    int32_t k = 0, length = 0;
-    double value = 0;
-    for (const char *at = sentence; *at && k < WARNED_NUMBERS_MAX; at += length ? length : 1) {
-        length = number_at(at, &value);
-        if (length == 0) continue;
-        kind->low[k] = fmin(kind->low[k], value);
-        kind->high[k] = fmax(kind->high[k], value);
-        k++;
-    }
-}
-
-static int32_t find_kind(Warned *warned, const char *sentence)
-{
-    for (int32_t k = 0; k < warned->count; k++)
-        if (alike(warned->kinds[k].text, sentence)) return k;
-    if (warned->count == WARNED_KINDS_MAX) return WARNED_KINDS_MAX - 1;
-    WarnedKind *kind = &warned->kinds[warned->count];
-    *kind = (WarnedKind){0};
-    snprintf(kind->text, sizeof kind->text, "%s", sentence);
-    for (int32_t k = 0; k < WARNED_NUMBERS_MAX; k++) {
-        kind->low[k] = INFINITY;
-        kind->high[k] = -INFINITY;
-    }
-    return warned->count++;
-}
-
 bool warned_make(int32_t points, Warned *warned, Error *err)
 {
     *warned = (Warned){.all = points};
@@ -67,14 +39,37 @@ bool warned_make(int32_t points, Warned *warned, Error *err)
     return warned->of != NULL;
 }
 
+// A kind that finds no room counts as the last one.
 void warned_add(Warned *warned, int32_t point, const char *sentence)
 {
-    int32_t k = find_kind(warned, sentence);
+    int32_t k = 0;
+    while (k < warned->count && !alike(warned->kinds[k].text, sentence)) k++;
+    if (k == WARNED_KINDS_MAX) k--;
     WarnedKind *kind = &warned->kinds[k];
+    if (k == warned->count) {
+        *kind = (WarnedKind){0};
+        snprintf(kind->text, sizeof kind->text, "%s", sentence);
+        for (int32_t n = 0; n < WARNED_NUMBERS_MAX; n++) {
+            kind->low[n] = INFINITY;
+            kind->high[n] = -INFINITY;
+        }
+        warned->count++;
+    }
     warned->points += warned->of[point] == 0;
     kind->points += !(warned->of[point] >> k & 1);
     warned->of[point] |= (uint32_t)1 << k;
-    if (alike(kind->text, sentence)) widen(kind, sentence);
+    if (!alike(kind->text, sentence)) return;
+
+    // The range of each of its numbers, so that one sentence speaks for all.
+    int32_t number = 0, length = 0;
+    double value = 0;
+    for (const char *at = sentence; *at && number < WARNED_NUMBERS_MAX; at += length ? length : 1) {
+        length = number_at(at, &value);
+        if (length == 0) continue;
+        kind->low[number] = fmin(kind->low[number], value);
+        kind->high[number] = fmax(kind->high[number], value);
+        number++;
+    }
 }
 
 void warned_name(const Warned *warned, int32_t kind, char name[WARNED_NAME_SIZE])
@@ -108,48 +103,42 @@ bool warned_bits(const Warned *warned, WordList *names, double *bits, Error *err
 
 // --- on the terminal ----------------------------------------------------------------------------
 
-// The sentence with "3 to 41" where its numbers differ.
-static void print_sentence(const WarnedKind *kind, FILE *out)
-{
-    int32_t k = 0;
-    double value = 0;
-    for (const char *at = kind->text; *at;) {
-        int32_t length = number_at(at, &value);
-        bool varies = length > 0 && k < WARNED_NUMBERS_MAX && kind->low[k] < kind->high[k];
-        if (varies)
-            fprintf(out, "%.6g to %.6g", kind->low[k], kind->high[k]);
-        else
-            fprintf(out, "%.*s", length > 0 ? length : 1, at);
-        k += length > 0;
-        at += length > 0 ? length : 1;
-    }
-    fprintf(out, "\n");
-}
-
-// "  points 3, 9, 12 to 15", as sweep.csv numbers them.
-static void print_points(const Warned *warned, int32_t kind, FILE *out)
-{
-    int32_t listed = 0, last = -2;
-    for (int32_t k = 0; k < warned->all; k++) {
-        if (!(warned->of[k] >> kind & 1)) continue;
-        for (last = k; last + 1 < warned->all && warned->of[last + 1] >> kind & 1;) last++;
-        if (listed == LISTED_MAX) {
-            fprintf(out, ", ...");
-            break;
-        }
-        fprintf(out, "%s%d", listed++ ? ", " : "  points ", k);
-        if (last > k) fprintf(out, " to %d", last);
-        k = last;
-    }
-    fprintf(out, "\n");
-}
-
 void warned_print(const Warned *warned, FILE *out)
 {
-    for (int32_t k = 0; k < warned->count; k++) {
-        fprintf(out, "%s%d of %d points: ", k ? "" : "\n", warned->kinds[k].points, warned->all);
-        print_sentence(&warned->kinds[k], out);
-        print_points(warned, k, out);
+    for (int32_t w = 0; w < warned->count; w++) {
+        const WarnedKind *kind = &warned->kinds[w];
+        fprintf(out, "%s%d of %d points: ", w ? "" : "\n", kind->points, warned->all);
+
+        // The sentence with "3 to 41" where its numbers differ.
+        int32_t number = 0, listed = 0;
+        double value = 0;
+        for (const char *at = kind->text; *at;) {
+            int32_t length = number_at(at, &value);
+            bool varies = length > 0 && number < WARNED_NUMBERS_MAX &&
+                          kind->low[number] < kind->high[number];
+            if (varies)
+                fprintf(out, "%.6g to %.6g", kind->low[number], kind->high[number]);
+            else
+                fprintf(out, "%.*s", length > 0 ? length : 1, at);
+            number += length > 0;
+            at += length > 0 ? length : 1;
+        }
+        fprintf(out, "\n");
+
+        // "  points 3, 9, 12 to 15", as sweep.csv numbers them.
+        for (int32_t k = 0; k < warned->all; k++) {
+            int32_t last = k;
+            if (!(warned->of[k] >> w & 1)) continue;
+            while (last + 1 < warned->all && warned->of[last + 1] >> w & 1) last++;
+            if (listed == LISTED_MAX) {
+                fprintf(out, ", ...");
+                break;
+            }
+            fprintf(out, "%s%d", listed++ ? ", " : "  points ", k);
+            if (last > k) fprintf(out, " to %d", last);
+            k = last;
+        }
+        fprintf(out, "\n");
     }
 }
 

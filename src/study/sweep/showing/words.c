@@ -18,23 +18,17 @@ static int32_t *find_slot(const WordList *list, const char *word)
     return &list->slots[at];
 }
 
-// The capacity is a power of 2.
-static bool make_room(WordList *list, Error *err)
-{
-    if (list->slots && list->count < list->capacity) return true;
-    if (!memory_grow(&list->words, list->count, &list->capacity, sizeof *list->words, err))
-        return false;
-    memory_free(list->slots);
-    list->slots = NEW_ARRAY(int32_t, 2 * (int64_t)list->capacity, err);
-    if (!list->slots) return false;
-    for (int32_t k = 0; k < list->count; k++) *find_slot(list, list->words[k]) = k + 1;
-    return true;
-}
-
 // A list as long as its sweep (sentences with numbers in them) is not gone through for every point.
 bool words_index(WordList *list, const char *word, double *index, Error *err)
 {
-    if (!make_room(list, err)) return false;
+    if (!list->slots || list->count == list->capacity) {   // the capacity is a power of 2
+        if (!memory_grow(&list->words, list->count, &list->capacity, sizeof *list->words, err))
+            return false;
+        memory_free(list->slots);
+        list->slots = NEW_ARRAY(int32_t, 2 * (int64_t)list->capacity, err);
+        if (!list->slots) return false;
+        for (int32_t k = 0; k < list->count; k++) *find_slot(list, list->words[k]) = k + 1;
+    }
     int32_t *slot = find_slot(list, word);
     if (*slot == 0) {
         char *copy = memory_text(word, err);
