@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "base/order.h"
+#include "io/hdf5/result_tables.h"
 #include "io/text/csv_writer.h"
 #include "render/events_table.h"
 #include "render/figures/color_scale.h"
@@ -173,7 +174,7 @@ static bool write_area(const char *path, ResultView *view, Error *err)
     for (int64_t row = 0; row < view->rows; ++row) {
         double least = INFINITY, sum = 0, most = -INFINITY;
         for (int64_t k = row * view->nodes; k < (row + 1) * view->nodes; ++k) {
-            double value = view->status[k] == 0 ? 0 : view->area[k];
+            double value = view->status[k] == STATUS_OPEN ? 0 : view->area[k];
             least = fmin(least, value);
             most = fmax(most, value);
             sum += value;

@@ -2,6 +2,7 @@
 #include "render/figures/computed.h"
 
 #include "base/memory.h"
+#include "io/hdf5/result_tables.h"
 #include "render/view/zoom.h"
 
 #include <math.h>
@@ -238,7 +239,7 @@ static double area_at(const ResultView *view, int64_t row, double x)
     for (int32_t i = 1; i < view->nodes; ++i)
         if (fabs(view->x[i] - x) < fabs(view->x[nearest] - x)) nearest = i;
     int64_t k = row * view->nodes + nearest;
-    return view->status[k] == 0 ? 0 : view->area[k];
+    return view->status[k] == STATUS_OPEN ? 0 : view->area[k];
 }
 
 double computed_area(const ResultView *view, double U, double x)

@@ -4,6 +4,7 @@
 #include "render/figures/figure_maps.h"
 
 #include "base/memory.h"
+#include "io/hdf5/result_tables.h"
 #include "render/canvas/key.h"
 #include "render/figures/color_scale.h"
 #include "render/figures/figures.h"
@@ -356,7 +357,6 @@ static const double RANGE_LOW[RANGES] = {0.9, 0.75, 0.5, 0.25, 0};   // where th
 // on ahead of the first node that sticks.
 static void front_draw(const Page *page, const ResultView *view, const MapPage *map)
 {
-    static const double stick = 1;
     const Axis *shown = &map->axes.x;
     Stroke stroke = {.color = INK, .width = FRONT_WIDTH * page->point};
     canvas_clip(page->canvas, &map->axes.box);
@@ -376,7 +376,8 @@ static void front_draw(const Page *page, const ResultView *view, const MapPage *
             // The x up to which the nodes of the pad, from its trailing end on, do not stick.
             const double *status = view->status + row * view->nodes;
             double front = view->x[first];
-            for (int32_t i = first; i <= last && status[i] != stick; ++i) front = view->x[i];
+            for (int32_t i = first; i <= last && status[i] != STATUS_STICKS; ++i)
+                front = view->x[i];
             line_add(&pen, axes_place(&map->axes, here, front));
         }
         line_end(&pen);
@@ -410,7 +411,7 @@ bool figure_contact_density(const Page *whole, ResultView *view, Error *err)
     for (int64_t row = 0; row < view->rows; ++row) {
         if (!(view->U[row] >= zoom.U_low && view->U[row] <= zoom.U_high)) continue;
         for (int64_t k = row * view->nodes; k < (row + 1) * view->nodes; ++k) {
-            bool open = view->status[k] == 0;
+            bool open = view->status[k] == STATUS_OPEN;
             lifted = lifted || open;
             if (!open && view->U[row] < zoom.U_slide)
                 least = fmin(least, 1 - fabs(view->slip_rate[k]) / critical);
@@ -483,7 +484,7 @@ bool figure_contact_area(const Page *whole, ResultView *view, Error *err)
     TRY(area = NEW_ARRAY(double, view->rows * view->nodes, err));
     for (int64_t k = 0; k < view->rows * view->nodes; ++k) {
         double U = view->U[k / view->nodes];
-        bool open = view->status[k] == 0;
+        bool open = view->status[k] == STATUS_OPEN;
         area[k] = open ? -INFINITY : view->area[k];
         lifted = lifted || (open && U >= shown.low && U <= shown.high);
     }

@@ -6,6 +6,7 @@
 #include "render/figures/figure_pads.h"
 
 #include "base/memory.h"
+#include "io/hdf5/result_tables.h"
 #include "render/canvas/key.h"
 #include "render/figures/figures.h"
 #include "render/view/zoom.h"
@@ -16,7 +17,6 @@
 
 // --- numbers -------------------------------------------------------------------------------------
 
-enum { OPEN = 0, STICK = 1 };   // statuses in the history
 static const double CREEP = 0.1;   // of V (record/observation)
 
 void pad_words(const ResultView *view, int32_t pad, char words[PAD_WORDS_SIZE])
@@ -43,7 +43,7 @@ bool pad_courses_read(ResultView *view, PadCourses *courses, Error *err)
     TRY(result_view_read_status(view, err) && result_view_read_slip_rate(view, err));
     bool creeps = true;   // no node ever sticks
     for (int64_t k = 0; k < view->rows * view->nodes && creeps; ++k)
-        creeps = view->status[k] != STICK;
+        creeps = view->status[k] != STATUS_STICKS;
     TRY((stuck = NEW_ARRAY(bool, view->nodes, err)) &&
         (slipped = NEW_ARRAY(bool, view->nodes, err)));
     TRY(courses->list = NEW_ARRAY(PadCourse, (int64_t)pads * (cycles ? cycles : 1), err));
@@ -72,8 +72,8 @@ bool pad_courses_read(ResultView *view, PadCourses *courses, Error *err)
             const double *rate = view->slip_rate + row * view->nodes;
             int32_t letting_go = 0;
             for (int32_t i = 0; i < view->nodes; ++i) {
-                bool rests = status[i] == STICK ||
-                             (creeps && status[i] != OPEN && fabs(rate[i]) < least);
+                bool rests = status[i] == STATUS_STICKS ||
+                             (creeps && status[i] != STATUS_OPEN && fabs(rate[i]) < least);
                 if (rests)
                     stuck[i] = true;
                 else if (stuck[i])
@@ -84,7 +84,7 @@ bool pad_courses_read(ResultView *view, PadCourses *courses, Error *err)
                 for (int32_t i = 0; i < view->nodes; ++i) {
                     if ((int32_t)view->pad[i] != p) continue;
                     some = some || slipped[i];
-                    all = all && (slipped[i] || status[i] == OPEN);
+                    all = all && (slipped[i] || status[i] == STATUS_OPEN);
                 }
                 if (some && isnan(own[p].U_first_slip)) own[p].U_first_slip = view->U[row];
                 if (!some || !all || own[p].order > 0) continue;

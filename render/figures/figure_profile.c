@@ -5,6 +5,7 @@
 #include "render/figures/figure_profile.h"
 
 #include "base/memory.h"
+#include "io/hdf5/result_tables.h"
 #include "render/canvas/key.h"
 #include "render/figures/figures.h"
 #include "render/view/block.h"
@@ -130,7 +131,7 @@ bool profiles_read(ResultView *view, const char *at, Profiles *profiles, Error *
     for (int32_t k = profiles->count - 1; k >= 0; --k)
         for (int32_t i = 0; i < nodes; ++i) {
             int64_t at_node = (int64_t)k * nodes + i;
-            bool open = profiles->status[at_node] == 0;
+            bool open = profiles->status[at_node] == STATUS_OPEN;
             profiles->opens = profiles->opens || open;
             values[PROFILE_RATIO][at_node] = open || !(values[PROFILE_PRESSURE][at_node] > 0)
                                                  ? NAN
@@ -223,7 +224,7 @@ bool figure_profile(Page *page, const FigureInput *input, Error *err)
             double radius = KEY_RADIUS * whole.point;
             for (int32_t i = 0; i < view->nodes; ++i) {
                 int64_t at_node = (int64_t)k * view->nodes + i;
-                if (profiles.status[at_node] != 0) continue;
+                if (profiles.status[at_node] != STATUS_OPEN) continue;
                 Point at =
                     axes_place(&axes[f], view->x[i], profiles.values[PROFILE_PRESSURE][at_node]);
                 draw_disc(whole.canvas, stack_color(k), at, radius);

@@ -6,6 +6,7 @@
 #include "render/render.h"
 
 #include "base/memory.h"
+#include "io/hdf5/result_tables.h"
 
 #include <math.h>
 
@@ -73,7 +74,8 @@ amontons_render_film(const char *folder, const FilmRequest *request, Error *err)
     TRY((fastest = NEW_ARRAY(double, view.rows, err)));
     for (int64_t row = 0; row < view.rows; ++row)
         for (int64_t i = row * view.nodes; i < (row + 1) * view.nodes; ++i)
-            if (view.status[i] != 0) fastest[row] = fmax(fastest[row], fabs(view.slip_rate[i]));
+            if (view.status[i] != STATUS_OPEN)
+                fastest[row] = fmax(fastest[row], fabs(view.slip_rate[i]));
     FilmClockDef run = {.rows = view.rows,
                         .t = view.t,
                         .fastest = fastest,

@@ -6,6 +6,7 @@
 #include "render/view/space_time.h"
 
 #include "base/memory.h"
+#include "io/hdf5/result_tables.h"
 
 #include <math.h>
 
@@ -63,7 +64,7 @@ static void step_add(const SpaceTime *data, int64_t row, int32_t column, float *
     const double *status = data->status ? data->status + row * data->nodes : NULL;
     float *cell = by_column + (int64_t)column * data->nodes;
     for (int32_t i = 0; i < data->nodes; ++i) {
-        bool open = status && status[i] == 0;
+        bool open = status && status[i] == STATUS_OPEN;
         double counts = data->sign ? data->sign * value[i] : fabs(value[i]);
         cell[i] = larger(cell[i], open ? INFINITY : (float)counts);
     }

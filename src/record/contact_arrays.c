@@ -4,8 +4,9 @@
 #include "record/contact_arrays.h"
 
 #include "base/memory.h"
-#include "friction/friction.h"
 #include "contact/slip.h"
+#include "friction/friction.h"
+#include "io/hdf5/result_tables.h"
 
 #include <stdio.h>
 
@@ -98,11 +99,12 @@ bool contact_arrays_record(void *self, const Observation *seen, Error *err)
         arrays->gap[i] =
             state->status[i] == CONTACT_OPEN ? moved + interface_gap(seen->interface, i) : 0;
 
-        // As docs/results.md has it: 2 slips where friction weakens, 3 where it does not.
+        // As the history has it (docs/results.md), not as the contact solver.
         uint8_t status = seen_status(seen, i);
         double speed = slip_size(seen->interface, i, state->slip_rate);
         if (status_slips(status))
-            status = friction_weakens(friction_at(arrays->friction, i), speed) ? 2 : 3;
+            status = friction_weakens(friction_at(arrays->friction, i), speed) ? STATUS_WEAKENS
+                                                                               : STATUS_SLIPS;
         arrays->status[i] = status;
     }
     for (int32_t i = 0; arrays->area && i < arrays->count; i++)

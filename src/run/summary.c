@@ -9,8 +9,14 @@
 #include "base/decimal_point.h"
 #include "base/memory.h"
 #include "base/text.h"
+#include "io/hdf5/result_tables.h"
 #include "model/loads.h"
 #include "run/warnings.h"
+
+// Callers are handed the statuses that a history holds.
+_Static_assert((int)NODE_OPEN == STATUS_OPEN && (int)NODE_STICKS == STATUS_STICKS &&
+                   (int)NODE_WEAKENS == STATUS_WEAKENS && (int)NODE_SLIPS == STATUS_SLIPS,
+               "statuses of amontons.h and of a history");
 
 #include <math.h>
 #include <stdio.h>

@@ -16,8 +16,9 @@
 static const double SAFETY = 0.5;
 
 // Numerics may use up this part of what the ledger of a run may miss: a step that would take more
-// is taken shorter, as long as waves are resolved. (What hits something loses the energy of the
-// nodes that hit, however short the step; still shorter ones only drive the force of the blow up.)
+// is taken shorter, down to the longest that resolves waves. (What hits something loses the energy
+// of the nodes that hit, however short the step; still shorter ones only drive the force of the
+// blow up.)
 static const double LEDGER_SHARE = 0.5;
 
 // Levels down from a long step into a state that is not certified, at most as far as waves are
@@ -179,8 +180,8 @@ static Verdict judge_step(StepControl *control, int32_t k, const StepOutcome *ou
     if (!outcome->solved || !isfinite(outcome->error)) return STEP_UNSOLVED;
     if (outcome->error > control->def.tolerance) return STEP_INACCURATE;
 
-    // The ledger, where the step resolves waves. Where no shorter step is left the run's own ledger
-    // decides (run/simulation).
+    // The ledger, down to the longest step that resolves waves. Where no shorter step is left the
+    // run's own ledger decides (run/simulation).
     double part = LEDGER_SHARE * control->def.energy_tolerance;
     bool last = k + 1 >= control->dt_levels.level_count;
     if (!last && part != 0 && !control->settles && k <= wave_level(control)) {

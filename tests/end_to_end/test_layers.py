@@ -74,7 +74,7 @@ def allowed(folder, include):
             "amontons_pictures.h",   # what render/render.h is asked
             "io/files/folder.h", "io/files/own_list.h", "io/files/part_file.h", "io/text/html_writer.h", "io/text/yaml_document.h",
             "io/text/csv_reader.h", "io/text/csv_writer.h",   # measurements; what a figure shows
-            "io/hdf5/array_file.h", "io/hdf5/result_file.h", "io/video/video_file.h", "io/mesh/mesh_file.h", "io/fields/field_read.h",
+            "io/hdf5/array_file.h", "io/hdf5/result_file.h", "io/hdf5/result_tables.h", "io/video/video_file.h", "io/mesh/mesh_file.h", "io/fields/field_read.h",
             "io/mesh/shape_functions.h", "io/mesh/element_faces.h")   # fields inside an element and on its faces
     if folder == "cli":
         return include in PUBLIC or include.startswith("cli/")

@@ -5,6 +5,14 @@
 #ifndef AMONTONS_IO_HDF5_RESULT_TABLES_H
 #define AMONTONS_IO_HDF5_RESULT_TABLES_H
 
+// Values of interface/status. Callers of the library have them as NODE_OPEN and so on (amontons.h).
+typedef enum StoredStatus {
+    STATUS_OPEN,
+    STATUS_STICKS,
+    STATUS_WEAKENS,   // slips where friction falls with the slip rate
+    STATUS_SLIPS   // slips where it does not
+} StoredStatus;
+
 typedef enum ResultColumns {
     COLUMNS_ONE,
     COLUMNS_NODES,   // one a contact node, by x

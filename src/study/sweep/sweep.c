@@ -199,9 +199,10 @@ static bool choose_accuracy(Sweep *sweep, const RankRow *row, bool *chosen, Erro
     double accuracy =
         asked > sweep->study.rank.refine ? fmax(strtod(digits, NULL), sweep->study.rank.refine) : 0;
 
-    TRY((*chosen = accuracy > 0));
+    *chosen = accuracy > 0;
+    if (!*chosen) goto cleanup;
     point->accuracy = accuracy;
-    TRY(point_scene(sweep, k, err));   // with it
+    TRY((scene = point_scene(sweep, k, err)));   // with it
     TRY(point_hash(sweep, scene, point->hash, err));
     report = point_report(sweep, k, err);
     TRY(error_is_clean(err));

@@ -7,7 +7,7 @@
 //     DIR/ranking.csv              the same points, the best first, where the study asks (`rank`)
 //     DIR/figures/*.png            pictures of the ranking and of the study's `plot`
 //     DIR/slurm/                   scripts and output of the elements, with --slurm
-//     DIR/lock                     one sweep at a time
+//     DIR/amontons.lock            one sweep at a time
 //
 // A point is an ordinary run: with `output.history: true` in the study its folder holds all of a
 // result. It is finished when its run.json exists.

@@ -167,7 +167,8 @@ bool sweep_take_ended(Sweep *sweep, int32_t point, double seconds, bool *left, E
 {
     char *report = point_report(sweep, point, err);
     TRY(error_is_clean(err));
-    TRY((*left = point_status(report) != POINT_PENDING));
+    *left = point_status(report) != POINT_PENDING;
+    if (!*left) goto cleanup;
     if (isnan(seconds) && !json_find_number(report, "timing_s.total", &seconds)) seconds = 0;
     sweep->points[point].status = point_status(report);
     sweep->points[point].seconds = seconds;
