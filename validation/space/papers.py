@@ -14,6 +14,7 @@ import json
 import math
 import os
 import resource
+import statistics
 import subprocess
 import sys
 from pathlib import Path
@@ -22,7 +23,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "validation/benchmark"))
 sys.dont_write_bytecode = True
 from measured_run import PROGRAM, markdown_table   # noqa: E402
-from priors import Constants, bar_of   # noqa: E402
+from priors import STUDENT, Constants, bar_of   # noqa: E402
 
 # Cells to the height. From GRADED_FROM on cells of that length stand at the contact, and rows get higher towards the top, GRADE times the
 # lowest: 1/2.16 of the rows.
@@ -128,6 +129,17 @@ def change(rows, first, last, what):
     return f"{what}: {one[0]:.3f} to {other[0]:.3f}, {-fall:+.3f} ± {bars:.3f}: {verdict}."
 
 
+def paired(rows, first, last, what):
+    """The same difference mesh by mesh, of cells of the same length: its mean and, by Student's t, within what that is known 19 times in 20."""
+    by_cells = [{row["cells"]: row["mu_M"] for row in rows.get(at, []) if row.get("mu_M") is not None} for at in (first, last)]
+    differences = [by_cells[1][cells] - by_cells[0][cells] for cells in sorted(by_cells[0].keys() & by_cells[1].keys())]
+    if len(differences) < 3:
+        return f"{what}: fewer than three meshes in common."
+    mean = statistics.fmean(differences)
+    known = STUDENT[min(len(differences) - 1, len(STUDENT)) - 1] * statistics.stdev(differences) / math.sqrt(len(differences))
+    return f"{what}, mesh by mesh: {mean:+.4f} ± {known:.4f} in the mean of {len(differences)}, {sum(d < 0 for d in differences)} of them below 0."
+
+
 def table_of(study, rows):
     lines = []
     for key in STUDIES[study][1]:
@@ -163,6 +175,8 @@ def verdicts(study, rows):
         return change(rows, (study, first), (study, last), what)
     if study == "breadth":
         lines = [between(f"{BREADTHS[0]:g}, P {p:g}", f"{BREADTHS[-1]:g}, P {p:g}", f"W/H from {BREADTHS[0]} to {BREADTHS[-1]} at P/E = {p:g}") for p in PRESSURES]
+        lines += [paired(rows, (study, f"{BREADTHS[0]:g}, P {p:g}"), (study, f"{BREADTHS[-1]:g}, P {p:g}"), f"W/H from {BREADTHS[0]} to {BREADTHS[-1]} at P/E = {p:g}")
+                  for p in PRESSURES]
         lines += [between(f"{w:g}, P {PRESSURES[0]:g}", f"{w:g}, P {PRESSURES[-1]:g}", f"P/E from {PRESSURES[0]} to {PRESSURES[-1]} at W/H = {w:g}") for w in BREADTHS]
     elif study == "even rows":
         return graded_or_not(rows)
