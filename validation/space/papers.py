@@ -207,8 +207,8 @@ def draw(rows, folder):
                 "color": number + 1, "marker": ("circle", "square", "triangle", "down", "cross")[number]}
     mu = {"label": "~{μ}_{M}"}
     across = []
-    for study, name, keys in [("breadth", f"~{{P}} = {p:g}", [f"{w:g}, P {p:g}" for w in BREADTHS]) for p in PRESSURES] + [
-            ("small rod", "~{P} = 0.006, rod ~{H}/10 broad", [f"{w:g}" for w in BREADTHS])]:
+    for study, name, keys in [("breadth", f"~{{P}}/~{{E}} = {p:g}", [f"{w:g}, P {p:g}" for w in BREADTHS]) for p in PRESSURES] + [
+            ("small rod", "~{P}/~{E} = 0.006, rod ~{H}/10 broad", [f"{w:g}" for w in BREADTHS])]:
         found = [(w, with_bar(rows.get((study, key), []), "mu_M")) for w, key in zip(BREADTHS, keys)]
         found = [(w, f) for w, f in found if f]
         if found:
