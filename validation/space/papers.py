@@ -6,8 +6,9 @@ area that slips before and grooves, with error bars.
     validation/space/papers.py [--seconds S] [--cells N] [--only STUDY [--points KEY ...]] [--page] [-o FOLDER]
 
 Each point is run on meshes of 8 to 40 cells to the height, as long as one may be expected to take S seconds of processor time (default
-40; it goes up with the sixth power). From 20 on rows get higher towards the top; the last study shows what that changes. A line of FOLDER/papers.jsonl (default validation/space) is one run, and a call
-that was stopped goes on behind the last one. Bars are those of the program's rule (src/answers/error_bars.c) on these meshes: of blocks
+40; it goes up with the sixth power). From 20 on rows get higher towards the top; `even rows` has some of these blocks with rows of one
+height, to see what that changes. A line of FOLDER/papers.jsonl (default validation/space) is one run, and a call that was stopped goes on
+behind the last one. Bars are those of the program's rule (src/answers/error_bars.c) on these meshes: of blocks
 in space 98 of 100 held (priors.md). Writes papers.md and its two figures beside it."""
 import argparse
 import json
@@ -51,7 +52,7 @@ def grooved(direction, width, depth=0.2, pressure=0.006):
     return 1.0, settings
 
 
-# study: what it is, then key: (length over breadth, settings of a mesh). Of the last, meshes of EVEN cells.
+# study: what it is, then key: (length over breadth, settings of a mesh)
 STUDIES = {
     "breadth": ("W/H and P/E, at L/H = 1",
                 {f"{breadth:g}, P {pressure:g}": block(1, breadth, pressure) for pressure in PRESSURES for breadth in BREADTHS}),
@@ -63,14 +64,16 @@ STUDIES = {
              for breadth in (0.5, 2)}),
     "grooves": ("two grooves 0.2 H deep, along or across and how wide over H, at L/H = W/H = 1 and P/E = 0.006",
                 {f"{direction} {width}": grooved(direction, width) for width in (0.1, 0.2) for direction in ("along", "across")}),
-    "even rows": ("W/H with rows of one height, at L/H = 1 and P/E = 0.006", {f"{breadth:g}": block(1, breadth, graded=False) for breadth in BREADTHS}),
 }
+# All that is run: these, on MESHES, and what only shows what grading changes, on meshes of EVEN cells.
+RUNS = STUDIES | {"even rows": ("W/H with rows of one height, at L/H = 1 and P/E = 0.006",
+                                {f"{breadth:g}": block(1, breadth, graded=False) for breadth in BREADTHS})}
 ANSWERS = ("mu_M", "mu_hold", "A_c_over_A", "l_c_over_L", "slip_cells")
 
 
 def run(study, key, cells, folder):
     """A line of the answers."""
-    aspect, settings = STUDIES[study][1][key]
+    aspect, settings = RUNS[study][1][key]
     flat = [word for name, value in settings(cells).items() for word in ("--set", f"{name}={value}")]
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     done = subprocess.run([PROGRAM, "run", Path(__file__).with_name("papers.yaml"), *flat, "-q", "-o", folder / "work", "--overwrite"],
@@ -91,10 +94,10 @@ def compute(words):
     rows = {}
     for row in map(json.loads, path.read_text().splitlines()) if path.exists() else ():
         rows.setdefault((row["study"], row["key"]), []).append(row)
-    for study in () if words.page else words.only or STUDIES:
-        for key in words.points or STUDIES[study][1]:
+    for study in () if words.page else words.only or RUNS:
+        for key in words.points or RUNS[study][1]:
             have = rows.setdefault((study, key), [])
-            for cells in (EVEN if study == "even rows" else MESHES)[len(have):]:
+            for cells in (MESHES if study in STUDIES else EVEN)[len(have):]:
                 if cells > words.cells:
                     break
                 if have and have[-1]["cpu_s"] * (cells / have[-1]["cells"])**6 > words.seconds:
@@ -156,7 +159,7 @@ def graded_or_not(rows):
     """What grading changes, mesh by mesh."""
     lines, ratios = [], []
     for (study, key), have in sorted(rows.items()):
-        for even in have if study == "even rows" else ():
+        for even in () if study in STUDIES else have:
             graded = [row for row in rows.get(("breadth", f"{key}, P 0.006"), []) if row["cells"] == even["cells"]]
             if graded and "error" not in even | graded[0]:
                 ratios.append(graded[0]["mu_M"] / even["mu_M"] - 1)
@@ -164,8 +167,7 @@ def graded_or_not(rows):
                               f"{even['cpu_s']:.0f}", f"{graded[0]['cpu_s']:.0f}"])
     if not lines:
         return "Not computed."
-    mean = sum(ratios) / len(ratios)
-    spread = math.sqrt(sum((ratio - mean) ** 2 for ratio in ratios) / max(len(ratios) - 1, 1))
+    mean, spread = statistics.fmean(ratios), statistics.stdev(ratios) if len(ratios) > 1 else 0
     return (markdown_table(["W/H", "cells to H at the contact", "even", "graded", "change", "s, even", "s, graded"], lines)
             + f"\n\n- graded over even: {100 * mean:+.2f} % in the mean of {len(ratios)}, scattered by {100 * spread:.2f} %.")
 
@@ -178,8 +180,6 @@ def verdicts(study, rows):
         lines += [paired(rows, (study, f"{BREADTHS[0]:g}, P {p:g}"), (study, f"{BREADTHS[-1]:g}, P {p:g}"), f"W/H from {BREADTHS[0]} to {BREADTHS[-1]} at P/E = {p:g}")
                   for p in PRESSURES]
         lines += [between(f"{w:g}, P {PRESSURES[0]:g}", f"{w:g}, P {PRESSURES[-1]:g}", f"P/E from {PRESSURES[0]} to {PRESSURES[-1]} at W/H = {w:g}") for w in BREADTHS]
-    elif study == "even rows":
-        return graded_or_not(rows)
     elif study == "grooves":
         lines = [change(rows, ("length", "1"), (study, key), f"{key}, beside none") for key in STUDIES[study][1]]
     elif study == "rod":
@@ -193,7 +193,7 @@ def verdicts(study, rows):
 def points(rows):
     """(A_c/A of the finest mesh, mu_M, bar, study, key)"""
     for (study, key), have in rows.items():
-        if study == "even rows":
+        if study not in STUDIES:
             continue
         found, good = with_bar(have, "mu_M"), [row for row in have if row.get("A_c_over_A") is not None]
         if found and good:
@@ -236,10 +236,10 @@ the first ([what that changes](#even-rows-wh-with-rows-of-one-height-at-lh--1-an
 Where and how broad their rod is is not known to us: a strip H/10 wide at half of the height over the whole breadth, but where a table says otherwise.
 s: processor time of all meshes of a point. What it means: [README.md](README.md#the-papers-of-2023-and-2024)."""]
     for study, (title, _) in STUDIES.items():
-        table = "" if study == "even rows" else f"{table_of(study, rows)}\n\n"
-        parts.append(f"## {study.capitalize()}: {title}\n\n{table}{verdicts(study, rows)}")
+        parts.append(f"## {study.capitalize()}: {title}\n\n{table_of(study, rows)}\n\n{verdicts(study, rows)}")
         if study == "breadth":
             parts.append("![mu_M against breadth at four pressures](papers-breadth.png)")
+    parts.append(f"## Even rows: {RUNS['even rows'][0]}\n\n{graded_or_not(rows)}")
     lines = [[f"{area:.2f}", f"{value:.3f} ± {bar:.3f}", f"{study} {key}"] for area, value, bar, study, key in sorted(points(rows))]
     parts.append("## mu_M against A_c/A\n\nIn order of the area that slips before bulk sliding, on the finest mesh.\n\n![mu_M against the critical area](papers-area.png)\n\n"
                  + markdown_table(["A_c/A", "mu_M", "point"], lines))
@@ -249,7 +249,7 @@ s: processor time of all meshes of a point. What it means: [README.md](README.md
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--seconds", type=float, default=40, help="of processor time for one mesh")
-    parser.add_argument("--only", nargs="+", choices=STUDIES)
+    parser.add_argument("--only", nargs="+", choices=RUNS)
     parser.add_argument("--points", nargs="+", help="some of the one study after --only, by the first column of its table")
     parser.add_argument("--cells", type=int, default=MESHES[-1], help="to the height, at most")
     parser.add_argument("--page", action="store_true", help="write the page from what was computed, and compute nothing")

@@ -119,9 +119,10 @@ static bool make_folder(Sweep *sweep, Error *err)
     return !study->keep_table || reports_open(&sweep->reports, path, sweep->options->fresh, err);
 }
 
-// The folder is made when the study has turned out to be right. Reports of an earlier sweep are
-// listed, also of points that the study no longer has, or not yet.
-bool sweep_plan(Sweep *sweep, Error *err)
+// Plans the points that the study has more than before: what was finished earlier is found and
+// reported. The folder is made when the study has turned out to be right. Reports of an earlier
+// sweep are listed, also of points that the study no longer has, or not yet.
+static bool sweep_plan(Sweep *sweep, Error *err)
 {
     int32_t first = sweep->point_count;
     if (!plan_points(sweep, err)) return false;

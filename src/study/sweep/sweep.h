@@ -8,8 +8,6 @@
 // Reads the study. options: used until sweep_close. Also of one half opened *sweep is the caller's
 // to close.
 bool sweep_open(const char *path, const SweepOptions *options, Sweep **sweep, Error *err);
-// Points that the study has more than before: what was finished earlier is found and reported.
-bool sweep_plan(Sweep *sweep, Error *err);
 // One more list of maps in YAML: each is a case, with all of `vary`. Their points are the next.
 bool sweep_add(Sweep *sweep, const char *designs, Error *err);
 // ERROR_INTERRUPT: stopped; a point that failed is none.
