@@ -154,7 +154,8 @@ static bool check_rod(const Model *model, Error *err)
     return true;
 }
 
-// Part of the computer's memory from which on parts of a reduction are built one after another.
+// Part of the computer's memory from which on parts of a reduction are built one after another,
+// where that takes less: not in the plane, nor where the steps take more than the reduction.
 static const double ONE_BY_ONE_FROM = 0.3;
 
 // Said before anything is factored; in space, where it goes up with the fourth power of the cells
@@ -170,10 +171,10 @@ static bool check_memory(Model *model, int32_t parts, Error *err)
     sizes.one_side = half.interface.contact_count > 0;
     double have = memory_there(), whole = memory_expected(&sizes, false);
     model->memory = memory_expected(&sizes, model->is_reduced);
-    if (model->memory > ONE_BY_ONE_FROM * have) {
-        sizes.one_by_one = model->one_by_one = true;
-        model->memory = memory_expected(&sizes, model->is_reduced);
-    }
+    sizes.one_by_one = true;
+    double less = memory_expected(&sizes, model->is_reduced);
+    model->one_by_one = model->memory > ONE_BY_ONE_FROM * have && less < model->memory;
+    if (model->one_by_one) model->memory = less;
     if (model->scene->time.scheme == SCHEME_EXPLICIT) model->memory = 0;
     if (model->memory > have)
         FAIL(err, ERROR_INPUT,
