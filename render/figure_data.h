@@ -4,10 +4,11 @@
 #ifndef AMONTONS_RENDER_FIGURE_DATA_H
 #define AMONTONS_RENDER_FIGURE_DATA_H
 
-#include "render/figures/figures.h"
+#include "render/figures/picture.h"
 
-// name: "force"; figures without curves have no table of their own. field: the moments of profile.
-bool figure_data_write(const char *folder, const char *name, ResultView *view,
+// Writes what the figure shows, of `force` also the events, and each measured value beside the
+// computed one. field: the moments of profile.
+bool figure_data_write(const char *folder, const Figure *figure, ResultView *view,
                        const FieldChoice *field, const char *compare, Error *err);
 
 // Whether `name` shows what the file has measured.

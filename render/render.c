@@ -22,7 +22,7 @@ static bool find_panels(const char *names, Picture *picture, Error *err)
         snprintf(name, sizeof name, "%.*s", (int)strcspn(at, ","), at);
         const Figure *figure = NULL;
         if (!figure_find(name, &figure, err)) return false;
-        if (!figure->shape->draw || figure->shape->own_axes)
+        if (!figure->kind->draw || figure->kind->own_axes)
             return REFUSE(err, "panels are figures over U: %s cannot be one", name);
         if (!picture_add(picture, figure, err)) return false;
     }
@@ -60,7 +60,7 @@ static bool make_picture(const char *folder, const PictureRequest *request, cons
     const Figure *figure = picture->figure;
 
     // "field", or "field-stress_xx" where that was asked for.
-    bool takes = figure && figure->shape->draw_whole && figure->id != FIGURE_PROFILE;
+    bool takes = figure && figure->kind->draw_whole && figure->id != FIGURE_PROFILE;
     const char *of = takes ? request->field.of : NULL;
     int length =
         snprintf(path, PATH_MAX, "%s/figures/%s%s%s.%s", folder, figure ? figure->name : "panels",
@@ -71,7 +71,7 @@ static bool make_picture(const char *folder, const PictureRequest *request, cons
     TRY(picture_draw(picture, folder, request, view, &page, err));
     TRY(page_finish(&page, path, figure ? figure->title : view->title, err));
     for (int32_t k = 0; k < picture->count; ++k)
-        TRY(figure_data_write(folder, picture->panels[k].figure->name, view, &request->field,
+        TRY(figure_data_write(folder, picture->panels[k].figure, view, &request->field,
                               request->style.compare, err));
 cleanup:
     page_destroy(&page);
@@ -107,8 +107,7 @@ static bool request_check(const char *folder, const PictureRequest *request, Err
 }
 
 // Who asks for all figures gets those that there are, and of fields those that have what is asked
-// for. A strip needs a sliding with several times, and figures with axes of their own are of
-// interest beside measurements: for who asks.
+// for.
 static bool is_drawn(const char *folder, const Figure *figure, const PictureRequest *request,
                      ResultView *view, bool *drawn, Error *err)
 {
@@ -116,8 +115,7 @@ static bool is_drawn(const char *folder, const Figure *figure, const PictureRequ
     bool measured = false;
     if (!figure_data_measured(figure->name, request->style.compare, view, &measured, err))
         return false;
-    *drawn = figure_is_there(figure->name, view) && (measured || !figure->shape->own_axes);
-    if (figure->id == FIGURE_STRIP) *drawn = false;
+    *drawn = figure_is_there(figure, view) && (measured || !figure->kind->asked_only);
     if (figure->id == FIGURE_CONTACT_PLANE)
         *drawn = *drawn && (!of || figure_contact_plane_shows(view, of));
     bool probes = of && view->probes > 0 && figure_probes_show(of);

@@ -114,6 +114,11 @@ static ContactQuantity quantity_of(ResultView *view, const char *name)
     return state ? CONTACT_STATE : (ContactQuantity)k;
 }
 
+bool figure_contact_plane_is_there(const ResultView *view)
+{
+    return view->line && view->rapid_count > 0 && result_file_has_faces(view->file);
+}
+
 bool figure_contact_plane_shows(ResultView *view, const char *name)
 {
     return quantity_of(view, name) != CONTACT_QUANTITY_COUNT;

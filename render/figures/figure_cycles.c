@@ -3,6 +3,7 @@
 #include "render/figures/figures.h"
 
 #include "base/memory.h"
+#include "io/text/csv_writer.h"
 #include "render/canvas/key.h"
 #include "render/view/zoom.h"
 
@@ -150,6 +151,50 @@ bool figure_precursors(const Page *whole, ResultView *view, Error *err)
         axes_draw(&page, &axes);
     }
     measured_destroy(&measured);
+    return error_is_clean(err);
+}
+
+static void write_length(CsvWriter *csv, double mu, double part, int32_t cycle, const char *event)
+{
+    csv_rounded(csv, mu);
+    csv_rounded(csv, part);
+    csv_number(csv, cycle);
+    csv_text(csv, event);
+    csv_end_row(csv);
+}
+
+// Loads and lengths of the events of each cycle that is shown, then the farthest slip so far.
+bool figure_precursors_table(const char *path, ResultView *view, const FieldChoice *field,
+                             Error *err)
+{
+    (void)field;
+    static const char *const names[] = {"F_T/F_N", "l/L", "cycle", "event"};
+    int32_t asked = view->cycle, first = 0, last = 0;
+    double L = view->number[NUMBER_LENGTH];
+    CsvWriter *csv = csv_create(path, err);
+    if (!csv) return false;
+    for (int32_t c = 0; c < 4; ++c) csv_text(csv, names[c]);
+    csv_end_row(csv);
+    zoom_cycles(view, &first, &last);
+    for (int32_t k = first; k <= last; ++k) {
+        ViewCurve curve;
+        computed_choose_cycle(view, k);
+        TRY(computed_curve(view, MEASURED_LENGTH, &curve, err));
+        int32_t cycle = zoom_choose(view).cycle;
+        for (int32_t i = 0; i < view->event_count; ++i) {
+            double mu = NAN, length = NAN;
+            if (computed_event(view, &view->events[i], &mu, &length))
+                write_length(csv, mu, length / L, cycle, view_event_word(&view->events[i]));
+        }
+        for (int64_t i = 0; i < curve.count; ++i)
+            write_length(csv, curve.at[i], curve.value[i] / L, cycle, MEASURED_FARTHEST);
+    }
+    CsvWriter *whole = csv;
+    csv = NULL;
+    TRY(csv_finish(whole, err));
+cleanup:
+    csv_abandon(csv);
+    computed_choose_cycle(view, asked);
     return error_is_clean(err);
 }
 
@@ -305,5 +350,48 @@ bool figure_front_speed(const Page *whole, ResultView *view, Error *err)
     axes_draw(&page, &axes);
 cleanup:
     measured_destroy(&measured);
+    return error_is_clean(err);
+}
+
+// Speeds of the fronts of the events of each cycle that is shown, below 0 towards the trailing end.
+// U, where the rod was when it began, says which row of events.csv an event is.
+bool figure_front_speed_table(const char *path, ResultView *view, const FieldChoice *field,
+                              Error *err)
+{
+    (void)field;
+    int32_t asked = view->cycle, first = 0, last = 0;
+    ViewCurve curve = {0};
+    CsvWriter *csv = csv_create(path, err);
+    if (!csv) return false;
+    const char *const names[] = {"x/L", "v/c_R", "cycle", "event", view->si ? "U (m)" : "U"};
+    for (int32_t c = 0; c < 5; ++c) csv_text(csv, names[c]);
+    csv_end_row(csv);
+    zoom_cycles(view, &first, &last);
+    for (int32_t k = first; k <= last; ++k) {
+        computed_choose_cycle(view, k);
+        Zoom zoom = zoom_choose(view);
+        for (int32_t e = 0; e < view->event_count; ++e) {
+            const ViewEvent *event = &view->events[e];
+            if (!view_event_counts(event) || !zoom_covers(&zoom, event->U_start)) continue;
+            TRY(computed_front_speed(view, event, &curve, err));
+            for (int64_t i = 0; i < curve.count; ++i) {
+                csv_rounded(csv, curve.at[i] / view->number[NUMBER_LENGTH]);
+                csv_rounded(csv, curve.value[i] / view->number[NUMBER_C_RAYLEIGH]);
+                csv_number(csv, zoom.cycle);
+                csv_text(csv, view_event_word(event));
+                csv_rounded(csv, event->U_start);
+                csv_end_row(csv);
+            }
+            memory_free_all(curve.at, curve.value);
+            curve = (ViewCurve){0};
+        }
+    }
+    CsvWriter *whole = csv;
+    csv = NULL;
+    TRY(csv_finish(whole, err));
+cleanup:
+    csv_abandon(csv);
+    memory_free_all(curve.at, curve.value);
+    computed_choose_cycle(view, asked);
     return error_is_clean(err);
 }

@@ -3,6 +3,7 @@
 // own that enlarges the last precursors before a sliding.
 #include "render/figures/figures.h"
 
+#include "render/figures/columns.h"
 #include "render/view/range.h"
 #include "render/view/zoom.h"
 
@@ -278,4 +279,12 @@ bool figure_force(const Page *whole, ResultView *view, Error *err)
     axes_draw(&page, &axes);
     measured_destroy(&measured);
     return true;
+}
+
+bool figure_force_table(const char *path, ResultView *view, const FieldChoice *field, Error *err)
+{
+    const Column columns[] = {
+        {"U", "m", view->U}, {"t", "s", view->t}, {"F_T/F_N", NULL, view->mu}};
+    (void)field;
+    return columns_write(path, columns, 3, view->rows, view->si, err);
 }

@@ -4,9 +4,11 @@
 #include "render/figures/figure_maps.h"
 
 #include "base/memory.h"
+#include "base/order.h"
 #include "io/hdf5/result_tables.h"
 #include "render/canvas/key.h"
 #include "render/figures/color_scale.h"
+#include "render/figures/columns.h"
 #include "render/figures/figures.h"
 #include "render/figures/measured.h"
 #include "render/view/range.h"
@@ -14,6 +16,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const double AREA_RADIUS = 1.6;   // points: of measured areas
@@ -320,7 +323,22 @@ cleanup:
     return error_is_clean(err);
 }
 
+// How far slip has come, against U.
+bool figure_slip_map_table(const char *path, ResultView *view, const FieldChoice *field, Error *err)
+{
+    ViewCurve front;
+    (void)field;
+    if (!computed_curve(view, MEASURED_FRONT, &front, err)) return false;
+    const Column columns[] = {{"U", "m", front.at}, {"t", "s", view->t}, {"x", "m", front.value}};
+    return columns_write(path, columns, 3, front.count, view->si, err);
+}
+
 // --- state-map -----------------------------------------------------------------------------------
+
+bool figure_state_map_is_there(const ResultView *view)
+{
+    return view->states > 0;
+}
 
 // A pixel shows the smallest of its values, as slip makes contacts young at once and rest
 // strengthens them slowly.
@@ -345,6 +363,55 @@ bool figure_state_map(const Page *whole, ResultView *view, Error *err)
 cleanup:
     memory_free(states);
     map_page_destroy(&map);
+    return error_is_clean(err);
+}
+
+enum { OF_STATE = 3 };   // columns of each
+
+// Least, median and largest over the nodes, of the state that the view stands for.
+static bool state_columns(ResultView *view, double *columns[OF_STATE], Error *err)
+{
+    double *states = NULL;
+    TRY(result_view_read(view, SERIES_STATE, false, &states, err));
+    for (int32_t k = 0; k < OF_STATE; ++k) TRY(columns[k] = NEW_ARRAY(double, view->rows, err));
+    for (int64_t row = 0; row < view->rows; ++row) {
+        double *own = states + row * view->nodes;
+        qsort(own, (size_t)view->nodes, sizeof *own, order_doubles);
+        for (int32_t k = 0; k < OF_STATE; ++k)
+            columns[k][row] = own[k * (view->nodes - 1) / (OF_STATE - 1)];
+    }
+cleanup:
+    memory_free(states);
+    return error_is_clean(err);
+}
+
+bool figure_state_map_table(const char *path, ResultView *view, const FieldChoice *field,
+                            Error *err)
+{
+    (void)field;
+    static const char *const what[OF_STATE] = {"least", "median", "largest"};
+    int32_t count = 2;
+    Column *columns = NEW_ARRAY(Column, 2 + OF_STATE * view->states, err);
+    char(*names)[VIEW_STATE_SIZE + 12] = memory_array(OF_STATE * view->states, sizeof *names, err);
+    double **values = NEW_ARRAY(double *, OF_STATE * view->states, err);
+    TRY(columns && names && values);
+    columns[0] = (Column){"U", "m", view->U};
+    columns[1] = (Column){"t", "s", view->t};
+    for (view->state = 0; view->state < view->states; ++view->state) {
+        char name[VIEW_STATE_SIZE];
+        ValueWords words = state_words(view, name);
+        TRY(state_columns(view, values + OF_STATE * view->state, err));
+        for (int32_t k = 0; k < OF_STATE; ++k, ++count) {
+            snprintf(names[count - 2], sizeof *names, "%s %s", what[k], name);
+            columns[count] =
+                (Column){names[count - 2], words.si[0] ? words.si : NULL, values[count - 2]};
+        }
+    }
+    TRY(columns_write(path, columns, count, view->rows, view->si, err));
+cleanup:
+    view->state = 0;
+    for (int32_t k = 0; values && k < OF_STATE * view->states; ++k) memory_free(values[k]);
+    memory_free_all(columns, names, values);
     return error_is_clean(err);
 }
 
@@ -427,7 +494,7 @@ bool figure_contact_density(const Page *whole, ResultView *view, Error *err)
     map.bar.neutral = lifted ? "open" : NULL;
     map.bar.neutral_color = MAP_OPEN;
 
-    if (!figure_contact_area_shows(view))   // else that figure has them
+    if (!figure_contact_area_is_there(view))   // else that figure has them
         TRY(measured_read(page.style.compare, MEASURED_AREA, view, &measured, err));
     KeyEntry entries[4] = {{KEY_LINE, INK, "front of slip"}};
     int32_t count = 1 + map_key(view, NULL, entries + 1);
@@ -446,7 +513,8 @@ cleanup:
 
 // --- contact-area --------------------------------------------------------------------------------
 
-bool figure_contact_area_shows(const ResultView *view)
+// The history holds the law's own measure of the area.
+bool figure_contact_area_is_there(const ResultView *view)
 {
     return result_file_has_series(view->file, SERIES_AREA);
 }
@@ -495,7 +563,7 @@ bool figure_contact_area(const Page *whole, ResultView *view, Error *err)
     map.bar.neutral = lifted ? "open" : NULL;
     map.bar.neutral_color = MAP_OPEN;
 
-    if (figure_contact_area_shows(view))
+    if (figure_contact_area_is_there(view))
         TRY(measured_read(page.style.compare, MEASURED_AREA, view, &measured, err));
     int32_t count = map_key(view, NULL, entries);
     if (!asked && zoom.words[0]) entries[count++] = (KeyEntry){.words = zoom.words};
@@ -508,5 +576,37 @@ cleanup:
     measured_destroy(&measured);
     memory_free(area);
     map_page_destroy(&map);
+    return error_is_clean(err);
+}
+
+// Least, mean and largest of the contact area over the nodes that are shown.
+bool figure_contact_area_table(const char *path, ResultView *view, const FieldChoice *field,
+                               Error *err)
+{
+    (void)field;
+    double *columns[OF_STATE] = {0};
+    TRY(computed_area_read(view, err));
+    TRY(result_view_read_status(view, err));
+    for (int32_t k = 0; k < OF_STATE; ++k) TRY(columns[k] = NEW_ARRAY(double, view->rows, err));
+    for (int64_t row = 0; row < view->rows; ++row) {
+        double least = INFINITY, sum = 0, most = -INFINITY;
+        for (int64_t k = row * view->nodes; k < (row + 1) * view->nodes; ++k) {
+            double value = view->status[k] == STATUS_OPEN ? 0 : view->area[k];
+            least = fmin(least, value);
+            most = fmax(most, value);
+            sum += value;
+        }
+        columns[0][row] = least;
+        columns[1][row] = sum / view->nodes;
+        columns[2][row] = most;
+    }
+    const Column data[] = {{"U", "m", view->U},
+                           {"t", "s", view->t},
+                           {"least area", NULL, columns[0]},
+                           {"mean area", NULL, columns[1]},
+                           {"largest area", NULL, columns[2]}};
+    TRY(columns_write(path, data, 5, view->rows, view->si, err));
+cleanup:
+    memory_free_list((void *const *)columns, OF_STATE);
     return error_is_clean(err);
 }

@@ -3,12 +3,12 @@
 // has let go, with its number in the order; of one cycle, or of all. The rule is that of
 // record/pads: a node counts from when it has stuck, as the tail of a sliding is not the next
 // cycle's slip. Where no node ever sticks one that slips slower than CREEP V is at rest.
-#include "render/figures/figure_pads.h"
+#include "render/figures/figures.h"
 
 #include "base/memory.h"
 #include "io/hdf5/result_tables.h"
+#include "io/text/csv_writer.h"
 #include "render/canvas/key.h"
-#include "render/figures/figures.h"
 #include "render/view/zoom.h"
 
 #include <math.h>
@@ -19,7 +19,24 @@
 
 static const double CREEP = 0.1;   // of V (record/observation)
 
-void pad_words(const ResultView *view, int32_t pad, char words[PAD_WORDS_SIZE])
+enum { PAD_WORDS_SIZE = 64 };
+
+// One pad in one cycle. NaN, order 0: it did not happen, or not before the sliding.
+typedef struct PadCourse {
+    int32_t cycle, pad;   // from 1, from 0
+    double U_first_slip;   // where some of it slips, length
+    double U_let_go;   // where each of its nodes had slipped since it stuck, or was open; length
+    double mu_let_go;   // F_T/F_N there
+    int32_t order;   // of letting go, from 1; pads that let go in the same step share it
+} PadCourse;
+
+typedef struct PadCourses {
+    int32_t pads, count;
+    PadCourse *list;   // [count] cycle by cycle, pads by number; owned
+} PadCourses;
+
+// Its name, or else its number.
+static void pad_words(const ResultView *view, int32_t pad, char words[PAD_WORDS_SIZE])
 {
     int length = 0;
     const char *name = result_view_name(view->pad_names, pad, &length);
@@ -29,7 +46,9 @@ void pad_words(const ResultView *view, int32_t pad, char words[PAD_WORDS_SIZE])
         snprintf(words, PAD_WORDS_SIZE, "pad %d", pad + 1);
 }
 
-bool pad_courses_read(ResultView *view, PadCourses *courses, Error *err)
+// All cycles that ended in a sliding; without one the whole history is the first. In space only
+// nodes of the line that is shown are looked at.
+static bool pad_courses_read(ResultView *view, PadCourses *courses, Error *err)
 {
     int32_t cycles = 0, pads = result_view_pads(view);
     int64_t first = 0;
@@ -103,7 +122,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-void pad_courses_destroy(PadCourses *courses)
+static void pad_courses_destroy(PadCourses *courses)
 {
     memory_free(courses->list);
     *courses = (PadCourses){0};
@@ -123,7 +142,7 @@ static bool is_shown(const PadCourse *course, const Zoom *zoom)
     return !zoom->found || zoom->cycle == 0 || course->cycle == zoom->cycle;
 }
 
-bool figure_pads_shows(const ResultView *view)
+bool figure_pads_are_there(const ResultView *view)
 {
     return result_view_pads(view) > 1;
 }
@@ -197,5 +216,36 @@ bool figure_pads(Page *page, const FigureInput *input, Error *err)
 cleanup:
     pad_courses_destroy(&courses);
     memory_free(names);
+    return error_is_clean(err);
+}
+
+// A row for each pad in each cycle.
+bool figure_pads_table(const char *path, ResultView *view, const FieldChoice *field, Error *err)
+{
+    (void)field;
+    static const char *const names[2][6] = {
+        {"cycle", "pad", "order", "U first slip", "U let go", "F_T/F_N let go"},
+        {"cycle", "pad", "order", "U first slip (m)", "U let go (m)", "F_T/F_N let go"}};
+    PadCourses courses;
+    CsvWriter *csv = NULL;
+    TRY(pad_courses_read(view, &courses, err));
+    TRY(csv = csv_create(path, err));
+    for (int32_t c = 0; c < 6; ++c) csv_text(csv, names[view->si][c]);
+    csv_end_row(csv);
+    for (int32_t k = 0; k < courses.count; ++k) {
+        const PadCourse *course = &courses.list[k];
+        char words[PAD_WORDS_SIZE];
+        pad_words(view, course->pad, words);
+        csv_number(csv, course->cycle);
+        csv_text(csv, words);
+        csv_number(csv, course->order);
+        csv_rounded(csv, course->U_first_slip);
+        csv_rounded(csv, course->U_let_go);
+        csv_rounded(csv, course->mu_let_go);
+        csv_end_row(csv);
+    }
+    TRY(csv_finish(csv, err));
+cleanup:
+    pad_courses_destroy(&courses);
     return error_is_clean(err);
 }

@@ -4,6 +4,7 @@
 #include "render/figures/figures.h"
 
 #include "base/memory.h"
+#include "io/text/csv_writer.h"
 #include "render/figures/probe_data.h"
 #include "render/view/range.h"
 
@@ -13,6 +14,11 @@
 enum { KEY_MAX = 34 };   // probes, which slidings are shown, measurements
 
 static const double SMALL_STRAIN = 1e-2;   // below it strains are shown in millionths
+
+bool figure_probes_are_there(const ResultView *view)
+{
+    return view->probes > 0;
+}
 
 bool figure_probes_show(const char *quantity)
 {
@@ -102,5 +108,38 @@ bool figure_probes(Page *page, const FigureInput *input, Error *err)
 cleanup:
     memory_free(values);
     measured_destroy(&measured);
+    return error_is_clean(err);
+}
+
+// U, t, then each component of each quantity of each probe: "gauge1 strain_xx".
+bool figure_probes_table(const char *path, ResultView *view, const FieldChoice *field, Error *err)
+{
+    (void)field;
+    CsvWriter *csv = NULL;
+    double *values[PROBE_QUANTITY_COUNT] = {0};
+    for (int32_t q = 0; q < PROBE_QUANTITY_COUNT; ++q)
+        TRY(probe_read(view, (ProbeQuantity)q, &values[q], err));
+    TRY(csv = csv_create(path, err));
+    csv_text(csv, view->si ? "U (m)" : "U");
+    csv_text(csv, view->si ? "t (s)" : "t");
+    for (int32_t k = 0; k < view->probes; ++k)
+        for (int32_t q = 0; q < PROBE_QUANTITY_COUNT; ++q)
+            for (int32_t c = 0; c < probe_components(view, (ProbeQuantity)q); ++c)
+                probe_column_csv(csv, view, k, (ProbeQuantity)q, c);
+    csv_end_row(csv);
+    for (int64_t row = 0; row < view->rows; ++row) {
+        csv_rounded(csv, view->U[row]);
+        csv_rounded(csv, view->t[row]);
+        for (int32_t k = 0; k < view->probes; ++k)
+            for (int32_t q = 0; q < PROBE_QUANTITY_COUNT; ++q) {
+                int32_t components = probe_components(view, (ProbeQuantity)q);
+                const double *at = values[q] + (row * view->probes + k) * components;
+                for (int32_t c = 0; c < components; ++c) csv_rounded(csv, at[c]);
+            }
+        csv_end_row(csv);
+    }
+    TRY(csv_finish(csv, err));
+cleanup:
+    memory_free_list((void *const *)values, PROBE_QUANTITY_COUNT);
     return error_is_clean(err);
 }

@@ -2,12 +2,12 @@
 // Pressure, friction, their ratio, slip, contact area and gap along the contact at chosen moments:
 // a frame for each, a curve for each moment; in space along a line. Where the block has lifted off,
 // rings.
-#include "render/figures/figure_profile.h"
+#include "render/figures/figures.h"
 
 #include "base/memory.h"
 #include "io/hdf5/result_tables.h"
+#include "io/text/csv_writer.h"
 #include "render/canvas/key.h"
-#include "render/figures/figures.h"
 #include "render/view/block.h"
 
 #include <math.h>
@@ -18,6 +18,28 @@
 // --- numbers -------------------------------------------------------------------------------------
 
 enum { MOMENT_SIZE = 40 };
+enum { PROFILES_MAX = 8, PROFILE_WORDS_SIZE = 100 };
+
+typedef enum ProfileQuantity {
+    PROFILE_PRESSURE,   // p, stress
+    PROFILE_SHEAR,   // tau; in space its size, stress
+    PROFILE_RATIO,   // tau/p, 1; NaN where open
+    PROFILE_SLIP,   // along the drive since the first moment; since the rod's start if it is alone
+    PROFILE_AREA,   // of the real contacts over that when the rod started, 1; 0 where open
+    PROFILE_GAP,   // between block and floor, length; 0 where they touch
+    PROFILE_QUANTITIES
+} ProfileQuantity;
+
+typedef struct Profiles {
+    int32_t count;   // moments
+    int32_t nodes;
+    int64_t row[PROFILES_MAX];   // [count] of the history
+    char words[PROFILES_MAX][PROFILE_WORDS_SIZE];   // when that was
+    // [count * nodes] each; gap and area NULL where the history has none; owned
+    double *values[PROFILE_QUANTITIES];
+    double *status;   // [count * nodes] 0: open; owned
+    bool opens;   // some node is open at one of the moments
+} Profiles;
 
 // words: what is said of it before U and F_T/F_N; may be empty.
 static void add_row(const ResultView *view, int64_t row, const char *words, Profiles *profiles)
@@ -110,7 +132,11 @@ cleanup:
     return error_is_clean(err);
 }
 
-bool profiles_read(ResultView *view, const char *at, Profiles *profiles, Error *err)
+// at: "U=0.01,U=0.02", "t=12", or "mu=0.2", all moments at which F_T/F_N rises through it, the last
+// ones; NULL: around the last sliding of the whole block (else the last rapid event): before it at
+// the load that is left after it, just before it, and after it. Without an event the largest
+// F_T/F_N and the end.
+static bool profiles_read(ResultView *view, const char *at, Profiles *profiles, Error *err)
 {
     *profiles = (Profiles){.nodes = view->nodes};
     double **values = profiles->values;
@@ -143,7 +169,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-void profiles_destroy(Profiles *profiles)
+static void profiles_destroy(Profiles *profiles)
 {
     memory_free_list((void *const *)profiles->values, PROFILE_QUANTITIES);
     memory_free(profiles->status);
@@ -233,6 +259,38 @@ bool figure_profile(Page *page, const FigureInput *input, Error *err)
         }
         axes_draw(&whole, &axes[f]);
     }
+cleanup:
+    profiles_destroy(&profiles);
+    return error_is_clean(err);
+}
+
+// A row for each node at each moment.
+bool figure_profile_table(const char *path, ResultView *view, const FieldChoice *field, Error *err)
+{
+    enum { COLUMNS = 4 + PROFILE_QUANTITIES + 1 };
+    static const char *const names[2][COLUMNS] = {
+        {"U", "t", "F_T/F_N", "x", "p", "tau", "tau/p", "slip", "A/A_0", "gap", "status"},
+        {"U (m)", "t (s)", "F_T/F_N", "x (m)", "p (Pa)", "tau (Pa)", "tau/p", "slip (m)", "A/A_0",
+         "gap (m)", "status"}};
+    Profiles profiles;
+    CsvWriter *csv = NULL;
+    TRY(profiles_read(view, field->at, &profiles, err));
+    TRY(csv = csv_create(path, err));
+    for (int32_t c = 0; c < COLUMNS; ++c) csv_text(csv, names[view->si][c]);
+    csv_end_row(csv);
+    for (int32_t k = 0; k < profiles.count; ++k)
+        for (int32_t i = 0; i < profiles.nodes; ++i) {
+            int64_t row = profiles.row[k], at_node = (int64_t)k * profiles.nodes + i;
+            csv_rounded(csv, view->U[row]);
+            csv_rounded(csv, view->t[row]);
+            csv_rounded(csv, view->mu[row]);
+            csv_rounded(csv, view->x[i]);
+            for (int32_t q = 0; q < PROFILE_QUANTITIES; ++q)
+                csv_rounded(csv, profiles.values[q] ? profiles.values[q][at_node] : NAN);
+            csv_rounded(csv, profiles.status[at_node]);
+            csv_end_row(csv);
+        }
+    TRY(csv_finish(csv, err));
 cleanup:
     profiles_destroy(&profiles);
     return error_is_clean(err);

@@ -46,7 +46,6 @@ bool figure_probes(Page *page, const FigureInput *input, Error *err);
 bool figure_probes_show(const char *quantity);   // whether it knows that
 // Which pad lets go first.
 bool figure_pads(Page *page, const FigureInput *input, Error *err);
-bool figure_pads_shows(const ResultView *view);   // whether there are several
 // The contact along x at moments, those around the last sliding where none are asked for.
 bool figure_profile(Page *page, const FigureInput *input, Error *err);
 
@@ -62,13 +61,22 @@ bool figure_state_map(const Page *page, ResultView *view, Error *err);
 bool figure_contact_density(const Page *page, ResultView *view, Error *err);
 // Area of the real contacts over that at rest, likewise, in colours of what the precursors leave.
 bool figure_contact_area(const Page *page, ResultView *view, Error *err);
-// The history holds the law's own measure of it.
-bool figure_contact_area_shows(const ResultView *view);
 
 // How long slip was when the load ratio first came so far, in the cycle that is enlarged.
 bool figure_precursors(const Page *page, ResultView *view, Error *err);
 // How fast the front of the sliding that is enlarged ran, over x.
 bool figure_front_speed(const Page *page, ResultView *view, Error *err);
+
+// Writes the numbers that a figure shows to a csv file. field: the moments of profile.
+typedef bool FigureTable(const char *path, ResultView *view, const FieldChoice *field, Error *err);
+FigureTable figure_force_table, figure_slip_map_table, figure_state_map_table,
+    figure_contact_area_table, figure_precursors_table, figure_front_speed_table,
+    figure_probes_table, figure_pads_table, figure_profile_table;
+
+// Whether a result has what a figure shows.
+typedef bool FigureThere(const ResultView *view);
+FigureThere figure_state_map_is_there, figure_contact_area_is_there, figure_contact_plane_is_there,
+    figure_probes_are_there, figure_pads_are_there;
 
 // Axes of force curves of [count] results, in a frame that is known; y: headroom times their range,
 // 0 included.

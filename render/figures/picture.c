@@ -13,23 +13,87 @@ static const double LETTER_ROOM = 3;   // points: from the letter to numbers bes
 static const double SCRATCH_DPI = 100;   // of the page that is measured
 static const double SLACK = 0.4;   // points: what the measured page is coarser
 
-static const FigureShape SHAPES[FIGURE_COUNT] = {
-    [FIGURE_FORCE] = {0.85, .draw = figure_force},
-    [FIGURE_SLIP_MAP] = {0.62, .draw = figure_slip_map},
-    [FIGURE_CONTACT_DENSITY] = {0.62, .draw = figure_contact_density},
-    [FIGURE_CONTACT_AREA] = {0.62, .draw = figure_contact_area},
-    [FIGURE_STATE_MAP] = {0.62, .draw = figure_state_map},
-    [FIGURE_CONTACT_PLANE] = {.draw_whole = figure_contact_plane},
-    [FIGURE_PRECURSORS] = {0.62, figure_precursors, .own_axes = true},
-    [FIGURE_FRONT_SPEED] = {0.62, figure_front_speed, .own_axes = true},
-    [FIGURE_PROBES] = {.draw_whole = figure_probes},
-    [FIGURE_PADS] = {.draw_whole = figure_pads},
-    [FIGURE_PROFILE] = {.draw_whole = figure_profile, .own_axes = true},
+// Rows in the order of the figures in a page.
+static const FigureKind KINDS[FIGURE_COUNT] = {
+    [FIGURE_FORCE] = {.height_over_width = 0.85,
+                      .draw = figure_force,
+                      .write_table = figure_force_table,
+                      .page_format = "svg",
+                      .page_words =
+                          "Line: friction force over load against the displacement of the rod.",
+                      .page_caption =
+                          "<i>F</i><sub>T</sub>/<i>F</i><sub>N</sub> against the rod\u2019s "
+                          "displacement <i>U</i>. Circles: the peaks before the block slides as a "
+                          "whole, filled if they count for <i>\u03bc</i><sub>M</sub>. The inset "
+                          "enlarges the last precursors before a sliding."},
+    [FIGURE_SLIP_MAP] =
+        {.height_over_width = 0.62,
+         .draw = figure_slip_map,
+         .write_table = figure_slip_map_table,
+         .page_format = "png",
+         .page_words = "Map: slip rate along the contact against the displacement of the rod.",
+         .page_caption = "Slip rate over the rod\u2019s velocity, against <i>U</i> and the place "
+                         "<i>x</i> along the contact. Grey: stick."},
+    [FIGURE_CONTACT_DENSITY] =
+        {.height_over_width = 0.62,
+         .draw = figure_contact_density,
+         .page_format = "png",
+         .page_words = "Map: contact density before a sliding, along the contact and against the "
+                       "displacement of the rod.",
+         .page_caption = "Contact density max(0, 1 \u2212 |<i>v</i>|/<i>v</i><sub>c</sub>) in the "
+                         "last precursors before a sliding. Black line: the front of slip."},
+    [FIGURE_CONTACT_AREA] = {.height_over_width = 0.62,
+                             .draw = figure_contact_area,
+                             .write_table = figure_contact_area_table,
+                             .is_there = figure_contact_area_is_there,
+                             .page_format = "png",
+                             .page_words = "Map: area of the real contacts before a sliding, along "
+                                           "the contact and against the displacement of the rod.",
+                             .page_caption = "Area of the real contacts over that at rest, in the "
+                                             "last precursors before a sliding."},
+    [FIGURE_STATE_MAP] =
+        {.height_over_width = 0.62,
+         .draw = figure_state_map,
+         .write_table = figure_state_map_table,
+         .is_there = figure_state_map_is_there,
+         .page_format = "png",
+         .page_words = "Map: what friction remembers, along the contact and against the "
+                       "displacement of the rod.",
+         .page_caption = "What friction remembers at each place of the contact, against <i>U</i>: "
+                         "the smallest in a pixel. Slip takes it away, rest brings it back."},
+    [FIGURE_CONTACT_PLANE] =
+        {.draw_whole = figure_contact_plane,
+         .is_there = figure_contact_plane_is_there,
+         .page_format = "png",
+         .page_words = "Maps: slip rate over the contact at moments before and in a sliding.",
+         .page_caption = "Slip rate over the rod\u2019s velocity, over the contact, while slow "
+                         "slip grows and as slip turns rapid. Where there is no colour: stick."},
+    [FIGURE_PRECURSORS] = {.height_over_width = 0.62,
+                           .draw = figure_precursors,
+                           .write_table = figure_precursors_table,
+                           .own_axes = true,
+                           .asked_only = true},
+    [FIGURE_FRONT_SPEED] = {.height_over_width = 0.62,
+                            .draw = figure_front_speed,
+                            .write_table = figure_front_speed_table,
+                            .own_axes = true,
+                            .asked_only = true},
+    [FIGURE_PROBES] = {.draw_whole = figure_probes,
+                       .write_table = figure_probes_table,
+                       .is_there = figure_probes_are_there},
+    [FIGURE_PADS] = {.draw_whole = figure_pads,
+                     .write_table = figure_pads_table,
+                     .is_there = figure_pads_are_there},
+    [FIGURE_PROFILE] = {.draw_whole = figure_profile,
+                        .write_table = figure_profile_table,
+                        .own_axes = true,
+                        .asked_only = true},
     [FIGURE_FIELD] = {.draw_whole = figure_field},
-    [FIGURE_STRIP] = {.draw_whole = figure_strip}};
+    [FIGURE_STRIP] = {.draw_whole = figure_strip, .asked_only = true},
+};
 
 static const Figure FIGURES[FIGURE_COUNT] = {
-#define X(symbol, name, title) {symbol, name, title, &SHAPES[symbol]},
+#define X(symbol, name, title) {symbol, name, title, &KINDS[symbol]},
     PICTURE_FIGURES(X)
 #undef X
 };
@@ -51,15 +115,9 @@ bool figure_find(const char *name, const Figure **figure, Error *err)
     return REFUSE(err, "there is no figure called \"%s\"; known are: %s", name, names);
 }
 
-bool figure_is_there(const char *name, const ResultView *view)
+bool figure_is_there(const Figure *figure, const ResultView *view)
 {
-    if (strcmp(name, FIGURES[FIGURE_STATE_MAP].name) == 0) return view->states > 0;
-    if (strcmp(name, FIGURES[FIGURE_CONTACT_AREA].name) == 0)
-        return figure_contact_area_shows(view);
-    if (strcmp(name, FIGURES[FIGURE_PADS].name) == 0) return figure_pads_shows(view);
-    if (strcmp(name, FIGURES[FIGURE_PROBES].name) == 0) return view->probes > 0;
-    return strcmp(name, FIGURES[FIGURE_CONTACT_PLANE].name) != 0 ||
-           (view->line && view->rapid_count > 0 && result_file_has_faces(view->file));
+    return !figure->kind->is_there || figure->kind->is_there(view);
 }
 
 bool picture_add(Picture *picture, const Figure *figure, Error *err)
@@ -78,7 +136,7 @@ static bool spread_states(const ResultView *view, const PictureStyle *style, Pic
     for (int32_t k = picture->count - 1; k >= 0; --k) {
         const Figure *figure = panels[k].figure;
         bool plain = figure->id == FIGURE_FORCE && !figure_force_enlarges(view, style);
-        panels[k].shape = plain ? FORCE_PLAIN : figure->shape->height_over_width;
+        panels[k].shape = plain ? FORCE_PLAIN : figure->kind->height_over_width;
         if (figure->id != FIGURE_STATE_MAP || more < 1) continue;
         if (picture->count + more > PANELS_MAX)
             return REFUSE(err, "a page takes %d panels", PANELS_MAX);
@@ -125,7 +183,7 @@ static bool panels_draw(const Page *page, const Picture *picture, ResultView *vi
         part.zoom_name = zoom_name[0] ? zoom_name : NULL;
         part.bare_x = k + 1 < picture->count && !enlarges(picture, k) && !enlarges(picture, k + 1);
         view->state = panel->state;
-        if (!panel->figure->shape->draw(&part, view, err)) return false;
+        if (!panel->figure->kind->draw(&part, view, err)) return false;
         snprintf(letter, sizeof letter, "(%c)", 'a' + k);
         text_draw(page->text, &style, (Point){LETTER_LEFT * point, top + LETTER_DROP * point},
                   letter);
@@ -179,23 +237,14 @@ bool picture_draw(const Picture *asked, const char *folder, const PictureRequest
     TRY(spread_states(view, style, &picture, err));
     if (!figure || picture.count > 1) {
         TRY(panels_page(page, &def, &picture, view, err));
-    } else if (figure->shape->draw_whole) {
-        TRY(figure->shape->draw_whole(page, &input, err));
+    } else if (figure->kind->draw_whole) {
+        TRY(figure->kind->draw_whole(page, &input, err));
     } else {
         def.height = page_shape(style, picture.panels[0].shape);
-        TRY(page_begin(page, &def, err) && figure->shape->draw(page, view, err));
+        TRY(page_begin(page, &def, err) && figure->kind->draw(page, view, err));
     }
     foot_draw(page, &foot);
 cleanup:
     error_context(err, "figure %s", figure ? figure->name : "panels");
     return error_is_clean(err);
-}
-
-bool figure_draw(const char *name, ResultView *view, const PictureStyle *style, Page *page,
-                 Error *err)
-{
-    Picture picture = {0};
-    const PictureRequest request = {.style = *style, .figures = &name, .figure_count = 1};
-    return figure_find(name, &picture.figure, err) && picture_add(&picture, picture.figure, err) &&
-           picture_draw(&picture, "", &request, view, page, err);
 }

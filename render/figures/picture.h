@@ -8,18 +8,23 @@
 
 enum { PANELS_MAX = 12 };
 
-// Shape of a figure, and the function that draws it.
-typedef struct FigureShape {
-    double height_over_width;   // on a column of a journal
-    FigureFunction draw;
-    bool own_axes;   // no U along x: it cannot be a panel, and is drawn for who asks
-    WholeFigureFunction draw_whole;   // in its place: begins the page itself, and needs fields
-} FigureShape;
+// What makes a figure, a row of the table in picture.c.
+typedef struct FigureKind {
+    double height_over_width;   // on a column of a journal; 0: draw_whole finds it
+    FigureFunction draw;   // on a page that has begun
+    WholeFigureFunction draw_whole;   // in its place: begins the page itself, and may need fields
+    bool own_axes;   // no U along x: it cannot be a panel
+    bool asked_only;   // left out where all figures are drawn, unless measurements go with it
+    FigureThere *is_there;   // NULL: every result has what it shows
+    FigureTable *write_table;   // NULL: there are no numbers beside its picture
+    const char *page_format;   // in a result's page, "svg" or "png"; NULL: it has no place there
+    const char *page_words, *page_caption;   // for readers who do not see it; below it, markup
+} FigureKind;
 
 typedef struct Figure {
     FigureId id;
-    const char *name, *title;
-    const FigureShape *shape;
+    const char *name, *title;   // as in PICTURE_FIGURES
+    const FigureKind *kind;
 } Figure;
 
 const Figure *figure_get(FigureId id);
@@ -27,8 +32,8 @@ const Figure *figure_get(FigureId id);
 // The figure called `name`, or ERROR_INPUT with the names there are.
 bool figure_find(const char *name, const Figure **figure, Error *err);
 
-// Whether a result has what a figure of that name shows.
-bool figure_is_there(const char *name, const ResultView *view);
+// Whether a result has what the figure shows.
+bool figure_is_there(const Figure *figure, const ResultView *view);
 
 // One of the panels of a page.
 typedef struct Panel {
@@ -49,9 +54,5 @@ bool picture_add(Picture *picture, const Figure *figure, Error *err);
 // Draws it on a fresh page, to be finished. folder: that of the result.
 bool picture_draw(const Picture *picture, const char *folder, const PictureRequest *request,
                   ResultView *view, Page *page, Error *err);
-
-// The figure called `name`, one of the history alone, on a fresh page.
-bool figure_draw(const char *name, ResultView *view, const PictureStyle *style, Page *page,
-                 Error *err);
 
 #endif

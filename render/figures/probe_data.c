@@ -87,3 +87,14 @@ bool probe_read(ResultView *view, ProbeQuantity quantity, double **values, Error
     if (rows < view->rows) view->rows = rows;
     return true;
 }
+
+// The name of a probe's column, with its unit where the result is in SI.
+void probe_column_csv(CsvWriter *csv, const ResultView *view, int32_t probe, ProbeQuantity quantity,
+                      int32_t c)
+{
+    char name[PROBE_COLUMN_SIZE], text[PROBE_COLUMN_SIZE + 20];
+    const char *unit = view->si ? probe_words(quantity).si : "";
+    probe_column(view, probe, quantity, c, name);
+    snprintf(text, sizeof text, *unit ? "%s (%s)" : "%s", name, unit);
+    csv_text(csv, text);
+}

@@ -4,6 +4,7 @@
 #ifndef AMONTONS_RENDER_FIGURES_PROBE_DATA_H
 #define AMONTONS_RENDER_FIGURES_PROBE_DATA_H
 
+#include "io/text/csv_writer.h"
 #include "render/view/result_view.h"
 
 // X(symbol, name, series, symbol in pictures, unit in SI, unit in normalised scenes)
@@ -39,6 +40,9 @@ void probe_name(const ResultView *view, int32_t probe, char name[PROBE_NAME_SIZE
 enum { PROBE_COLUMN_SIZE = PROBE_NAME_SIZE + 24 };
 void probe_column(const ResultView *view, int32_t probe, ProbeQuantity quantity, int32_t c,
                   char name[PROBE_COLUMN_SIZE]);
+// Writes that name to a header of a csv file, with the unit where the result is in SI.
+void probe_column_csv(CsvWriter *csv, const ResultView *view, int32_t probe, ProbeQuantity quantity,
+                      int32_t c);
 
 // *values [rows][probes][components], the caller's; `rows` may shrink. ERROR_INPUT: there are no
 // probes.

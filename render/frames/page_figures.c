@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "render/canvas/svg_chart.h"
 #include "render/figures/picture.h"
-#include "render/plot/figure_curves.h"
+#include "render/plot/plot_draw.h"
 #include "render/plot/plot_file.h"
 #include "render/view/zoom.h"
 
@@ -22,34 +22,6 @@ enum { CURVES_WIDTH = 760, CURVES_HEIGHT = 400, CURVES_LEFT = 70, CURVES_RIGHT =
 enum { CURVES_TOP = 24, CURVES_BOTTOM = 350 };
 
 static const double HEADROOM = 1.05;
-
-static const struct {
-    const char *name, *format, *alt, *caption;
-} FIGURES[] = {
-    {"force", "svg", "Line: friction force over load against the displacement of the rod.",
-     "<i>F</i><sub>T</sub>/<i>F</i><sub>N</sub> against the rod\u2019s displacement <i>U</i>. "
-     "Circles: the peaks before the block slides as a whole, filled if they count for "
-     "<i>\u03bc</i><sub>M</sub>. The inset enlarges the last precursors before a sliding."},
-    {"slip-map", "png", "Map: slip rate along the contact against the displacement of the rod.",
-     "Slip rate over the rod\u2019s velocity, against <i>U</i> and the place <i>x</i> along the "
-     "contact. Grey: stick."},
-    {"contact-density", "png",
-     "Map: contact density before a sliding, along the contact and against the displacement of "
-     "the rod.",
-     "Contact density max(0, 1 \u2212 |<i>v</i>|/<i>v</i><sub>c</sub>) in the last precursors "
-     "before a sliding. Black line: the front of slip."},
-    {"contact-area", "png",
-     "Map: area of the real contacts before a sliding, along the contact and against the "
-     "displacement of the rod.",
-     "Area of the real contacts over that at rest, in the last precursors before a sliding."},
-    {"state-map", "png",
-     "Map: what friction remembers, along the contact and against the displacement of the rod.",
-     "What friction remembers at each place of the contact, against <i>U</i>: the smallest in a "
-     "pixel. Slip takes it away, rest brings it back."},
-    {"contact-plane", "png", "Maps: slip rate over the contact at moments before and in a sliding.",
-     "Slip rate over the rod\u2019s velocity, over the contact, while slow slip grows and as slip "
-     "turns rapid. Where there is no colour: stick."},
-};
 
 // --- pictures ------------------------------------------------------------------------------------
 
@@ -86,13 +58,15 @@ cleanup:
 
 typedef struct HistoryFigure {
     ResultView *view;
-    const char *name;
+    const Figure *figure;
 } HistoryFigure;
 
 static bool draw_history(void *context, const PictureStyle *style, Page *page, Error *err)
 {
-    const HistoryFigure *figure = context;
-    return figure_draw(figure->name, figure->view, style, page, err);
+    const HistoryFigure *asked = context;
+    const Picture picture = {asked->figure, .count = 1, .panels = {{.figure = asked->figure}}};
+    const PictureRequest request = {.style = *style};
+    return picture_draw(&picture, "", &request, asked->view, page, err);
 }
 
 // Title and warnings stand on the page already.
@@ -103,11 +77,13 @@ amontons_render_figures(const char *folder, const char *cycle, HtmlWriter *html,
     TRY(result_view_open(folder, &view, err));
     if (cycle) TRY(zoom_choose_cycle(&view, cycle, err));
     view.title[0] = view.warnings[0] = '\0';
-    for (size_t k = 0; k < sizeof FIGURES / sizeof *FIGURES; ++k) {
-        if (!figure_is_there(FIGURES[k].name, &view)) continue;
-        HistoryFigure figure = {&view, FIGURES[k].name};
-        const Drawing drawing = {draw_history, &figure, FIGURES[k].format, FIGURES[k].alt,
-                                 FIGURES[k].caption};
+    for (int32_t k = 0; k < FIGURE_COUNT; ++k) {
+        const Figure *figure = figure_get((FigureId)k);
+        const FigureKind *kind = figure->kind;
+        if (!kind->page_format || !figure_is_there(figure, &view)) continue;
+        HistoryFigure asked = {&view, figure};
+        const Drawing drawing = {draw_history, &asked, kind->page_format, kind->page_words,
+                                 kind->page_caption};
         TRY(write_figure(html, &drawing, err));
     }
 cleanup:
@@ -117,7 +93,7 @@ cleanup:
 
 static bool draw_plot(void *context, const PictureStyle *style, Page *page, Error *err)
 {
-    return figure_plot(page, context, style, NULL, err);
+    return plot_draw(page, context, style, NULL, err);
 }
 
 __attribute__((visibility("default"))) bool

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The legend of a plot: series that have a label, in their order, a sample and words each. In a
-// box inside or right of the frame, or in lines below it. Called by figure_curves.
+// box inside or right of the frame, or in lines below it. Called by plot_draw.
 #ifndef AMONTONS_RENDER_PLOT_LEGEND_H
 #define AMONTONS_RENDER_PLOT_LEGEND_H
 

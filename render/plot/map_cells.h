@@ -2,7 +2,7 @@
 // Areas between the points of a map. A grid, complete or with gaps, is made of cells, each half way
 // to its neighbours. Other points are joined to Delaunay triangles, in which values are linear;
 // triangles with a side far longer than others there are left out: nothing was computed there.
-// Numbers only. Called by plot_file and figure_map.
+// Numbers only. Called by plot_file and plot_map.
 #ifndef AMONTONS_RENDER_PLOT_MAP_CELLS_H
 #define AMONTONS_RENDER_PLOT_MAP_CELLS_H
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A grid of values made finer, so that lines of equal value bend where they turn: in each direction
 // a cubic between two points whose slopes are those of Fritsch and Carlson (SIAM J. Numer. Anal.
-// 17, 238, 1980), which goes through every value and beyond none. Called by figure_map.
+// 17, 238, 1980), which goes through every value and beyond none. Called by plot_map.
 #ifndef AMONTONS_RENDER_PLOT_MAP_SMOOTH_H
 #define AMONTONS_RENDER_PLOT_MAP_SMOOTH_H
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Marks and lines of a plot's series. Called by figure_curves, figure_map and legend.
+// Marks and lines of a plot's series. Called by plot_draw, plot_map and legend.
 #ifndef AMONTONS_RENDER_PLOT_MARKS_H
 #define AMONTONS_RENDER_PLOT_MARKS_H
 

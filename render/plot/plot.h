@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A plot: curves, marks, error bars, levels, maps. Read by plot_file, drawn by figure_curves and
-// figure_map.
+// A plot: curves, marks, error bars, levels, maps. Read by plot_file, drawn by plot_draw and
+// plot_map.
 #ifndef AMONTONS_RENDER_PLOT_PLOT_H
 #define AMONTONS_RENDER_PLOT_PLOT_H
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Measurements from a table of comma-separated values over the curves of a plot: one more series,
-// with the misfit in its label. Called by figure_curves.
+// with the misfit in its label. Called by plot_draw.
 #ifndef AMONTONS_RENDER_PLOT_PLOT_COMPARE_H
 #define AMONTONS_RENDER_PLOT_PLOT_COMPARE_H
 

@@ -44,7 +44,7 @@ REASONS = {
     "src/run/static/static_report.c": ("two arrays", r"contact = NEW_ARRAY"),
     "src/study/line/modes.c": ("even modes", r"j % 2 == 0"),
     "src/study/stability/file.c": ("real and imaginary part", r"modes/slip"),
-    "src/study/sweep/showing/figure_plot.c": ("x and y of a figure", r"places\["),
+    "src/study/sweep/showing/sweep_plot.c": ("x and y of a figure", r"places\["),
 }
 
 

@@ -17,7 +17,7 @@
 #include "study/sweep/computing/tally.h"
 #include "study/sweep/reading/study_point.h"
 #include "study/sweep/reading/study_read.h"
-#include "study/sweep/showing/figure_plot.h"
+#include "study/sweep/showing/sweep_plot.h"
 #include "study/sweep/showing/figure_ranking.h"
 
 #include <errno.h>
@@ -145,7 +145,7 @@ bool sweep_show(const Sweep *sweep, bool whole, Error *err)
         if (whole) TRY(figure_of_ranking(sweep, &table, &ranking, err));
     }
     for (int32_t k = 0; whole && k < sweep->study.plot_count; k++)
-        TRY(figure_of_plot(sweep->folder, sweep->study.path, &sweep->study.plots[k], NULL, err));
+        TRY(sweep_plot_draw(sweep->folder, sweep->study.path, &sweep->study.plots[k], NULL, err));
     Error none = {0};
     bool described = whole && (sweep->study.rank.wanted || sweep->study.plot_count > 0);
     if (sweep->options->out && described && !module_check("render", &none))

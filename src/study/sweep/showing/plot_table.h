@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The stored table of a sweep, sweep.h5, as plots need it: columns by name, formulas over them, and
-// which points are doubtful. Called by figure_plot.
+// which points are doubtful. Called by sweep_plot.
 #ifndef AMONTONS_STUDY_SWEEP_SHOWING_PLOT_TABLE_H
 #define AMONTONS_STUDY_SWEEP_SHOWING_PLOT_TABLE_H
 

@@ -7,7 +7,7 @@
 #include "base/text.h"
 #include "io/text/yaml_document.h"
 #include "study/sweep/reading/study_wanted.h"
-#include "study/sweep/showing/figure_plot.h"
+#include "study/sweep/showing/sweep_plot.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -55,7 +55,7 @@ static bool draw_in_child(void *context, FILE *reply, Error *err)
     if (!draw->plot) return draw_again(draw, err);
     TRY(yaml_parse("the plot", draw->plot, 0, &document, err));
     TRY(plot_read(document, YAML_ROOT, &plot, err));
-    TRY(figure_of_plot(draw->folder, NULL, &plot, draw->style, err));
+    TRY(sweep_plot_draw(draw->folder, NULL, &plot, draw->style, err));
 cleanup:
     yaml_destroy(document);
     return error_is_clean(err);

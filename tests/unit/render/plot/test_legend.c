@@ -4,7 +4,7 @@
 #include "render/plot/legend.h"
 
 #include "near.h"
-#include "render/plot/figure_curves.h"
+#include "render/plot/plot_draw.h"
 
 #include "base/memory.h"
 #include "canvas_read.h"
@@ -124,7 +124,7 @@ static int32_t frame_right(Plot *plot)
     uint8_t *pixels = NULL;
     int32_t right = -1;
     plot->height_over_width = (double)HEIGHT / WIDTH;
-    assert_true(figure_plot(&page, plot, &style, NULL, &err));
+    assert_true(plot_draw(&page, plot, &style, NULL, &err));
     assert_true(canvas_read(page.canvas, &pixels, &err));
     for (int32_t column = 0; column < WIDTH; column++) {
         int32_t dark = 0;
@@ -177,7 +177,7 @@ TEST(an_outer_legend_leaves_a_frame)
     plot->main.series[0] = (PlotSeries){.count = 1, .x = x, .y = y};
     memset(plot->main.series[0].label, 'm', PLOT_LABEL_SIZE - 1);
     plot->main.legend = CORNER_OUTSIDE;
-    assert_false(figure_plot(&page, plot, &style, NULL, &err));
+    assert_false(plot_draw(&page, plot, &style, NULL, &err));
     assert_int_equal(err.code, ERROR_INPUT);
     page_destroy(&page);
     memory_free(plot);

@@ -5,7 +5,7 @@
 #include "base/memory.h"
 #include "canvas_read.h"
 #include "cases.h"
-#include "render/plot/figure_curves.h"
+#include "render/plot/plot_draw.h"
 #include "render/render.h"
 
 #include <math.h>
@@ -160,7 +160,7 @@ TEST(map_shows_its_values)
     if (!plot_file_read(path, plot, &err)) fail_msg("%s", err.message);
     assert_true(fabs(log10(plot->main.x.low) + 0.5) < 1e-9);
     assert_true(fabs(plot->main.y.high - 1.5) < 1e-9);
-    assert_true(figure_plot(&page, plot, &style, NULL, &err));
+    assert_true(plot_draw(&page, plot, &style, NULL, &err));
     assert_true(canvas_read(page.canvas, &pixels, &err));
     color_map_fill(colors);
     int32_t width = canvas_width(page.canvas), height = canvas_height(page.canvas);

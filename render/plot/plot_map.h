@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The map of a plot's panel: values in colours, lines at equal values of something else, marks at
-// the points. Called by figure_curves.
-#ifndef AMONTONS_RENDER_PLOT_FIGURE_MAP_H
-#define AMONTONS_RENDER_PLOT_FIGURE_MAP_H
+// the points. Called by plot_draw.
+#ifndef AMONTONS_RENDER_PLOT_PLOT_MAP_H
+#define AMONTONS_RENDER_PLOT_PLOT_MAP_H
 
 #include "render/canvas/colorbar.h"
 #include "render/plot/plot.h"
@@ -16,7 +16,7 @@ typedef struct MapScale {
 MapScale map_scale_fit(const Plot *plot);
 
 // axes: those of `panel`, their frame known.
-bool figure_map(const Page *page, const Axes *axes, const PlotPanel *panel, const MapScale *scale,
-                Error *err);
+bool plot_map_draw(const Page *page, const Axes *axes, const PlotPanel *panel,
+                   const MapScale *scale, Error *err);
 
 #endif

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A plot on its page: one frame, perhaps with an inset, or a page of frames with the same axes and
 // colours; the legend where the file or render/plot/legend.h puts it.
-#include "render/plot/figure_curves.h"
+#include "render/plot/plot_draw.h"
 
 #include "base/memory.h"
 #include "base/order.h"
 #include "render/picture_options.h"
-#include "render/plot/figure_map.h"
+#include "render/plot/plot_map.h"
 #include "render/plot/legend.h"
 #include "render/plot/marks.h"
 #include "render/plot/plot_compare.h"
@@ -69,8 +69,8 @@ static void series_draw(const Page *page, const Axes *axes, const PlotPanel *pan
 static bool panel_draw(const Page *page, const PlotPanel *panel, const PlotPanel *common,
                        const MapScale *scale, double share, const Axes *axes, Error *err)
 {
-    if (panel->has_map && !figure_map(page, axes, panel, scale, err)) return false;
-    if (common && common->has_map && !figure_map(page, axes, common, scale, err)) return false;
+    if (panel->has_map && !plot_map_draw(page, axes, panel, scale, err)) return false;
+    if (common && common->has_map && !plot_map_draw(page, axes, common, scale, err)) return false;
     series_draw(page, axes, panel, share);
     if (common) series_draw(page, axes, common, share);
     axes_draw(page, axes);
@@ -224,7 +224,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-bool figure_plot(Page *page, Plot *plot, const PictureStyle *style, const char *title, Error *err)
+bool plot_draw(Page *page, Plot *plot, const PictureStyle *style, const char *title, Error *err)
 {
     // The style, and the size of the page.
     PictureStyle used = *style;
@@ -273,7 +273,7 @@ amontons_render_plot(const char *path, const char *picture, const PictureStyle *
     if (!picture_options_fit(&plot->style, NULL, name, 1, err))
         error_context(err, "%s: page", path);
     TRY(error_is_clean(err));
-    TRY(figure_plot(&page, plot, &used, plot->title, err));
+    TRY(plot_draw(&page, plot, &used, plot->title, err));
     TRY(page_finish(&page, picture, plot->title, err));
     TRY(plot_compare_write(plot, picture, err));
 cleanup:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A cell, or a triangle of three points, shows what was computed there; where a point has no value
 // or none lies near, the paper shows.
-#include "render/plot/figure_map.h"
+#include "render/plot/plot_map.h"
 
 #include "base/memory.h"
 #include "render/plot/map_cells.h"
@@ -305,8 +305,8 @@ static void points_draw(const MapDrawing *drawing)
     }
 }
 
-bool figure_map(const Page *page, const Axes *axes, const PlotPanel *panel, const MapScale *scale,
-                Error *err)
+bool plot_map_draw(const Page *page, const Axes *axes, const PlotPanel *panel,
+                   const MapScale *scale, Error *err)
 {
     MapDrawing drawing = {.page = page, .axes = axes, .map = &panel->map, .scale = scale};
     const PlotMap *map = &panel->map;

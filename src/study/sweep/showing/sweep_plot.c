@@ -3,7 +3,7 @@
 // for each sweep. `panels` draws each value of a key in a frame of its own. Bars are the errors of
 // the table; open marks are points whose runs warned, marks without a bar (of a map: squares) those
 // whose error is not known.
-#include "study/sweep/showing/figure_plot.h"
+#include "study/sweep/showing/sweep_plot.h"
 
 #include "base/memory.h"
 #include "base/order.h"
@@ -485,8 +485,8 @@ cleanup:
     return error_is_clean(err);
 }
 
-bool figure_of_plot(const char *folder, const char *beside, const StudyPlot *plot,
-                    const PictureStyle *style, Error *err)
+bool sweep_plot_draw(const char *folder, const char *beside, const StudyPlot *plot,
+                     const PictureStyle *style, Error *err)
 {
     char compare[AMONTONS_PATH_SIZE];
     PlotFigure self = {.figure = {.folder = folder, .name = plot->name, .style = style},
