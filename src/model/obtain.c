@@ -165,7 +165,8 @@ static bool check_memory(Model *model, int32_t parts, Error *err)
     MemorySizes sizes = {.space = model->mesh.dim > 2,
                          .unknowns = model->bulk.dof_count,
                          .interface = model->interface.count,
-                         .parts = parts};
+                         .parts = parts,
+                         .motions = wants_modes(model->scene)};
     ContactHalf half = {0};
     TRY(contact_half_find(&model->interface, &half, err));
     sizes.one_side = half.interface.contact_count > 0;
@@ -176,14 +177,21 @@ static bool check_memory(Model *model, int32_t parts, Error *err)
     model->one_by_one = model->memory > ONE_BY_ONE_FROM * have && less < model->memory;
     if (model->one_by_one) model->memory = less;
     if (model->scene->time.scheme == SCHEME_EXPLICIT) model->memory = 0;
-    if (model->memory > have)
+    if (model->memory > have) {
+        sizes.motions = false;
+        double bare = memory_expected(&sizes, model->is_reduced);
+        const char *way_out = "";
+        if (model->is_reduced && whole < have)
+            way_out = ", or reduction.use: never, which takes less memory and longer";
+        if (bare < have)
+            way_out =
+                ", or neither output.fields nor probes, for which the block's motions are kept";
         FAIL(err, ERROR_INPUT,
              "%s: %d contact nodes are too many for this computer: a run takes some %.0f "
              "GB of memory, and there are %.1f; coarser cells at the contact are needed%s",
              model->scene->path, model->interface.contact_count, model->memory / 1e9, have / 1e9,
-             model->is_reduced && whole < have
-                 ? ", or reduction.use: never, which takes less memory and longer"
-                 : "");
+             way_out);
+    }
 cleanup:
     contact_half_destroy(&half);
     return error_is_clean(err);
