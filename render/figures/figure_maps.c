@@ -35,8 +35,6 @@ static const Color PAD_COLOR = {0.45f, 0.46f, 0.48f, 1};
 static const Color HATCH_COLOR = {0.72f, 0.72f, 0.74f, 1};
 static const Color MAP_OPEN = {0.55f, 0.56f, 0.58f, 1};   // contact that has lifted off
 
-enum { PAD_NAME_SIZE = 96 };
-
 // --- the field -----------------------------------------------------------------------------------
 
 // For contact density the place in the colours is that of the density that is lost, over the range
@@ -115,20 +113,6 @@ static int32_t rows_needed(const Page *page, const ResultView *view, const Axes 
     return (int32_t)rows;
 }
 
-// "contact_3" is shown as pad 3, a name of the user's own as it is; without names, numbers from 1.
-static void pad_name(const ResultView *view, int32_t pad, char name[PAD_NAME_SIZE])
-{
-    static const char common[] = "contact_";
-    int length = 0, skip = sizeof common - 1;
-    const char *start = result_view_name(view->pad_names, pad, &length);
-    if (length == 0)
-        snprintf(name, PAD_NAME_SIZE, "pad %d", pad + 1);
-    else if (length > skip && strncmp(start, common, sizeof common - 1) == 0)
-        snprintf(name, PAD_NAME_SIZE, "pad %.*s", length - skip, start + skip);
-    else
-        snprintf(name, PAD_NAME_SIZE, "%.*s", length, start);
-}
-
 // Places the frame for U from U[0] to U[1] and all x, and draws the field with the gaps of pads;
 // sets grid, pads_width and the axes but for `above`.
 static bool map_draw(const Page *page, const ResultView *view, const double U[2], MapPage *map,
@@ -145,7 +129,7 @@ static bool map_draw(const Page *page, const ResultView *view, const double U[2]
     // Right of the frame stand a bar and a name for each of several pads.
     for (int32_t pad = 0; pads > 1 && pad < pads; ++pad) {
         char name[PAD_NAME_SIZE];
-        pad_name(view, pad, name);
+        result_view_pad(view, pad, name);
         widest = fmax(widest, text_width(page->text, SMALL_SIZE * page->point, name));
     }
     if (pads > 1) map->pads_width = PAD_GAP + PAD_WIDTH + PAD_NAME_GAP + widest / page->point;
@@ -236,7 +220,7 @@ static void frame_draw(const Page *page, const ResultView *view, const MapPage *
         Point low = axes_place(axes, axes->x.high, from), high = axes_place(axes, axes->x.high, to);
         Box bar = {left, high.y, left + PAD_WIDTH * point, fmax(low.y, high.y + 1)};
         draw_fill(page->canvas, PAD_COLOR, &bar);
-        pad_name(view, pad, name);
+        result_view_pad(view, pad, name);
         Point place = {bar.right + PAD_NAME_GAP * point, (low.y + high.y) / 2};
         text_draw(page->text, &style, place, name);
     }

@@ -35,17 +35,6 @@ typedef struct PadCourses {
     PadCourse *list;   // [count] cycle by cycle, pads by number; owned
 } PadCourses;
 
-// Its name, or else its number.
-static void pad_words(const ResultView *view, int32_t pad, char words[PAD_WORDS_SIZE])
-{
-    int length = 0;
-    const char *name = result_view_name(view->pad_names, pad, &length);
-    if (length > 0)
-        snprintf(words, PAD_WORDS_SIZE, "%.*s", length < PAD_WORDS_SIZE ? length : 40, name);
-    else
-        snprintf(words, PAD_WORDS_SIZE, "pad %d", pad + 1);
-}
-
 // All cycles that ended in a sliding; without one the whole history is the first. In space only
 // nodes of the line that is shown are looked at.
 static bool pad_courses_read(ResultView *view, PadCourses *courses, Error *err)
@@ -170,9 +159,9 @@ bool figure_pads(Page *page, const FigureInput *input, Error *err)
 
     // The axes: a line for each pad, with its name.
     for (int32_t p = 0; p < courses.pads; ++p) {
-        char words[PAD_WORDS_SIZE];
-        pad_words(view, p, words);
-        snprintf(names[p], sizeof names[p], "%s", words);
+        char name[PAD_NAME_SIZE];
+        result_view_pad(view, p, name);
+        snprintf(names[p], sizeof names[p], "%s", name);
     }
     double beside = BESIDE * (high - low);
     axes.x = figure_length_axis(view, "U", low - beside, high + beside);
@@ -234,8 +223,13 @@ bool figure_pads_table(const char *path, ResultView *view, const FieldChoice *fi
     csv_end_row(csv);
     for (int32_t k = 0; k < courses.count; ++k) {
         const PadCourse *course = &courses.list[k];
-        char words[PAD_WORDS_SIZE];
-        pad_words(view, course->pad, words);
+        char words[PAD_WORDS_SIZE];   // the group's name as the mesh has it, or else its number
+        int length = 0;
+        const char *name = result_view_name(view->pad_names, course->pad, &length);
+        if (length > 0)
+            snprintf(words, sizeof words, "%.*s", length < PAD_WORDS_SIZE ? length : 40, name);
+        else
+            snprintf(words, sizeof words, "pad %d", course->pad + 1);
         csv_number(csv, course->cycle);
         csv_text(csv, words);
         csv_number(csv, course->order);

@@ -93,6 +93,19 @@ const char *result_view_name(const char *names, int32_t k, int *length)
     return names;
 }
 
+void result_view_pad(const ResultView *view, int32_t pad, char name[PAD_NAME_SIZE])
+{
+    static const char common[] = "contact_";
+    int length = 0, skip = sizeof common - 1;
+    const char *start = result_view_name(view->pad_names, pad, &length);
+    if (length == 0)
+        snprintf(name, PAD_NAME_SIZE, "pad %d", pad + 1);
+    else if (length > skip && strncmp(start, common, sizeof common - 1) == 0)
+        snprintf(name, PAD_NAME_SIZE, "pad %.*s", length - skip, start + skip);
+    else
+        snprintf(name, PAD_NAME_SIZE, "%.*s", length, start);
+}
+
 int64_t result_view_nearest_row(const ResultView *view, const double *values, double value)
 {
     int64_t nearest = 0;

@@ -62,8 +62,9 @@ STUDIES = {
     "rod": ("W/H where the rod is elsewhere: all of the trailing face, or a strip at a tenth of the height, at L/H = 1 and P/E = 0.006",
             {f"{name}, {breadth:g}": block(1, breadth, **{key: value}) for name, key, value in (("whole face", "rod.whole", "true"), ("low", "rod.height", 0.1))
              for breadth in (0.5, 2)}),
-    "grooves": ("two grooves 0.2 H deep, along or across and how wide over H, at L/H = W/H = 1 and P/E = 0.006",
-                {f"{direction} {width}": grooved(direction, width) for width in (0.1, 0.2) for direction in ("along", "across")}),
+    "grooves": ("two grooves 0.2 H deep (but where another depth is named), along or across and how wide over H, at L/H = W/H = 1 and P/E = 0.006",
+                {f"{direction} {width}": grooved(direction, width) for width in (0.1, 0.2) for direction in ("along", "across")}
+                | {f"along 0.2, {depth} deep": grooved("along", 0.2, depth) for depth in (0.1, 0.4)}),
 }
 # All that is run: these, on MESHES, and what only shows what grading changes, on meshes of EVEN cells.
 RUNS = STUDIES | {"even rows": ("W/H with rows of one height, at L/H = 1 and P/E = 0.006",
