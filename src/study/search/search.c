@@ -18,6 +18,7 @@
 
 enum {
     TRIES_MAX = 1000,   // choices that limits refuse, one after the other
+    REFUSALS_KEPT = 20,   // of these a chooser knows while there is no design
     KNOWN_MAX = 200,   // choices of designs that are known, one after the other: no others are left
     REFUSED_MAX = 20,   // scenes that are refused before there is any design: the study is wrong
 };
@@ -184,6 +185,39 @@ static bool tell(Search *search, int32_t choice, int32_t design, Error *err)
     return search->module->tell(search->chooser, choice, told_of(search, design), err);
 }
 
+// Opens a chooser that knows the designs so far.
+static bool open_chooser(Search *search, uint32_t seed, Error *err)
+{
+    const StudySearch *keys = &search->study->search;
+    int32_t n = keys->key_count, count = search->designs.count;
+    double least[STUDY_SEARCH_MAX], most[STUDY_SEARCH_MAX];
+    bool whole[STUDY_SEARCH_MAX];
+    double *places = NEW_ARRAY(double, (int64_t)count *(n + 1) + 1, err), *values = NULL;
+    TRY(places);
+    values = places + (int64_t)count * n;
+    for (int32_t k = 0; k < n; k++) {
+        least[k] = search_scaled(&keys->keys[k], keys->keys[k].least);
+        most[k] = search_scaled(&keys->keys[k], keys->keys[k].most);
+        whole[k] = keys->keys[k].scale == SEARCH_WHOLE;
+    }
+    for (int32_t d = 0; d < count; d++) {
+        const Design *one = &search->designs.list[d];
+        for (int32_t k = 0; k < n; k++)
+            places[d * n + k] = search_scaled(&keys->keys[k], one->x[k]);
+        values[d] = told_of(search, d);
+    }
+    ChooserSpace space = {n, least, most, whole, seed, count, places, values};
+    ChooserModuleFunction module =
+        (ChooserModuleFunction)module_function("dlib", "amontons_chooser_module", err);
+    TRY(module);
+    search->module = module();
+    search->module->destroy(search->chooser);
+    TRY(search->chooser = search->module->create(&space, err));
+cleanup:
+    memory_free(places);
+    return error_is_clean(err);
+}
+
 // The next design that is allowed and new. *added: there is one.
 static bool choose(Search *search, bool *added, Error *err)
 {
@@ -194,6 +228,9 @@ static bool choose(Search *search, bool *added, Error *err)
             *err = search->refusal;
             return false;
         }
+        // Refusals alone teach nothing, and each of them makes the next choice dearer.
+        if (search->designs.count == 0 && k > 0 && k % REFUSALS_KEPT == 0)
+            TRY(open_chooser(search, keys->seed + (uint32_t)k, err));
         double x[STUDY_SEARCH_MAX] = {0};
         int32_t number = 0;
         TRY(search->module->choose(search->chooser, x, &number, err));
@@ -225,44 +262,11 @@ cleanup:
     return error_is_clean(err);
 }
 
-// One that knows the designs so far.
-static bool open_chooser(Search *search, Error *err)
-{
-    const StudySearch *keys = &search->study->search;
-    int32_t n = keys->key_count, count = search->designs.count;
-    double least[STUDY_SEARCH_MAX], most[STUDY_SEARCH_MAX];
-    bool whole[STUDY_SEARCH_MAX];
-    double *places = NEW_ARRAY(double, (int64_t)count *(n + 1) + 1, err), *values = NULL;
-    TRY(places);
-    values = places + (int64_t)count * n;
-    for (int32_t k = 0; k < n; k++) {
-        least[k] = search_scaled(&keys->keys[k], keys->keys[k].least);
-        most[k] = search_scaled(&keys->keys[k], keys->keys[k].most);
-        whole[k] = keys->keys[k].scale == SEARCH_WHOLE;
-    }
-    for (int32_t d = 0; d < count; d++) {
-        const Design *one = &search->designs.list[d];
-        for (int32_t k = 0; k < n; k++)
-            places[d * n + k] = search_scaled(&keys->keys[k], one->x[k]);
-        values[d] = told_of(search, d);
-    }
-    ChooserSpace space = {n, least, most, whole, keys->seed, count, places, values};
-    ChooserModuleFunction module =
-        (ChooserModuleFunction)module_function("dlib", "amontons_chooser_module", err);
-    TRY(module);
-    search->module = module();
-    search->module->destroy(search->chooser);
-    TRY(search->chooser = search->module->create(&space, err));
-cleanup:
-    memory_free(places);
-    return error_is_clean(err);
-}
-
 bool search_designs(Search *search, int32_t count, Error *err)
 {
     const StudySearch *keys = &search->study->search;
     bool added = true;
-    if (!open_chooser(search, err)) return false;
+    if (!open_chooser(search, keys->seed, err)) return false;
 
     // The start: the scene with `set`, at the first point of `vary`, if all that is searched has a
     // value there within its range. One that lacks what a formula takes from a searched key is
