@@ -73,19 +73,26 @@ const char *page_title(const PictureStyle *style, const char *own, bool by_defau
     return strcmp(style->title, "scene") == 0 && own ? own : style->title;
 }
 
-// The height that is asked is that of all: the figure has what title and foot leave.
+// The height that is asked is that of all: the figure has what title and foot leave. Where nobody
+// asks for dots per inch they are as many as a page so long may have.
 bool page_begin(Page *page, const PageDef *page_def, Error *err)
 {
     const PictureStyle *style = page_def->style;
     const char *title = page_def->title;
     Purpose purpose = find_purpose(style);
+    double width = purpose.width / INCH, height = style->height / INCH;   // inches
+    double points = page_def->foot + (title && title[0] ? TITLE_HEIGHT : 0);
+    if (!(height > 0)) height = width * page_def->height + purpose.scale * points / POINTS_AN_INCH;
+    if (!(style->dpi > 0))
+        purpose.dpi = fmin(purpose.dpi, floor(CANVAS_SIZE_MAX / fmax(fmax(width, height), 1)));
+
     CanvasDef def = {.dpi = purpose.dpi, .dark = style->dark};
-    double width = purpose.width / INCH * def.dpi;
     *page = (Page){.point = purpose.scale * def.dpi / POINTS_AN_INCH, .style = *style};
+    width *= def.dpi;
     double foot = round(page_def->foot * page->point);
     double head = title && title[0] ? round(TITLE_HEIGHT * page->point) : 0;
-    double height = round(fmin(width * page_def->height, INT32_MAX / 2)) + head + foot;
-    if (style->height > 0) height = round(style->height / INCH * def.dpi);
+    height = style->height > 0 ? round(height * def.dpi)
+                               : round(fmin(width * page_def->height, INT32_MAX / 2)) + head + foot;
     if (style->format && !find_format(style->format, &def.format))
         return REFUSE(err, "there is no format \"%s\"; known are png, pdf, svg", style->format);
     def.width = (int32_t)lround(fmin(width, INT32_MAX));
