@@ -160,7 +160,8 @@ class Space(OwnCache):
         words = [PROGRAM, "run", path, "--dry-run", "--set", "mesh.set.nx=30", "mesh.set.ny=30"]
         said = subprocess.run(words, capture_output=True, text=True, env=self.environment, check=True).stdout
         self.assertRegex(said, r"about [0-9.e+]+ GB of memory")
-        done = subprocess.run([*words, "mesh.set.nx=400", "mesh.set.ny=400", "mesh.set.nz=1"], capture_output=True, text=True, env=self.environment)
+        words = ["bash", "-c", 'ulimit -v 4000000 && exec "$@"', "bash", *words, "mesh.set.nx=60", "mesh.set.ny=60", "mesh.set.nz=1"]
+        done = subprocess.run(words, capture_output=True, text=True, env=self.environment)
         self.assertEqual(done.returncode, 2)
         self.assertIn("contact nodes are too many for this computer: a run takes some", done.stderr)
 
