@@ -228,8 +228,8 @@ static bool check_places(const Mesh *mesh, const MeshContact *contact, Error *er
                             "the group, and z up?"
                           : " (without mesh.shift the lowest contact node is moved there)");
     for (int32_t k = 1; k < contact->node_count; k++) {
-        // A node before it over the same place, a. Nodes are in order of x: only those with the same
-        // x are looked at, in the plane the one before.
+        // A node before it over the same place, a. Nodes are in order of x: only those with the
+        // same x are looked at, in the plane the one before.
         int32_t b = contact->nodes[k], a = -1;
         const char *name = contact->pads[contact->pad_of[k]].name;
         const double *at_b = mesh_place(mesh, b);
