@@ -17,7 +17,8 @@ static int32_t next_sliding(const Events *events, int32_t from)
     return k;
 }
 
-double precursor_length(const Events *events, const Event *event)
+// How far from the trailing end of the block a rapid event came, length.
+static double precursor_length(const Events *events, const Event *event)
 {
     return event->reach - events->trailing;
 }

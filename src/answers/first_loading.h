@@ -39,9 +39,6 @@ typedef struct LaterCycles {
 FirstLoading first_loading_of(const Drops *drops);
 LaterCycles later_cycles_of(const Drops *drops, int32_t first);   // from drop number `first` on
 
-// How far from the trailing end of the block a rapid event came, length.
-double precursor_length(const Events *events, const Event *event);
-
 // Objects `first` and `later_cycles` of results. length: L.
 void first_loading_write_json(const FirstLoading *first, const LaterCycles *later,
                               const Events *events, double length, JsonWriter *json);

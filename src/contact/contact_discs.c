@@ -57,7 +57,8 @@ typedef struct Settling {
 
 // --- statuses and rows --------------------------------------------------------------------------
 
-// Status and row of node i. false: its status stays.
+// Status and row of node i. false: its status stays. In space this decides when a node begins to
+// slip (contact_judge_node in the plane).
 static bool judge_node(const Settling *settling, int32_t i)
 {
     const ContactProblem *problem = settling->problem;

@@ -81,7 +81,11 @@ void contact_jacobian(const ContactEquations *equations, const double *matrix, i
                       double *jacobian);
 
 // The status that contact node i, or 1 where rod node j touches, should have by its own conditions,
-// and by how much it violates them now, in units of the scales.
+// and by how much it violates them now, in units of the scales. In the plane this decides when a
+// node begins to slip: |r_t| > mu r_n with mu at rest (friction_threshold). Three other places ask
+// the same in other unknowns: contact/contact_discs in space, where the status follows from where
+// r - rho v lies; contact/contact_sweeps for a node alone, as a start that is judged here or there
+// afterwards; stepping/explicit_reference, which solves nothing, for the speed that is left.
 uint8_t contact_judge_node(const ContactEquations *equations, ContactScales scales, int32_t i,
                            double *violation);
 uint8_t contact_judge_rod(const ContactEquations *equations, ContactScales scales, int32_t j,

@@ -60,7 +60,7 @@ static uint8_t solve_alone(NodeAlone *node, double v[3])
     v[2] = (cross[2] * b[0] + mixed * b[1] + third * b[2]) / whole;
     if (v[2] >= node->bound) return CONTACT_OPEN;
 
-    // Pressed: it sticks, if friction at rest holds it.
+    // Pressed: it sticks, if friction at rest holds it. A start only: the solvers judge afterwards.
     v[0] = v[1] = 0;
     v[2] = node->bound;
     for (int32_t c = 0; c < 2; c++) node->q[c] = b[c] - s[c][2] * node->bound;

@@ -12,39 +12,34 @@
 #include <math.h>
 #include <string.h>
 
-// Lists the nodes whose unknowns move a group of elements, each once: its own, and those of the
-// floor that its contact nodes move with. Returns their number.
-static int32_t list_movers(const Mesh *mesh, const ElementGroup *group, int32_t *nodes)
-{
-    const Floor *floor = &mesh->floor;
-    int32_t own = group->node_count, count = own;
-    memcpy(nodes, group->node, (size_t)own * sizeof *nodes);
-    for (int32_t a = 0; a < own; a++)
-        for (int32_t k = floor_start(floor, group->node[a]); k < floor_end(floor, group->node[a]);
-             k++) {
-            int32_t known = own;
-            while (known < count && nodes[known] != floor->node[k]) known++;
-            nodes[known] = floor->node[k];
-            if (known == count) count++;
-        }
-    return count;
-}
-
 // Nodes that move a common group of elements are neighbours. *pattern is the caller's to free also
 // on failure.
 static bool build_pattern(const Mesh *mesh, SparsePattern *pattern, Error *err)
 {
     int32_t *start = NEW_ARRAY(int32_t, (int64_t)mesh->element_count + 1, err), count = 0;
     int32_t corners = mesh->first_node[mesh->element_count], room = corners, *nodes = NULL;
+    const Floor *floor = &mesh->floor;
     ElementGroup group;
     if (!start) goto cleanup;
     for (int32_t a = 0; a < corners; a++)
-        room += floor_end(&mesh->floor, mesh->element_nodes[a]) -
-                floor_start(&mesh->floor, mesh->element_nodes[a]);
+        room += floor_end(floor, mesh->element_nodes[a]) -
+                floor_start(floor, mesh->element_nodes[a]);
     TRY((nodes = NEW_ARRAY(int32_t, room, err)));
     for (int32_t e = 0; e < mesh->element_count; e++) {
         if (!element_group_at(mesh, e, &group)) continue;
-        start[count + 1] = start[count] + list_movers(mesh, &group, nodes + start[count]);
+
+        // The nodes whose unknowns move the group, each once: its own, and those of the floor that
+        // its contact nodes move with.
+        int32_t own = group.node_count, movers = own, *list = nodes + start[count];
+        memcpy(list, group.node, (size_t)own * sizeof *list);
+        for (int32_t a = 0; a < own; a++)
+            for (int32_t k = floor_start(floor, list[a]); k < floor_end(floor, list[a]); k++) {
+                int32_t known = own;
+                while (known < movers && list[known] != floor->node[k]) known++;
+                list[known] = floor->node[k];
+                if (known == movers) movers++;
+            }
+        start[count + 1] = start[count] + movers;
         count++;
     }
     PointGroups groups = {mesh->node_count, count, start, nodes};
@@ -156,21 +151,6 @@ static void empty_row(int32_t dof, Bulk *bulk)
     }
 }
 
-// S_j is the damping of a material with those viscosities.
-static void add_shape(const Mesh *mesh, const SpectrumShape *shape, Bulk *bulk, double *values)
-{
-    ElementGroup group;
-    ElementMatrices matrices;
-    Material like[MATERIALS_MAX] = {0};
-    like[shape->region] =
-        (Material){.young = 1, .eta1 = shape->moduli.deviator, .eta2 = shape->moduli.trace};
-    for (int32_t e = 0; e < mesh->element_count; e++) {
-        if (mesh_region(mesh, e) != shape->region || !element_group_at(mesh, e, &group)) continue;
-        element_group_matrices(mesh, like, &group, &matrices);
-        add_group(mesh, &group, &matrices, bulk, NULL, values);
-    }
-}
-
 // In a checked mesh (fem/mesh_build) every determinant is positive: no element can fail here.
 bool bulk_assemble(const Mesh *mesh, const Material *materials, Bulk *bulk, Error *err)
 {
@@ -190,7 +170,18 @@ bool bulk_assemble(const Mesh *mesh, const Material *materials, Bulk *bulk, Erro
     }
     for (int32_t j = 0; j < bulk->spectrum.matrix_count; j++) {
         bulk->shape[j] = NEW_ARRAY(double, entries, err);
-        if (error_is_clean(err)) add_shape(mesh, &bulk->spectrum.shape[j], bulk, bulk->shape[j]);
+
+        // S_j is the damping of a material with those viscosities.
+        const SpectrumShape *shape = &bulk->spectrum.shape[j];
+        Material like[MATERIALS_MAX] = {0};
+        like[shape->region] =
+            (Material){.young = 1, .eta1 = shape->moduli.deviator, .eta2 = shape->moduli.trace};
+        for (int32_t e = 0; error_is_clean(err) && e < mesh->element_count; e++) {
+            if (mesh_region(mesh, e) != shape->region || !element_group_at(mesh, e, &group))
+                continue;
+            element_group_matrices(mesh, like, &group, &matrices);
+            add_group(mesh, &group, &matrices, bulk, NULL, bulk->shape[j]);
+        }
     }
     for (int32_t dof = 0; error_is_clean(err) && dof < bulk->dof_count; dof++)
         if (bulk->held[dof]) empty_row(dof, bulk);

@@ -90,27 +90,9 @@ static void join(Mesh *mesh, int32_t one, int32_t other)
     mesh->mean_next[other] = next;
 }
 
-// No two that were left over are neighbours, or they would be a pair: so a group grows by its own
-// edges only.
-static bool take_in_the_rest(const Side *sides, int32_t count, Mesh *mesh, Error *err)
-{
-    int32_t *best = NEW_ARRAY(int32_t, mesh->element_count, err);
-    if (!best) return false;
-    for (int32_t e = 0; e < mesh->element_count; e++) best[e] = is_alone(mesh, e) ? e : -1;
-    for (int32_t k = 0; k < count; k++) {
-        int32_t e = sides[k].element, other = sides[k].other;
-        if (best[e] < 0) continue;
-        if (best[e] == e || ring_size(mesh, other) < ring_size(mesh, best[e])) best[e] = other;
-    }
-    for (int32_t e = 0; e < mesh->element_count; e++)
-        if (best[e] >= 0 && best[e] != e) join(mesh, e, best[e]);
-    memory_free(best);
-    return true;
-}
-
 bool element_groups_find(const uint8_t *is_mean, Mesh *mesh, Error *err)
 {
-    int32_t elements = mesh->element_count, marked = 0, count;
+    int32_t elements = mesh->element_count, marked = 0, count, *best = NULL;
     Side *sides = NULL;
     for (int32_t e = 0; e < elements; e++)
         marked += is_mean[mesh_region(mesh, e)] && corners_of(mesh, e) > 0;
@@ -124,9 +106,20 @@ bool element_groups_find(const uint8_t *is_mean, Mesh *mesh, Error *err)
     for (int32_t k = 0; k < count; k++)
         if (is_alone(mesh, sides[k].element) && is_alone(mesh, sides[k].other))
             join(mesh, sides[k].element, sides[k].other);
-    TRY(take_in_the_rest(sides, count, mesh, err));
+
+    // Elements that were left over join the smallest group beside them. No two of them are
+    // neighbours, or they would be a pair: so a group grows by its own edges only.
+    TRY((best = NEW_ARRAY(int32_t, elements, err)));
+    for (int32_t e = 0; e < elements; e++) best[e] = is_alone(mesh, e) ? e : -1;
+    for (int32_t k = 0; k < count; k++) {
+        int32_t e = sides[k].element, other = sides[k].other;
+        if (best[e] < 0) continue;
+        if (best[e] == e || ring_size(mesh, other) < ring_size(mesh, best[e])) best[e] = other;
+    }
+    for (int32_t e = 0; e < elements; e++)
+        if (best[e] >= 0 && best[e] != e) join(mesh, e, best[e]);
 cleanup:
-    memory_free(sides);
+    memory_free_all(sides, best);
     return error_is_clean(err);
 }
 
@@ -182,23 +175,6 @@ static void find_offsets(const Mesh *mesh, int32_t e, MeshPlace offset[ELEMENT_N
     mesh_offsets(mesh, mesh->element_nodes + first, mesh->first_node[e + 1] - first, offset);
 }
 
-// place: [nodes of the element] among those of the group.
-static void add_member(int32_t dim, const ElementMatrices *member, const int32_t *place,
-                       ElementMatrices *out)
-{
-    for (int32_t i = 0; i < member->dof_count; i++) {
-        int32_t row = node_dof(dim, place[dof_node(dim, i)], dof_axis(dim, i));
-        out->areal[row] += member->areal[i];
-        for (int32_t j = 0; j < member->dof_count; j++) {
-            int32_t column = node_dof(dim, place[dof_node(dim, j)], dof_axis(dim, j));
-            out->stiffness[row][column] += member->stiffness[i][j];
-            out->damping[row][column] += member->damping[i][j];
-        }
-    }
-    for (int32_t a = 0; dim * a < member->dof_count; a++) out->mass[place[a]] += member->mass[a];
-    out->area += member->area;
-}
-
 void element_group_matrices(const Mesh *mesh, const Material *materials, const ElementGroup *group,
                             ElementMatrices *out)
 {
@@ -211,21 +187,34 @@ void element_group_matrices(const Mesh *mesh, const Material *materials, const E
         return;
     }
     ElementGroup known = *group;
-    element_matrices_clear(mesh->dim * group->node_count, out);
+    int32_t dim = mesh->dim;
+    element_matrices_clear(dim * group->node_count, out);
     for (int32_t m = 0; m < group->count; m++) {
         int32_t e = group->element[m], place[ELEMENT_NODES_MAX], first = mesh->first_node[e];
         ElementMatrices member;
         find_offsets(mesh, e, offset);
         element_shape_matrices((ElementKind)mesh->kind[e], (const MeshPlace *)offset, material,
                                &member);
-        for (int32_t a = 0; mesh->dim * a < member.dof_count; a++)
+        for (int32_t a = 0; dim * a < member.dof_count; a++)
             place[a] = place_of(&known, mesh->element_nodes[first + a]);
-        add_member(mesh->dim, &member, place, out);
+
+        // Its matrices are added where its nodes stand in the group.
+        for (int32_t i = 0; i < member.dof_count; i++) {
+            int32_t row = node_dof(dim, place[dof_node(dim, i)], dof_axis(dim, i));
+            out->areal[row] += member.areal[i];
+            for (int32_t j = 0; j < member.dof_count; j++) {
+                int32_t column = node_dof(dim, place[dof_node(dim, j)], dof_axis(dim, j));
+                out->stiffness[row][column] += member.stiffness[i][j];
+                out->damping[row][column] += member.damping[i][j];
+            }
+        }
+        for (int32_t a = 0; dim * a < member.dof_count; a++) out->mass[place[a]] += member.mass[a];
+        out->area += member.area;
     }
 
     // k of the header.
-    double elastic = moduli_bulk(material_elastic(material), mesh->dim);
-    double viscous = moduli_bulk(material_viscous(material), mesh->dim);
+    double elastic = moduli_bulk(material_elastic(material), dim);
+    double viscous = moduli_bulk(material_viscous(material), dim);
     for (int32_t i = 0; i < out->dof_count; i++) {
         for (int32_t j = 0; j < out->dof_count; j++) {
             double square = out->areal[i] * out->areal[j] / out->area;

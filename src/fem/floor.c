@@ -319,25 +319,6 @@ static int compare_shadows(const void *a, const void *b)
     return (one->face.node[0] > other->face.node[0]) - (one->face.node[0] < other->face.node[0]);
 }
 
-// Faces of the floor that do not stand upright.
-static bool list_floor(const MeshBoundary *boundary, Mortar *mortar, Error *err)
-{
-    Shadow corner[FACE_CORNERS_MAX];
-    if (!(mortar->floor = NEW_ARRAY(ShadowFace, boundary->face_count, err))) return false;
-    for (int32_t k = 0; k < boundary->face_count; k++) {
-        FaceNodes face = mesh_boundary_face(boundary, k);
-        ShadowFace shadow = shadow_of(mortar->mesh, face);
-        int32_t corners = corners_of(&shadow, mortar->dim, corner);
-        double extent = shadow.high[0] - shadow.low[0];
-        if (mortar->dim == 2) extent = pow(fmax(extent, shadow.high[1] - shadow.low[1]), 2);
-        if (!(size_of(corner, corners, mortar->dim) > UPRIGHT * extent)) continue;
-        mortar->widest = fmax(mortar->widest, shadow.high[0] - shadow.low[0]);
-        mortar->floor[mortar->floor_count++] = shadow;
-    }
-    qsort(mortar->floor, (size_t)mortar->floor_count, sizeof *mortar->floor, compare_shadows);
-    return true;
-}
-
 // Sums entries of one place, over the total of their row; leaves out rows without weight and shares
 // of rounding.
 static bool fill_rows(Mortar *mortar, Floor *floor, Error *err)
@@ -369,28 +350,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// The block stands on the base, nowhere in it.
-static bool check_gaps(const Mesh *mesh, const MeshContact *contact, Error *err)
-{
-    int32_t lowest = -1;
-    double least = INFINITY;
-    for (int32_t k = 0; k < contact->node_count; k++) {
-        int32_t node = contact->nodes[k];
-        if (floor_start(&mesh->floor, node) == floor_end(&mesh->floor, node)) continue;
-        double gap = mesh_height(mesh, node) - mesh_floor_height(mesh, node);
-        if (gap < least) {
-            least = gap;
-            lowest = node;
-        }
-    }
-    if (lowest < 0 || fabs(least) <= GAP_ROUNDING * (mesh->x_max - mesh->x_min)) return true;
-    return REFUSE(err,
-                  "%s: contact node %lld at x = %g, the lowest, is %g %s the floor of the base: "
-                  "draw the block so that it stands on the base",
-                  mesh->path, (long long)mesh->node_number[lowest], mesh_place(mesh, lowest)[0],
-                  fabs(least), least < 0 ? "below" : "above");
-}
-
 bool floor_find(const char (*names)[GROUP_NAME_SIZE], int32_t name_count, const char *floor,
                 Mesh *mesh, Error *err)
 {
@@ -400,14 +359,47 @@ bool floor_find(const char (*names)[GROUP_NAME_SIZE], int32_t name_count, const 
     if (!mesh->is_base) return true;
     TRY(mesh_contact(mesh, names, name_count, &contact, err));
     TRY(mesh_boundary(mesh, floor, &boundary, err));
-    TRY(list_floor(&boundary, &mortar, err));
+
+    // Faces of the floor that do not stand upright.
+    Shadow corner[FACE_CORNERS_MAX];
+    TRY((mortar.floor = NEW_ARRAY(ShadowFace, boundary.face_count, err)));
+    for (int32_t k = 0; k < boundary.face_count; k++) {
+        ShadowFace shadow = shadow_of(mesh, mesh_boundary_face(&boundary, k));
+        int32_t corners = corners_of(&shadow, mortar.dim, corner);
+        double extent = shadow.high[0] - shadow.low[0];
+        if (mortar.dim == 2) extent = pow(fmax(extent, shadow.high[1] - shadow.low[1]), 2);
+        if (!(size_of(corner, corners, mortar.dim) > UPRIGHT * extent)) continue;
+        mortar.widest = fmax(mortar.widest, shadow.high[0] - shadow.low[0]);
+        mortar.floor[mortar.floor_count++] = shadow;
+    }
+    qsort(mortar.floor, (size_t)mortar.floor_count, sizeof *mortar.floor, compare_shadows);
+
+    // The rows of P, from each face of the contact.
     TRY((mortar.total = NEW_ARRAY(double, mesh->node_count, err)));
     for (int32_t c = 0; c < contact.pad_count; c++)
         for (int32_t k = 0; k < contact.pads[c].face_count; k++)
             TRY(add_face(&mortar, contact.pads[c].name, mesh_boundary_face(&contact.pads[c], k),
                          floor, err));
     TRY(fill_rows(&mortar, &mesh->floor, err));
-    TRY(check_gaps(mesh, &contact, err));
+
+    // The block stands on the base, nowhere in it.
+    int32_t lowest = -1;
+    double least = INFINITY;
+    for (int32_t k = 0; k < contact.node_count; k++) {
+        int32_t node = contact.nodes[k];
+        if (floor_start(&mesh->floor, node) == floor_end(&mesh->floor, node)) continue;
+        double gap = mesh_height(mesh, node) - mesh_floor_height(mesh, node);
+        if (gap < least) {
+            least = gap;
+            lowest = node;
+        }
+    }
+    if (lowest >= 0 && !(fabs(least) <= GAP_ROUNDING * (mesh->x_max - mesh->x_min)))
+        FAIL(err, ERROR_INPUT,
+             "%s: contact node %lld at x = %g, the lowest, is %g %s the floor of the base: "
+             "draw the block so that it stands on the base",
+             mesh->path, (long long)mesh->node_number[lowest], mesh_place(mesh, lowest)[0],
+             fabs(least), least < 0 ? "below" : "above");
 cleanup:
     memory_free_all(mortar.floor, mortar.total, mortar.pairs, mortar.entries);
     mesh_contact_destroy(&contact);

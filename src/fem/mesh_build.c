@@ -37,36 +37,7 @@ void mesh_destroy(Mesh *mesh)
     *mesh = (Mesh){0};
 }
 
-// Moves the arrays; `file` is empty afterwards, so destroying both is always right.
-static void take_over(MeshFile *file, const char *path, Mesh *mesh)
-{
-    *mesh = (Mesh){.dim = file->dim,
-                   .node_count = file->node_count,
-                   .position = file->position,
-                   .node_number = file->node_number,
-                   .element_count = file->element_count,
-                   .element_number = file->element_number,
-                   .kind = file->kind,
-                   .first_node = file->first_node,
-                   .element_nodes = file->element_nodes,
-                   .group_count = file->group_count,
-                   .groups = file->groups,
-                   .move = {.scale = 1}};
-    snprintf(mesh->path, sizeof mesh->path, "%s", path);
-    memcpy(mesh->warning, file->warning, sizeof file->warning);
-    *file = (MeshFile){0};
-}
-
 // --- checks -------------------------------------------------------------------------------------
-
-// The name of a group that holds node i, NULL: none. For errors: it searches all.
-static const char *group_of_node(const Mesh *mesh, int32_t i)
-{
-    for (int32_t g = 0; g < mesh->group_count; g++)
-        for (int32_t k = 0; k < mesh->groups[g].node_count; k++)
-            if (mesh->groups[g].nodes[k] == i) return mesh->groups[g].name;
-    return NULL;
-}
 
 // A node of no element has no stiffness: the matrix would be singular.
 static bool check_nodes(const Mesh *mesh, Error *err)
@@ -78,7 +49,10 @@ static bool check_nodes(const Mesh *mesh, Error *err)
         used[mesh->element_nodes[k]] = true;
     for (int32_t i = 0; i < mesh->node_count; i++) {
         if (used[i]) continue;
-        const char *group = group_of_node(mesh, i);
+        const char *group = NULL;   // that holds node i, the first
+        for (int32_t g = 0; g < mesh->group_count && !group; g++)
+            for (int32_t k = 0; k < mesh->groups[g].node_count && !group; k++)
+                if (mesh->groups[g].nodes[k] == i) group = mesh->groups[g].name;
         FAIL(err, ERROR_INPUT, "%s: node %lld at %s is on no %s element%s%s%s", mesh->path,
              (long long)mesh->node_number[i], mesh_place_text(mesh, i, at),
              mesh->dim == 2 ? "surface" : "volume", group ? "; it belongs to group '" : "",
@@ -167,38 +141,6 @@ static int32_t exchanged_node(ElementKind kind, int32_t a)
     return a;
 }
 
-// The name of a region that element e is in, NULL: none.
-static const char *region_of_element(const Mesh *mesh, int32_t e)
-{
-    for (int32_t g = 0; g < mesh->group_count; g++)
-        for (int32_t k = 0; k < mesh->groups[g].element_count; k++)
-            if (mesh->groups[g].elements[k] == e) return mesh->groups[g].name;
-    return NULL;
-}
-
-static bool refuse_element(const Mesh *mesh, int32_t e, const double range[2],
-                           const MeshPlace centre, Error *err)
-{
-    char at[PLACE_TEXT_SIZE];
-    const char *region = region_of_element(mesh, e);
-    bool changes = range[0] < -AREA_TOLERANCE && range[1] > AREA_TOLERANCE;
-    return REFUSE(
-        err,
-        "%s: element %lld (%s) at %s%s%s%s has a non-positive %s: its Jacobian determinant runs "
-        "from %.3g to %.3g of its size %s; %s",
-        mesh->path, (long long)mesh->element_number[e], ELEMENTS[mesh->kind[e]].name,
-        place_text(mesh->dim, centre, at), region ? " of group '" : "", region ? region : "",
-        region ? "'" : "", mesh->dim == 2 ? "area" : "volume", range[0], range[1],
-        mesh->dim == 2 ? "squared" : "cubed",
-        !changes ? "its corners lie on one line or plane: draw it otherwise, or mesh it with other "
-                   "sizes"
-        : element_node_count(mesh->kind[e]) > element_corner_count(mesh->kind[e])
-            ? "it turns inside out: its sides are bent too far (`Mesh.HighOrderOptimize = 2;`, or "
-              "shorter cells where the boundary is curved), or its nodes are not in gmsh's order"
-            : "it turns inside out: its corners are not in gmsh's order, or it is twisted or "
-              "crossed");
-}
-
 // An element whose determinant is negative throughout runs the other way round, as those of a
 // reversed surface do: it is turned. One whose determinant is 0 or changes its sign is an error.
 static bool orient_elements(Mesh *mesh, Error *err)
@@ -217,8 +159,34 @@ static bool orient_elements(Mesh *mesh, Error *err)
             int32_t old[ELEMENT_NODES_MAX], count = element_node_count(mesh->kind[e]);
             memcpy(old, nodes, (size_t)count * sizeof *nodes);
             for (int32_t a = 0; a < count; a++) nodes[a] = old[exchanged_node(mesh->kind[e], a)];
-        } else if (!(range[0] > AREA_TOLERANCE))
-            TRY(refuse_element(mesh, e, range, centre, err));
+            continue;
+        }
+        if (range[0] > AREA_TOLERANCE) continue;
+
+        // The error names a region that the element is in.
+        char at[PLACE_TEXT_SIZE];
+        const char *region = NULL;
+        for (int32_t g = 0; g < mesh->group_count && !region; g++)
+            for (int32_t k = 0; k < mesh->groups[g].element_count && !region; k++)
+                if (mesh->groups[g].elements[k] == e) region = mesh->groups[g].name;
+        bool changes = range[0] < -AREA_TOLERANCE && range[1] > AREA_TOLERANCE;
+        FAIL(
+            err, ERROR_INPUT,
+            "%s: element %lld (%s) at %s%s%s%s has a non-positive %s: its Jacobian determinant "
+            "runs from %.3g to %.3g of its size %s; %s",
+            mesh->path, (long long)mesh->element_number[e], ELEMENTS[mesh->kind[e]].name,
+            place_text(mesh->dim, centre, at), region ? " of group '" : "", region ? region : "",
+            region ? "'" : "", mesh->dim == 2 ? "area" : "volume", range[0], range[1],
+            mesh->dim == 2 ? "squared" : "cubed",
+            !changes
+                ? "its corners lie on one line or plane: draw it otherwise, or mesh it with other "
+                  "sizes"
+            : element_node_count(mesh->kind[e]) > element_corner_count(mesh->kind[e])
+                ? "it turns inside out: its sides are bent too far (`Mesh.HighOrderOptimize = 2;`, "
+                  "or shorter cells where the boundary is curved), or its nodes are not in gmsh's "
+                  "order"
+                : "it turns inside out: its corners are not in gmsh's order, or it is twisted or "
+                  "crossed");
     }
 cleanup:
     memory_free(probes);
@@ -295,7 +263,23 @@ bool mesh_build_parts(MeshFile *file, const char *path, const char *floor, Mesh 
 {
     MeshFaces faces = {0};
     *parts = (MeshParts){0};
-    take_over(file, path, mesh);
+
+    // The arrays move; `file` is empty afterwards, so destroying both is always right.
+    *mesh = (Mesh){.dim = file->dim,
+                   .node_count = file->node_count,
+                   .position = file->position,
+                   .node_number = file->node_number,
+                   .element_count = file->element_count,
+                   .element_number = file->element_number,
+                   .kind = file->kind,
+                   .first_node = file->first_node,
+                   .element_nodes = file->element_nodes,
+                   .group_count = file->group_count,
+                   .groups = file->groups,
+                   .move = {.scale = 1}};
+    snprintf(mesh->path, sizeof mesh->path, "%s", path);
+    memcpy(mesh->warning, file->warning, sizeof file->warning);
+    *file = (MeshFile){0};
     mesh_find_extent(mesh);
     TRY(check_nodes(mesh, err));
 

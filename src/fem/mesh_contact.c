@@ -212,24 +212,9 @@ cleanup:
     return error_is_clean(err);
 }
 
-// A node before place k of the list over the same place as that at k, -1: none. Nodes are in order
-// of x: only those with the same x are looked at, in the plane the one before.
-static int32_t node_over(const Mesh *mesh, const MeshContact *contact, int32_t k, double tolerance)
-{
-    const double *at = mesh_place(mesh, contact->nodes[k]);
-    for (int32_t j = k - 1; j >= 0; j--) {
-        const double *other = mesh_place(mesh, contact->nodes[j]);
-        if (at[0] - other[0] > tolerance) return -1;
-        bool same = true;
-        for (int32_t d = 1; d < mesh->dim - 1; d++)
-            same = same && fabs(at[d] - other[d]) <= tolerance;
-        if (same) return contact->nodes[j];
-    }
-    return -1;
-}
-
-// Two nodes over one place: the sides of a crack, parts of a mesh that were not joined, or a
-// boundary that goes straight up.
+// The block does not reach below the substrate, and comes down to it. No two contact nodes are over
+// one place: the sides of a crack, parts of a mesh that were not joined, or a boundary that goes
+// straight up.
 static bool check_places(const Mesh *mesh, const MeshContact *contact, Error *err)
 {
     double tolerance = PLACE_TOLERANCE * extent(mesh);
@@ -243,10 +228,20 @@ static bool check_places(const Mesh *mesh, const MeshContact *contact, Error *er
                             "the group, and z up?"
                           : " (without mesh.shift the lowest contact node is moved there)");
     for (int32_t k = 1; k < contact->node_count; k++) {
-        int32_t b = contact->nodes[k], a = node_over(mesh, contact, k, tolerance);
+        // A node before it over the same place, a. Nodes are in order of x: only those with the
+        // same x are looked at, in the plane the one before.
+        int32_t b = contact->nodes[k], a = -1;
         const char *name = contact->pads[contact->pad_of[k]].name;
-        if (a < 0) continue;
         const double *at_b = mesh_place(mesh, b);
+        for (int32_t j = k - 1; j >= 0 && a < 0; j--) {
+            const double *other = mesh_place(mesh, contact->nodes[j]);
+            if (at_b[0] - other[0] > tolerance) break;
+            bool same = true;
+            for (int32_t d = 1; d < mesh->dim - 1; d++)
+                same = same && fabs(at_b[d] - other[d]) <= tolerance;
+            if (same) a = contact->nodes[j];
+        }
+        if (a < 0) continue;
         if (fabs(mesh_height(mesh, b) - mesh_height(mesh, a)) > tolerance)
             return REFUSE(err,
                           "%s: contact group '%s' goes straight up at x = %g, from z = %g to %g: a "
@@ -258,6 +253,18 @@ static bool check_places(const Mesh *mesh, const MeshContact *contact, Error *er
                       mesh->path, (long long)mesh->node_number[a], (long long)mesh->node_number[b],
                       name, at_b[0]);
     }
+
+    // A block that mesh.shift put at another height.
+    int32_t lowest = contact->nodes[0];
+    for (int32_t k = 1; k < contact->node_count; k++)
+        if (mesh_height(mesh, contact->nodes[k]) < mesh_height(mesh, lowest))
+            lowest = contact->nodes[k];
+    if (mesh_gap(mesh, lowest) > 0)
+        return REFUSE(err,
+                      "%s: no contact node lies on z = 0: the lowest, node %lld at x = %g, has z = "
+                      "%g (without mesh.shift it is moved there)",
+                      mesh->path, (long long)mesh->node_number[lowest], mesh_place(mesh, lowest)[0],
+                      mesh_height(mesh, lowest));
     return true;
 }
 
@@ -280,23 +287,6 @@ bool mesh_stand_on_floor(const char (*names)[GROUP_NAME_SIZE], int32_t name_coun
 cleanup:
     mesh_contact_destroy(&contact);
     return error_is_clean(err);
-}
-
-// A block that mesh.shift put at another height.
-static bool check_height(const Mesh *mesh, const MeshContact *contact, Error *err)
-{
-    int32_t lowest = contact->nodes[0];
-    for (int32_t k = 1; k < contact->node_count; k++)
-        if (mesh_height(mesh, contact->nodes[k]) < mesh_height(mesh, lowest))
-            lowest = contact->nodes[k];
-    if (mesh_gap(mesh, lowest) > 0)
-        return REFUSE(err,
-                      "%s: no contact node lies on z = 0: the lowest, node %lld at x = %g, has z = "
-                      "%g (without "
-                      "mesh.shift it is moved there)",
-                      mesh->path, (long long)mesh->node_number[lowest], mesh_place(mesh, lowest)[0],
-                      mesh_height(mesh, lowest));
-    return true;
 }
 
 // In the plane: a curve that turns back has nodes of another stretch between those of an edge.
@@ -329,7 +319,6 @@ bool mesh_contact(const Mesh *mesh, const char (*names)[GROUP_NAME_SIZE], int32_
     if (!check_boundary(mesh, contact, err)) return false;
     if (!merge_nodes(mesh, contact, err)) return false;
     if (!check_places(mesh, contact, err)) return false;
-    if (!check_height(mesh, contact, err)) return false;
     if (mesh->dim == 2 && !check_order(mesh, contact, err)) return false;
     return true;
 }

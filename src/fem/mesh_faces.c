@@ -125,43 +125,30 @@ static bool add_face(const Mesh *mesh, const MeshFace *face, MeshFaces *table, E
     return error_is_clean(err);
 }
 
-// Is called for each face of each element. Returning false ends the walk.
-typedef bool (*FaceVisit)(const Mesh *mesh, const MeshFace *face, MeshFaces *table, Error *err);
-
-static bool visit_faces(const Mesh *mesh, FaceVisit visit, MeshFaces *table, Error *err)
+// A first pass counts a face once for each element on it: at most twice the room that is needed.
+bool mesh_faces_build(const Mesh *mesh, MeshFaces *table, Error *err)
 {
     int32_t nodes[FACE_NODES_MAX];
+    *table = (MeshFaces){0};
+    if (!(table->first = NEW_ARRAY(int32_t, (int64_t)mesh->node_count + 1, err))) return false;
+    if (!(table->last = NEW_ARRAY(int32_t, mesh->node_count, err))) return false;
+    for (int32_t e = 0; e < mesh->element_count; e++)
+        for (int32_t side = 0; side < element_face_count((ElementKind)mesh->kind[e]); side++)
+            table->first[key_of(mesh_element_face(mesh, e, side, nodes)).corner[0] + 1]++;
+    for (int32_t i = 0; i < mesh->node_count; i++) {
+        table->first[i + 1] += table->first[i];
+        table->last[i] = table->first[i];
+    }
+    if (!(table->faces = NEW_ARRAY(MeshFace, table->first[mesh->node_count], err))) return false;
     for (int32_t e = 0; e < mesh->element_count; e++)
         for (int32_t side = 0; side < element_face_count((ElementKind)mesh->kind[e]); side++) {
             MeshFace face = {.key = key_of(mesh_element_face(mesh, e, side, nodes)),
                              .elements = 1,
                              .element = e,
                              .side = side};
-            if (!visit(mesh, &face, table, err)) return false;
+            if (!add_face(mesh, &face, table, err)) return false;
         }
     return true;
-}
-
-static bool count_face(const Mesh *mesh, const MeshFace *face, MeshFaces *table, Error *err)
-{
-    (void)mesh, (void)err;
-    table->first[face->key.corner[0] + 1]++;
-    return true;
-}
-
-// A first pass counts a face once for each element on it: at most twice the room that is needed.
-bool mesh_faces_build(const Mesh *mesh, MeshFaces *table, Error *err)
-{
-    *table = (MeshFaces){0};
-    if (!(table->first = NEW_ARRAY(int32_t, (int64_t)mesh->node_count + 1, err))) return false;
-    if (!(table->last = NEW_ARRAY(int32_t, mesh->node_count, err))) return false;
-    visit_faces(mesh, count_face, table, err);
-    for (int32_t i = 0; i < mesh->node_count; i++) {
-        table->first[i + 1] += table->first[i];
-        table->last[i] = table->first[i];
-    }
-    return (table->faces = NEW_ARRAY(MeshFace, table->first[mesh->node_count], err)) &&
-           visit_faces(mesh, add_face, table, err);
 }
 
 void mesh_faces_destroy(MeshFaces *table)

@@ -27,14 +27,10 @@ static int compare_points(const void *a, const void *b)
     return (first->element > second->element) - (first->element < second->element);
 }
 
-static const double *middle_of(ElementKind kind)
-{
-    static const double triangle[] = {1. / 3, 1. / 3}, square[] = {0, 0};
-    return element_corner_count(kind) == 3 ? triangle : square;
-}
-
+// A point just outside of the middle of a face.
 static ProbePoint point_before(const Mesh *mesh, const MeshFace *face)
 {
+    static const double triangle[] = {1. / 3, 1. / 3}, square[] = {0, 0};
     int32_t nodes[FACE_NODES_MAX];
     MeshPlace position[FACE_NODES_MAX], normal;
     ProbePoint point = {.element = face->element};
@@ -42,7 +38,8 @@ static ProbePoint point_before(const Mesh *mesh, const MeshFace *face)
     int32_t count = element_node_count(seen.kind);
     double area = 0;
     mesh_places(mesh, nodes, count, position);
-    ShapeValues shape = shape_at(seen.kind, middle_of(seen.kind));
+    ShapeValues shape =
+        shape_at(seen.kind, element_corner_count(seen.kind) == 3 ? triangle : square);
     shape_normal(seen.kind, &shape, (const MeshPlace *)position, normal);
     for (int32_t d = 0; d < mesh->dim; d++) area = hypot(area, normal[d]);
     double size = mesh->dim == 2 ? area : sqrt(area);
@@ -54,27 +51,21 @@ static ProbePoint point_before(const Mesh *mesh, const MeshFace *face)
     return point;
 }
 
-// The first point with x >= low.
-static int32_t first_from(const ProbePoint *points, int32_t count, double low)
-{
-    int32_t from = 0, to = count;
-    while (from < to) {
-        int32_t middle = from + (to - from) / 2;
-        if (points[middle].place[0] < low)
-            from = middle + 1;
-        else
-            to = middle;
-    }
-    return from;
-}
-
 // A point that lies in element e of the same body, NULL: none does.
 static const ProbePoint *point_inside(const Mesh *mesh, int32_t e, const ProbePoint *points,
                                       int32_t count)
 {
     MeshPlace low, high;
+    int32_t from = 0, to = count;   // becomes the first point with x >= low
     mesh_element_box(mesh, e, low, high);
-    for (int32_t k = first_from(points, count, low[0]); k < count; k++) {
+    while (from < to) {
+        int32_t middle = from + (to - from) / 2;
+        if (points[middle].place[0] < low[0])
+            from = middle + 1;
+        else
+            to = middle;
+    }
+    for (int32_t k = from; k < count; k++) {
         const ProbePoint *point = &points[k];
         if (point->place[0] > high[0]) break;
         if (point->element == e) continue;

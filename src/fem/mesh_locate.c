@@ -29,9 +29,15 @@ void mesh_element_box(const Mesh *mesh, int32_t e, MeshPlace low, MeshPlace high
     }
 }
 
-// Within the reference element: xi, eta, zeta >= 0 and their sum <= 1, or each from -1 to 1.
-static bool is_within(ElementKind kind, const double *at)
+bool mesh_element_holds(const Mesh *mesh, int32_t e, const double *place, MeshPlace at)
 {
+    ElementKind kind = (ElementKind)mesh->kind[e];
+    MeshPlace position[ELEMENT_NODES_MAX];
+    mesh_places(mesh, mesh->element_nodes + mesh->first_node[e], element_node_count(kind),
+                position);
+    if (!shape_locate(kind, (const MeshPlace *)position, place, at)) return false;
+
+    // Within the reference element: xi, eta, zeta >= 0 and their sum <= 1, or each from -1 to 1.
     int32_t dim = element_dim(kind), corners = element_corner_count(kind);
     int32_t simplex = corners == dim + 1 ? dim : kind == ELEMENT_WEDGE6 ? 2 : 0;
     double left = 1;
@@ -43,15 +49,6 @@ static bool is_within(ElementKind kind, const double *at)
     for (int32_t d = simplex; d < dim; d++)
         if (fabs(at[d]) > 1 + REFERENCE_TOLERANCE) return false;
     return true;
-}
-
-bool mesh_element_holds(const Mesh *mesh, int32_t e, const double *place, MeshPlace at)
-{
-    ElementKind kind = (ElementKind)mesh->kind[e];
-    MeshPlace position[ELEMENT_NODES_MAX];
-    mesh_places(mesh, mesh->element_nodes + mesh->first_node[e], element_node_count(kind),
-                position);
-    return shape_locate(kind, (const MeshPlace *)position, place, at) && is_within(kind, at);
 }
 
 int32_t mesh_locate(const Mesh *mesh, const double *place, MeshPlace at)

@@ -13,13 +13,15 @@ static int32_t root_of(int32_t *parent, int32_t node)
     return node;
 }
 
-// *number: [nodes of the mesh] which piece the node is on, -1: not on the boundary; the caller's.
-static bool number_pieces(const Mesh *mesh, const MeshBoundary *whole, int32_t **number,
-                          MeshPieces *pieces, Error *err)
+bool mesh_pieces_find(const Mesh *mesh, const MeshBoundary *whole, MeshPieces *pieces, Error *err)
 {
-    int32_t *parent = NEW_ARRAY(int32_t, mesh->node_count, err);
-    if (!parent || !(*number = NEW_ARRAY(int32_t, mesh->node_count, err))) goto cleanup;
-    for (int32_t i = 0; i < mesh->node_count; i++) parent[i] = i, (*number)[i] = -1;
+    int32_t width = whole->nodes_per_face;
+    *pieces = (MeshPieces){0};
+
+    // Which piece each node of the mesh is on, -1: not on the boundary.
+    int32_t *number = NULL, *parent = NEW_ARRAY(int32_t, mesh->node_count, err);
+    if (!parent || !(number = NEW_ARRAY(int32_t, mesh->node_count, err))) goto cleanup;
+    for (int32_t i = 0; i < mesh->node_count; i++) parent[i] = i, number[i] = -1;
     for (int32_t f = 0; f < whole->face_count; f++) {
         FaceNodes face = mesh_boundary_face(whole, f);
         for (int32_t a = 1; a < element_node_count(face.kind); a++)
@@ -27,19 +29,11 @@ static bool number_pieces(const Mesh *mesh, const MeshBoundary *whole, int32_t *
     }
     for (int32_t k = 0; k < whole->node_count; k++) {
         int32_t node = whole->nodes[k], root = root_of(parent, node);
-        if ((*number)[root] < 0) (*number)[root] = pieces->count++;
-        (*number)[node] = (*number)[root];
+        if (number[root] < 0) number[root] = pieces->count++;
+        number[node] = number[root];
     }
-cleanup:
-    memory_free(parent);
-    return error_is_clean(err);
-}
 
-bool mesh_pieces_find(const Mesh *mesh, const MeshBoundary *whole, MeshPieces *pieces, Error *err)
-{
-    int32_t *number = NULL, width = whole->nodes_per_face;
-    *pieces = (MeshPieces){0};
-    if (!number_pieces(mesh, whole, &number, pieces, err)) goto cleanup;
+    // Nodes and faces of each piece.
     pieces->piece = memory_array(pieces->count, sizeof *pieces->piece, err);
     pieces->name = memory_array(pieces->count, sizeof *pieces->name, err);
     int32_t *nodes = pieces->nodes = NEW_ARRAY(int32_t, whole->node_count, err);
@@ -69,7 +63,7 @@ bool mesh_pieces_find(const Mesh *mesh, const MeshBoundary *whole, MeshPieces *p
         faces += (int64_t)width * piece->face_count;
     }
 cleanup:
-    memory_free(number);
+    memory_free_all(number, parent);
     return error_is_clean(err);
 }
 

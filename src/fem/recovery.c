@@ -225,23 +225,6 @@ static double von_mises(int32_t dim, const double *stress, double across)
                 shear);
 }
 
-// Adds the stress of the branches of one shape; returns their sigma_yy in plane strain.
-static double add_branches(const NodalStress *stress, int32_t point, const Material *material,
-                           Moduli moduli, const double *stretched, double *held, double *total)
-{
-    double matrix[STRAINS_MAX][STRAINS_MAX];
-    int32_t strains = strain_count(stress->dim);
-    Strains at = strains_at(stress, point, stretched, stretched);
-    moduli_matrix(moduli, stress->dim, matrix);
-    for (int32_t r = 0; r < strains; r++) {
-        double pulled = 0;
-        for (int32_t c = 0; c < strains; c++) pulled += matrix[r][c] * at.strain[c];
-        held[r] += pulled;
-        total[r] += pulled;
-    }
-    return material->plane_strain ? moduli.trace * (at.strain[0] + at.strain[1]) : 0;
-}
-
 // Von Mises is that of the mean stress, not the mean of the elements' von Mises.
 // displacement, velocity: [dim * nodes] of the full mesh. stress->total has the viscous part, C's
 // stress at this velocity, stress->elastic has not.
@@ -270,8 +253,18 @@ void nodal_stress_recover(const Material *materials, const double *displacement,
         for (int32_t j = 0; relaxing && j < spectrum->shape_count; j++) {
             const SpectrumShape *shape = &spectrum->shape[j];
             if (shape->region != (stress->region ? stress->region[point] : 0)) continue;
-            across +=
-                add_branches(stress, point, material, shape->moduli, relaxing[j], held, total);
+
+            // The stress of the branches of one shape, and their sigma_yy in plane strain.
+            Strains stretched = strains_at(stress, point, relaxing[j], relaxing[j]);
+            moduli_matrix(shape->moduli, stress->dim, elastic);
+            for (int32_t r = 0; r < strains; r++) {
+                double pulled = 0;
+                for (int32_t c = 0; c < strains; c++) pulled += elastic[r][c] * stretched.strain[c];
+                held[r] += pulled;
+                total[r] += pulled;
+            }
+            if (material->plane_strain)
+                across += shape->moduli.trace * (stretched.strain[0] + stretched.strain[1]);
         }
         stress->von_mises[point] = von_mises(stress->dim, total, across);
     }

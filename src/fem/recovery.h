@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Strains and stresses at the nodes: the mean over the elements around a node. Called by
-// record/field_files, record/probes and run/static/static_report.
+// record/field_files, record/probes and run/static/static_solve.
 #ifndef AMONTONS_FEM_RECOVERY_H
 #define AMONTONS_FEM_RECOVERY_H
 

@@ -136,24 +136,6 @@ double wlf_shift(double c1, double c2, double reference, double temperature)
     return c2 + above > 0 ? pow(10, -c1 * above / (c2 + above)) : (double)NAN;
 }
 
-static void measure_misfit(const RelaxationData *data, RelaxationFit *fit)
-{
-    double sum = 0;
-    int32_t rows = 0;
-    fit->worst = 0;
-    for (int32_t i = 0; i < data->count; i++) {
-        double found[2] = {relaxation_at(fit, data->at[i]), 0};
-        if (!data->over_time) relaxation_moduli(fit, data->at[i], &found[0], &found[1]);
-        for (int32_t d = 0; d < (data->over_time ? 1 : 2); d++) {
-            double off = fabs(found[d] / (d == 0 ? data->storage : data->loss)[i] - 1);
-            sum += off * off;
-            fit->worst = fmax(fit->worst, off);
-            rows++;
-        }
-    }
-    fit->misfit = sqrt(sum / rows);
-}
-
 // The fit with `count` relaxation times from `fastest` to `slowest`; those that get 0 are left out.
 // A, b: room for all rows and columns. fit->count RELAXATION_TERMS_MAX + 1: more are left.
 static bool fit_terms(const RelaxationData *data, bool has_viscosity, int32_t count, double fastest,
@@ -200,7 +182,21 @@ static bool fit_terms(const RelaxationData *data, bool has_viscosity, int32_t co
         fit->time[fit->count] = time[k];
         fit->modulus[fit->count++] = x[FIRST + k];
     }
-    measure_misfit(data, fit);
+
+    double sum = 0;
+    int32_t rows = 0;
+    fit->worst = 0;
+    for (int32_t i = 0; i < data->count; i++) {
+        double found[2] = {relaxation_at(fit, data->at[i]), 0};
+        if (!data->over_time) relaxation_moduli(fit, data->at[i], &found[0], &found[1]);
+        for (int32_t d = 0; d < (data->over_time ? 1 : 2); d++) {
+            double off = fabs(found[d] / (d == 0 ? data->storage : data->loss)[i] - 1);
+            sum += off * off;
+            fit->worst = fmax(fit->worst, off);
+            rows++;
+        }
+    }
+    fit->misfit = sqrt(sum / rows);
     return true;
 }
 

@@ -22,17 +22,25 @@ static double relaxed_modulus(const Material *material, double shear, double bul
     return sum;
 }
 
-// In plane stress the plate's thickness follows both moduli: by the correspondence principle the
-// areal modulus is
+// made [2 * BRANCHES_MAX]; returns their number. In plane stress the plate's thickness follows both
+// moduli: by the correspondence principle the areal modulus is
 //
 //     k(s) = 9 K G/H,   H = 3 K + 4 G,
 //
 // with s for the rate: again a Prony series, with poles at times of branches that resist shear and
 // volume and at the roots of H, of which one lies between any two poles of H and one beyond the
 // last. (1/k is 1/(3 G) + 4/(9 K), and the series of springs and Maxwell solids is one.)
-static int32_t plane_stress_branches(const Material *material, PlaneBranch *made)
+static int32_t plane_branches(const Material *material, int32_t dim, PlaneBranch *made)
 {
     int32_t count = 0, n = material->branch_count;
+    if (material->plane_strain) {   // or in space
+        for (int32_t k = 0; k < n; k++) {
+            const Branch *branch = &material->branch[k];
+            double lambda = branch->bulk - 2 * branch->shear / 3;
+            made[k] = (PlaneBranch){branch->time, branch->shear, lambda + 2 * branch->shear / dim};
+        }
+        return n;
+    }
     for (int32_t k = 0; k < n; k++) {
         const Branch *branch = &material->branch[k];
         double shear = branch->shear, bulk = branch->bulk;
@@ -61,18 +69,6 @@ static int32_t plane_stress_branches(const Material *material, PlaneBranch *made
         made[count++] = (PlaneBranch){.time = -1 / low, .bulk = fmax(residue, 0)};
     }
     return count;
-}
-
-// made [2 * BRANCHES_MAX]; returns their number.
-static int32_t plane_branches(const Material *material, int32_t dim, PlaneBranch *made)
-{
-    if (!material->plane_strain) return plane_stress_branches(material, made);
-    for (int32_t k = 0; k < material->branch_count; k++) {
-        const Branch *branch = &material->branch[k];
-        double lambda = branch->bulk - 2 * branch->shear / 3;
-        made[k] = (PlaneBranch){branch->time, branch->shear, lambda + 2 * branch->shear / dim};
-    }
-    return material->branch_count;
 }
 
 // One shape where the bulk modulus of each branch is the same part of its shear modulus, else one

@@ -121,25 +121,11 @@ static double floor_height(const Model *model)
     return width < FLOOR_PART * touching ? 0 : materials->area[model->contact_region] / width;
 }
 
-static double crossing_along(const Model *model)
-{
-    return model->length / materials_slip_speed(&model->materials);
-}
-
-static double crossing_floor(const Model *model)
-{
-    const Material *floor = &model->materials.list[model->contact_region];
-    return floor_height(model) / material_slip_speed(floor);
-}
-
 double model_crossing(const Model *model)
 {
-    return fmax(crossing_along(model), crossing_floor(model));
-}
-
-bool model_floor_is_slow(const Model *model)
-{
-    return crossing_floor(model) > crossing_along(model);
+    const Material *floor = &model->materials.list[model->contact_region];
+    return fmax(model->length / materials_slip_speed(&model->materials),
+                floor_height(model) / material_slip_speed(floor));
 }
 
 double model_settling_time(const Model *model)

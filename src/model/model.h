@@ -93,7 +93,6 @@ double model_slip_per_mu(const Model *model);
 // whichever is longer, time. Friction feeds no faster oscillation on a soft layer: waves of a stiff
 // block above it hardly come through.
 double model_crossing(const Model *model);
-bool model_floor_is_slow(const Model *model);   // the latter
 
 // The mean E of the short-time response over that of the long-time one; 1: no branches. By so much
 // less slip can a drop of friction drive at once.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // One time of the fields as ParaView sees it: the bulk as .vtu, the interface as .vtp. Called by
-// record/fields, in its writer's thread, and by run/static/static_report.
+// record/fields, in its writer's thread, and by run/static/static_solve.
 #ifndef AMONTONS_RECORD_FIELD_FILES_H
 #define AMONTONS_RECORD_FIELD_FILES_H
 

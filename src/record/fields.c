@@ -111,28 +111,6 @@ bool fields_flush(Fields *fields, Error *err)
     return done;
 }
 
-// At the first time that is written: until then nobody knows the system.
-static bool start_writer(Fields *fields, const Observation *seen, Error *err)
-{
-    const Mesh *mesh = fields->files.mesh;
-    int64_t dofs = seen->system->dof_count, whole = (int64_t)mesh->dim * mesh->node_count;
-    int64_t line = (int64_t)field_line_columns(mesh->dim - 1) * seen->interface->contact_count;
-    WorkerDef def = {.slots = FIELD_SLOTS, .work = write_time, .context = fields};
-    int32_t each = vectors_of(fields);
-    if (fields->writer) return true;
-    fields->system = seen->system;
-    for (int32_t k = 0; k < FIELD_SLOTS; k++) {
-        FieldTimeCopy *copy = &fields->slots[k];
-        if (!copy->storage) copy->storage = memory_bytes(8 * (each * (dofs + whole) + line), err);
-        if (!copy->storage) return false;
-        double *next = copy->storage;
-        for (int which = 0; which < each; which++, next += dofs) copy->unknowns[which] = next;
-        for (int which = 0; which < each; which++, next += whole) copy->whole[which] = next;
-        copy->line = next;
-    }
-    return worker_create(&def, &fields->writer, err);
-}
-
 // For one more time. The writer must be idle where there is none.
 static bool make_room(Fields *fields, Error *err)
 {
@@ -210,7 +188,27 @@ bool fields_record(void *self, const Observation *seen, Error *err)
     int32_t slot;
     if (!is_due(fields, seen)) return true;
     double started = clock_seconds();
-    if (!start_writer(fields, seen, err)) return false;
+
+    // The writer starts at the first time that is written: until then nobody knows the system.
+    if (!fields->writer) {
+        const Mesh *mesh = fields->files.mesh;
+        int64_t dofs = seen->system->dof_count, whole = (int64_t)mesh->dim * mesh->node_count;
+        int64_t line = (int64_t)field_line_columns(mesh->dim - 1) * seen->interface->contact_count;
+        WorkerDef def = {.slots = FIELD_SLOTS, .work = write_time, .context = fields};
+        int32_t each = vectors_of(fields);
+        fields->system = seen->system;
+        for (int32_t k = 0; k < FIELD_SLOTS; k++) {
+            FieldTimeCopy *copy = &fields->slots[k];
+            if (!copy->storage)
+                copy->storage = memory_bytes(8 * (each * (dofs + whole) + line), err);
+            if (!copy->storage) return false;
+            double *next = copy->storage;
+            for (int which = 0; which < each; which++, next += dofs) copy->unknowns[which] = next;
+            for (int which = 0; which < each; which++, next += whole) copy->whole[which] = next;
+            copy->line = next;
+        }
+        if (!worker_create(&def, &fields->writer, err)) return false;
+    }
     if (!make_room(fields, err)) return false;
     if (!worker_slot(fields->writer, &slot, err)) return false;
 

@@ -10,43 +10,6 @@
 
 enum { READINGS_MAX = DIM_MAX + STRAINS_MAX };
 
-// The coefficients of reading `r` of a probe in the displacements of the mesh's nodes: of the
-// displacement along axis r, or of strain number r - dim; full [dim * nodes].
-static void fill_full_row(const NodalStress *stress, const Mesh *mesh, const ProbePlace *place,
-                          int32_t r, double *full)
-{
-    ElementKind kind = (ElementKind)mesh->kind[place->element];
-    const int32_t *nodes = mesh->element_nodes + mesh->first_node[place->element];
-    const int32_t *points = nodal_stress_points(stress, mesh, place->element);
-    ShapeValues shape = shape_at(kind, place->at);
-    memset(full, 0, (size_t)mesh->dim * (size_t)mesh->node_count * sizeof *full);
-    for (int32_t a = 0; a < element_node_count(kind); a++) {
-        if (r < mesh->dim)
-            full[node_dof(mesh->dim, nodes[a], r)] += shape.value[a];
-        else
-            nodal_strain_row(stress, points[a], r - mesh->dim, shape.value[a], full);
-    }
-}
-
-// rows: [dim + strains][dof_count] over all unknowns; only columns that count are kept.
-static bool keep_columns(const double *rows, int32_t readings, int32_t dofs, Probe *probe,
-                         Error *err)
-{
-    int32_t used = 0;
-    if (!(probe->column = NEW_ARRAY(int32_t, dofs, err))) return false;
-    for (int32_t j = 0; j < dofs; j++) {
-        bool counts = false;
-        for (int32_t r = 0; r < readings; r++) counts = counts || rows[(int64_t)r * dofs + j] != 0;
-        if (counts) probe->column[used++] = j;
-    }
-    if (!(probe->row = NEW_ARRAY(double, (int64_t)used *readings, err))) return false;
-    probe->column_count = used;
-    for (int32_t c = 0; c < used; c++)
-        for (int32_t r = 0; r < readings; r++)
-            probe->row[(int64_t)c * readings + r] = rows[(int64_t)r * dofs + probe->column[c]];
-    return true;
-}
-
 // The displacement of a contact node over a base is its jump and that of the floor: coefficients
 // are gathered on both as forces are (fem/floor).
 bool probes_create(const ProbePlace *places, int32_t count, const Mesh *mesh,
@@ -70,13 +33,41 @@ bool probes_create(const ProbePlace *places, int32_t count, const Mesh *mesh,
     TRY((rows = NEW_ARRAY(double, (int64_t)readings *dofs, err)));
     TRY(nodal_stress_create(mesh, &stress, err));
     for (int32_t k = 0; k < count; k++) {
-        probes->list[k].region = mesh_region(mesh, places[k].element);
+        Probe *probe = &probes->list[k];
+        int32_t element = places[k].element;
+        ElementKind kind = (ElementKind)mesh->kind[element];
+        const int32_t *nodes = mesh->element_nodes + mesh->first_node[element];
+        const int32_t *points = nodal_stress_points(&stress, mesh, element);
+        ShapeValues shape = shape_at(kind, places[k].at);
+        probe->region = mesh_region(mesh, element);
+
+        // Coefficients of each reading in the displacements of the mesh's nodes: of the
+        // displacement along axis r, or of strain number r - dim; then in the system's unknowns.
         for (int32_t r = 0; r < readings; r++) {
-            fill_full_row(&stress, mesh, &places[k], r, full);
+            memset(full, 0, (size_t)dim * (size_t)mesh->node_count * sizeof *full);
+            for (int32_t a = 0; a < element_node_count(kind); a++) {
+                if (r < dim)
+                    full[node_dof(dim, nodes[a], r)] += shape.value[a];
+                else
+                    nodal_strain_row(&stress, points[a], r - dim, shape.value[a], full);
+            }
             floor_gather(mesh, full);
             TRY(bulk_operator_project(system, full, rows + (int64_t)r * dofs, err));
         }
-        TRY(keep_columns(rows, readings, dofs, &probes->list[k], err));
+
+        // Only columns in which some reading has a coefficient are kept.
+        TRY((probe->column = NEW_ARRAY(int32_t, dofs, err)));
+        for (int32_t j = 0; j < dofs; j++) {
+            bool counts = false;
+            for (int32_t r = 0; r < readings; r++)
+                counts = counts || rows[(int64_t)r * dofs + j] != 0;
+            if (counts) probe->column[probe->column_count++] = j;
+        }
+        int32_t used = probe->column_count;
+        TRY((probe->row = NEW_ARRAY(double, (int64_t)used *readings, err)));
+        for (int32_t c = 0; c < used; c++)
+            for (int32_t r = 0; r < readings; r++)
+                probe->row[(int64_t)c * readings + r] = rows[(int64_t)r * dofs + probe->column[c]];
     }
 cleanup:
     nodal_stress_destroy(&stress);

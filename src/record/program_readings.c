@@ -165,25 +165,6 @@ static void add_to_bin(ProgramPiece *piece, double mu, double slip)
     piece->first[k] = piece->low[k] = piece->high[k] = mu;
 }
 
-static void see_contact(ProgramReadings *readings, const Observation *seen)
-{
-    const Interface *interface = seen->interface;
-    double shear = 0, normal = 0, slip = 0, weight = 0, velocity = readings->now.reading.velocity;
-    readings->off = 0;
-    for (int32_t i = 0; i < interface->contact_count; i++) {
-        int32_t t = interface_unknown(interface, i, 0), n = interface_normal(interface, i);
-        shear -= seen->state->reaction[t];
-        normal += seen->state->reaction[n];
-        slip += interface->weight[i] * seen->state->displacement[seen->system->interface_dofs[t]];
-        weight += interface->weight[i];
-        double ratio = seen->state->slip_rate[t] / velocity;
-        readings->off = fmax(readings->off, ratio > 0 ? fabs(log(ratio)) : INFINITY);
-    }
-    readings->mu = normal > 0 ? shear / normal : 0;
-    readings->slip = slip / weight;
-    readings->U = seen->U;
-}
-
 // A point that a step ends at belongs to what came before; one that was stepped over, not.
 bool program_readings_record(void *self, const Observation *seen, Error *err)
 {
@@ -193,7 +174,25 @@ bool program_readings_record(void *self, const Observation *seen, Error *err)
     if (!readings->course) return true;
     while (readings->started && now->ends < seen->t * (1 - REACHED))
         begin_piece(readings, now->ends);
-    see_contact(readings, seen);
+
+    // mu and the mean slip of the contact, and how far a node's velocity is off the rod's.
+    const Interface *interface = seen->interface;
+    double shear = 0, normal = 0, moved = 0, weight = 0, velocity = now->reading.velocity;
+    readings->off = 0;
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        int32_t t = interface_unknown(interface, i, 0), n = interface_normal(interface, i);
+        shear -= seen->state->reaction[t];
+        normal += seen->state->reaction[n];
+        moved += interface->weight[i] * seen->state->displacement[seen->system->interface_dofs[t]];
+        weight += interface->weight[i];
+        double ratio = seen->state->slip_rate[t] / velocity;
+        readings->off = fmax(readings->off, ratio > 0 ? fabs(log(ratio)) : INFINITY);
+    }
+    readings->mu = normal > 0 ? shear / normal : 0;
+    readings->slip = moved / weight;
+    readings->U = seen->U;
+
+    // Into the piece under way.
     if (!readings->started) begin_piece(readings, 0);
     readings->started = true;
     double mu = readings->mu, slip = readings->slip - now->slip;

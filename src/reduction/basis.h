@@ -5,9 +5,7 @@
 //     Phi = X - Psi X_b,
 //
 // X_b being X on the interface, so that Phi is 0 there and Psi'K Phi = 0. Phi is not orthogonal in
-// itself before basis_finish makes it so. reduction/basis_grow fills it block by block,
-// reduction/basis_condense asks it at a point, reduction/basis_finish makes a part of it. Called by
-// reduction/reduction.
+// itself before basis_finish makes it so. Called by reduction/reduction.
 #ifndef AMONTONS_REDUCTION_BASIS_H
 #define AMONTONS_REDUCTION_BASIS_H
 

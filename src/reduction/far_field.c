@@ -40,21 +40,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Near unknowns as they are, then each patch's modes.
-static bool list_modes(const Bulk *mesh, const FarPatches *patches, Transform *by, Error *err)
-{
-    int32_t dofs = mesh->dof_count;
-    int64_t entries = dofs;
-    for (int32_t p = 0; p < patches->count; p++)
-        entries += (int64_t)patches->modes[p].size * patches->modes[p].count;
-    if (!transform_create(dofs, dofs, entries, by, err)) return false;
-    for (int32_t dof = 0; dof < dofs; dof++)
-        if (patches->of[dof] == NO_PATCH) *transform_append(by, &dof, 1, 1) = 1;
-    for (int32_t p = 0; p < patches->count; p++)
-        if (!append_patch(mesh, &patches->modes[p], by, err)) return false;
-    return true;
-}
-
 bool far_field_create(const Bulk *mesh, const int32_t *interface_dofs, int32_t interface_count,
                       const FarFieldDef *def, FarField *far, Error *err)
 {
@@ -71,7 +56,16 @@ bool far_field_create(const Bulk *mesh, const int32_t *interface_dofs, int32_t i
     far->stiffness = samples.stiffness;
     far->slowest = samples.slowest;
     if (!taken) goto cleanup;
-    TRY(list_modes(mesh, &patches, &far->modes, err));
+
+    // Near unknowns as they are, then each patch's modes.
+    int64_t entries = mesh->dof_count;
+    for (int32_t p = 0; p < patches.count; p++)
+        entries += (int64_t)patches.modes[p].size * patches.modes[p].count;
+    TRY(transform_create(mesh->dof_count, mesh->dof_count, entries, &far->modes, err));
+    for (int32_t dof = 0; dof < mesh->dof_count; dof++)
+        if (patches.of[dof] == NO_PATCH) *transform_append(&far->modes, &dof, 1, 1) = 1;
+    for (int32_t p = 0; p < patches.count; p++)
+        TRY(append_patch(mesh, &patches.modes[p], &far->modes, err));
     far_patches_destroy(&patches);
     TRY(bulk_transform(mesh, &far->modes, &far->bulk, err));
     for (int32_t j = 0; j < interface_count; j++)

@@ -138,53 +138,30 @@ static bool number_patches(const Reach *reach, int32_t m, int32_t dofs, FarPatch
     return true;
 }
 
-static bool list_dofs(int32_t dofs, FarPatches *patches, Error *err)
-{
-    patches->place = NEW_ARRAY(int32_t, dofs, err);
-    patches->modes = NEW_ARRAY(PatchModes, patches->count, err);
-    if (!error_is_clean(err)) return false;
-    for (int32_t k = 0; k < dofs; k++)
-        if (patches->of[k] != NO_PATCH) patches->place[k] = patches->modes[patches->of[k]].size++;
-    for (int32_t p = 0; p < patches->count; p++) {
-        PatchModes *modes = &patches->modes[p];
-        modes->dofs = NEW_ARRAY(int32_t, modes->size, err);
-        if (!modes->dofs) return false;
-    }
-    for (int32_t k = 0; k < dofs; k++)
-        if (patches->of[k] != NO_PATCH) patches->modes[patches->of[k]].dofs[patches->place[k]] = k;
-    return true;
-}
-
-static bool copy_stiffness(const Bulk *bulk, double unit, const FarPatches *patches, int32_t p,
-                           Error *err)
-{
-    const SparsePattern *from = &bulk->pattern;
-    PatchModes *modes = &patches->modes[p];
-    const int32_t *dofs = modes->dofs;
-    int32_t size = modes->size, entries = 0, filled = 0;
-    for (int32_t j = 0; j < size; j++) entries += from->start[dofs[j] + 1] - from->start[dofs[j]];
-    modes->pattern = (SparsePattern){.size = size,
-                                     .start = NEW_ARRAY(int32_t, (int64_t)size + 1, err),
-                                     .index = NEW_ARRAY(int32_t, entries, err)};
-    modes->stiffness = NEW_ARRAY(double, entries, err);
-    if (!error_is_clean(err)) return false;
-    for (int32_t j = 0; j < size; j++) {
-        for (int32_t k = from->start[dofs[j]]; k < from->start[dofs[j] + 1]; k++) {
-            if (patches->of[from->index[k]] != p) continue;
-            modes->pattern.index[filled] = patches->place[from->index[k]];
-            modes->stiffness[filled++] = bulk->stiffness[k] / unit;
-        }
-        modes->pattern.start[j + 1] = filled;
-    }
-    return true;
-}
-
 bool far_patches_begin(const Bulk *bulk, double unit, int32_t expected, FarPatches *patches,
                        Error *err)
 {
+    const SparsePattern *from = &bulk->pattern;
     for (int32_t p = 0; p < patches->count; p++) {
-        if (!copy_stiffness(bulk, unit, patches, p, err)) return false;
-        if (!patch_modes_make_room(&patches->modes[p], expected, err)) return false;
+        PatchModes *modes = &patches->modes[p];
+        const int32_t *dofs = modes->dofs;
+        int32_t size = modes->size, entries = 0, filled = 0;
+        for (int32_t j = 0; j < size; j++)
+            entries += from->start[dofs[j] + 1] - from->start[dofs[j]];
+        modes->pattern = (SparsePattern){.size = size,
+                                         .start = NEW_ARRAY(int32_t, (int64_t)size + 1, err),
+                                         .index = NEW_ARRAY(int32_t, entries, err)};
+        modes->stiffness = NEW_ARRAY(double, entries, err);
+        if (!error_is_clean(err)) return false;
+        for (int32_t j = 0; j < size; j++) {
+            for (int32_t k = from->start[dofs[j]]; k < from->start[dofs[j] + 1]; k++) {
+                if (patches->of[from->index[k]] != p) continue;
+                modes->pattern.index[filled] = patches->place[from->index[k]];
+                modes->stiffness[filled++] = bulk->stiffness[k] / unit;
+            }
+            modes->pattern.start[j + 1] = filled;
+        }
+        if (!patch_modes_make_room(modes, expected, err)) return false;
     }
     return true;
 }
@@ -204,7 +181,19 @@ bool far_patches_create(const SparsePattern *pattern, const int32_t *interface_d
     if (!patches->of) goto cleanup;
     TRY(find_reach(pattern, interface_dofs, m, &reach, err));
     TRY(number_patches(&reach, m, pattern->size, patches, err));
-    if (patches->count > 0) TRY(list_dofs(pattern->size, patches, err));
+    if (patches->count == 0) goto cleanup;
+
+    // The unknowns of each patch.
+    int32_t dofs = pattern->size;
+    patches->place = NEW_ARRAY(int32_t, dofs, err);
+    patches->modes = NEW_ARRAY(PatchModes, patches->count, err);
+    if (!error_is_clean(err)) goto cleanup;
+    for (int32_t k = 0; k < dofs; k++)
+        if (patches->of[k] != NO_PATCH) patches->place[k] = patches->modes[patches->of[k]].size++;
+    for (int32_t p = 0; p < patches->count; p++)
+        TRY((patches->modes[p].dofs = NEW_ARRAY(int32_t, patches->modes[p].size, err)));
+    for (int32_t k = 0; k < dofs; k++)
+        if (patches->of[k] != NO_PATCH) patches->modes[patches->of[k]].dofs[patches->place[k]] = k;
 cleanup:
     memory_free_all(reach.distance, reach.nearest);
     return error_is_clean(err);

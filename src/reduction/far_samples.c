@@ -50,13 +50,6 @@ typedef struct Sampling {
     FarRoom room[PARALLEL_WORKERS_MAX];   // of a thread each
 } Sampling;
 
-static void sampling_destroy(Sampling *work)
-{
-    interface_operator_destroy(work->statics);
-    memory_free_all(work->lifted, work->asked, work->fields, work->busy);
-    for (int32_t k = 0; k < PARALLEL_WORKERS_MAX; k++) far_room_destroy(&work->room[k]);
-}
-
 // 1 or -1 (Steele, Lea, Flood, OOPSLA 2014: splitmix64).
 static double draw_sign(uint64_t *drawn)
 {
@@ -105,20 +98,6 @@ static void list_points(Sampling *work, double element_inertia)
     for (int32_t k = 1; k < count; k++) add_point(work, viscosity[k], lowest);
 }
 
-static bool begin_patches(Sampling *work, Error *err)
-{
-    FarPatches *patches = work->samples->patches;
-    int32_t size = 0;
-    if (!(work->busy = NEW_ARRAY(bool, patches->count, err))) return false;
-    if (!far_patches_begin(work->mesh->bulk, work->def->scales.stiffness, ROOM, patches, err))
-        return false;
-    for (int32_t p = 0; p < patches->count; p++)
-        if (patches->modes[p].size > size) size = patches->modes[p].size;
-    for (int32_t k = 0; k < parallel_workers(); k++)
-        if (!far_room_create(size, CHUNK + 1, &work->room[k], err)) return false;
-    return true;
-}
-
 static bool sampling_begin(Sampling *work, Error *err)
 {
     FarSamples *samples = work->samples;
@@ -129,23 +108,22 @@ static bool sampling_begin(Sampling *work, Error *err)
     if (!(work->statics = interface_operator_create(mesh, terms, err))) return false;
     if (!inertia_slowest(mesh, scales, work->statics, &samples->slowest, err)) return false;
     list_points(work, inertia_element(mesh->bulk, scales, mesh->interface_dofs, (int32_t)m));
-    if (!begin_patches(work, err)) return false;
+
+    // The patches, and room for threads to work in.
+    FarPatches *patches = samples->patches;
+    int32_t size = 0;
+    if (!(work->busy = NEW_ARRAY(bool, patches->count, err)) ||
+        !far_patches_begin(mesh->bulk, scales->stiffness, ROOM, patches, err))
+        return false;
+    for (int32_t p = 0; p < patches->count; p++)
+        if (patches->modes[p].size > size) size = patches->modes[p].size;
+    for (int32_t k = 0; k < parallel_workers(); k++)
+        if (!far_room_create(size, CHUNK + 1, &work->room[k], err)) return false;
     samples->stiffness = NEW_ARRAY(double, m *m, err);
     work->lifted = NEW_ARRAY(double, m *m, err);
     work->asked = NEW_ARRAY(double, m *CHUNK, err);
     work->fields = NEW_ARRAY(double, (int64_t)mesh->dof_count *(CHUNK + 1), err);
     return error_is_clean(err);
-}
-
-// The response to the load, of energy 1, behind the others; 0: there is no load.
-static int32_t take_load(const Sampling *work, const double *held)
-{
-    int32_t dofs = work->mesh->dof_count;
-    double energy = dense_dot(work->mesh->load, held, dofs);
-    double *out = work->fields + (int64_t)CHUNK * dofs;
-    if (!(energy > 0)) return 0;
-    for (int32_t i = 0; i < dofs; i++) out[i] = held[i] / sqrt(energy);
-    return 1;
 }
 
 // The part of the earlier responses that is new to patches which found much of it.
@@ -168,61 +146,56 @@ static void add_to_patch(void *context, int32_t p, int32_t worker)
     work->busy[p] = added > NEW_SHARE * turn->fields.columns;
 }
 
-// *left: patches that found much that is new now, too.
-static bool add_to_patches(Sampling *work, int32_t columns, double least, int32_t *left, Error *err)
-{
-    const FarPatches *patches = work->samples->patches;
-    Turn turn = {.work = work,
-                 .fields = dense_view(work->fields, work->mesh->dof_count, columns),
-                 .least = least};
-    for (int32_t p = 0; p < patches->count; p++)
-        if (work->busy[p] && !patch_modes_make_room(&patches->modes[p], columns, err)) return false;
-    parallel_for(patches->count, add_to_patch, &turn);
-    if (turn.failed)
-        return FAULT(err, ERROR_LIBRARY, "LAPACK: no energies of modes far from the interface");
-    *left = 0;
-    for (int32_t p = 0; p < patches->count; p++) *left += work->busy[p];
-    return true;
-}
-
-// Boundary motions of energy 1 on average, of S = L L': L^-T times signs.
+// Boundary motions of energy 1 on average, of S = L L': L^-T times signs; and the response to the
+// load, `held`.
 static bool sample(Sampling *work, InterfaceOperator *full, const double *held, double least,
                    Error *err)
 {
-    int32_t m = work->mesh->interface_count;
-    int32_t left = work->samples->patches->count;
+    const FarPatches *patches = work->samples->patches;
+    int32_t m = work->mesh->interface_count, dofs = work->mesh->dof_count, left = patches->count;
     for (int32_t p = 0; p < left; p++) work->busy[p] = true;
+
+    // The response to the load, of energy 1, stands behind the others of the first turn.
+    double energy = dense_dot(work->mesh->load, held, dofs);
+    double *last = work->fields + (int64_t)CHUNK * dofs;
+    int32_t loads = energy > 0;
+    for (int32_t i = 0; loads && i < dofs; i++) last[i] = held[i] / sqrt(energy);
+
     // m boundary motions are all there are.
-    for (int32_t loads = take_load(work, held), asked = 0; left > 0 && asked < m; asked += CHUNK) {
+    for (int32_t asked = 0; left > 0 && asked < m; asked += CHUNK, loads = 0) {
         for (int32_t k = 0; k < m * CHUNK; k++) work->asked[k] = draw_sign(&work->drawn);
         dense_lower_divide_transposed(work->lower, m, CHUNK, work->asked);
         if (!interface_operator_respond(full, work->asked, CHUNK, work->fields, err)) return false;
-        if (!add_to_patches(work, CHUNK + loads, least, &left, err)) return false;
-        loads = 0;
+
+        // `left` patches found much that is new now, too.
+        Turn turn = {
+            .work = work, .fields = dense_view(work->fields, dofs, CHUNK + loads), .least = least};
+        for (int32_t p = 0; p < patches->count; p++)
+            if (work->busy[p] && !patch_modes_make_room(&patches->modes[p], CHUNK + loads, err))
+                return false;
+        parallel_for(patches->count, add_to_patch, &turn);
+        if (turn.failed)
+            return FAULT(err, ERROR_LIBRARY, "LAPACK: no energies of modes far from the interface");
+        left = 0;
+        for (int32_t p = 0; p < patches->count; p++) left += work->busy[p];
     }
     return true;
 }
 
-static bool factor_statics(Sampling *work, Error *err)
+// At rest S is lifted, as rigid motions cost nothing.
+static bool sample_statics(Sampling *work, Error *err)
 {
     int64_t m = work->mesh->interface_count;
     const double *schur = interface_operator_schur(work->statics);
-    double sum = 0;
+    double sum = 0, *held = NEW_ARRAY(double, work->mesh->dof_count, err);
+    double *pull = NEW_ARRAY(double, m, err);
+    if (!held || !pull) goto cleanup;
+    TRY(interface_operator_respond_held(work->statics, work->mesh->load, held, pull, err));
     memcpy(work->lifted, schur, (size_t)(m * m) * sizeof *schur);
     for (int64_t j = 0; j < m; j++) sum += schur[j * (m + 1)];
     for (int64_t j = 0; j < m; j++) work->lifted[j * (m + 1)] += LIFT * sum / (double)m;
     if (!dense_cholesky(work->lifted, (int32_t)m))
-        return FAULT(err, ERROR_COMPUTE, "the interface operator is not positive definite");
-    return true;
-}
-
-static bool sample_statics(Sampling *work, Error *err)
-{
-    double *held = NEW_ARRAY(double, work->mesh->dof_count, err);
-    double *pull = NEW_ARRAY(double, work->mesh->interface_count, err);
-    if (!held || !pull) goto cleanup;
-    TRY(interface_operator_respond_held(work->statics, work->mesh->load, held, pull, err));
-    TRY(factor_statics(work, err));
+        FAIL(err, ERROR_COMPUTE, "the interface operator is not positive definite");
     work->lower = work->lifted;
     TRY(sample(work, work->statics, held, LEAST_AT_REST, err));
 cleanup:
@@ -256,8 +229,9 @@ bool far_samples_take(BulkOperator *mesh, const FarFieldDef *def, FarSamples *sa
                                 .context = work};
     TRY(factored_points_visit(&points, err));
 cleanup:
-    sampling_destroy(work);
-    memory_free(work);
+    interface_operator_destroy(work->statics);
+    for (int32_t k = 0; k < PARALLEL_WORKERS_MAX; k++) far_room_destroy(&work->room[k]);
+    memory_free_all(work->lifted, work->asked, work->fields, work->busy, work);
     return error_is_clean(err);
 }
 

@@ -60,19 +60,6 @@ static const double *values_of(const Bulk *bulk, int32_t which)
     return which == 0 ? bulk->stiffness : which == 1 ? bulk->damping : bulk->shape[which - 2];
 }
 
-// The roots of the diagonals.
-static bool find_roots(Finder *find, Error *err)
-{
-    const Bulk *bulk = find->bulk;
-    for (int32_t which = 0; which < 2 + bulk->spectrum.matrix_count; which++) {
-        const double *values = values_of(bulk, which);
-        double *root = find->root[which] = NEW_ARRAY(double, bulk->dof_count, err);
-        for (int32_t k = 0; root && k < bulk->dof_count; k++)
-            root[k] = sqrt(values[sparse_entry(&bulk->pattern, k, k)]);
-    }
-    return error_is_clean(err);
-}
-
 // K, C, M and S_j are their own images across the last axis.
 static bool is_alike(const Finder *find)
 {
@@ -132,38 +119,6 @@ static int32_t least_of(const int32_t *list, int32_t count)
     return least;
 }
 
-static bool list_unknowns(const Finder *find, int p, Transform *by, Error *err)
-{
-    int32_t dofs = find->bulk->dof_count, rows[REDUCED_PARTS_MAX];
-    double signs[REDUCED_PARTS_MAX];
-    if (!transform_create(dofs, dofs, dofs, by, err)) return false;
-    for (int32_t dof = 0; dof < dofs; dof++) {
-        int32_t count = list_images(find, p, dof, rows, signs);
-        if (count > 0 && least_of(rows, count) == dof)
-            transform_append_images(by, rows, count, signs);
-    }
-    return true;
-}
-
-// The border's unknowns as those of a part.
-static bool list_border_unknowns(const Finder *find, int p, MirrorPart *part, Error *err)
-{
-    int32_t border = find->border_count, rows[REDUCED_PARTS_MAX];
-    double signs[REDUCED_PARTS_MAX];
-    part->border_dofs = NEW_ARRAY(int32_t, border, err);
-    if (!transform_create(border, border, border, &part->border, err)) return false;
-    for (int32_t k = 0; k < border; k++) {
-        int32_t unknown = transform_column(&part->unknowns, find->border[k]);
-        if (unknown == NO_BLOCK) continue;
-        int32_t count = list_images(find, p, part->unknowns.blocks[unknown].rows[0], rows, signs);
-        for (int32_t i = 0; i < count; i++) rows[i] = find->place[rows[i]];
-        if (least_of(rows, count) != k) continue;
-        part->border_dofs[part->border.count] = unknown;
-        transform_append_images(&part->border, rows, count, signs);
-    }
-    return true;
-}
-
 // The interface and all images of it.
 static void list_border(Finder *find, const int32_t *interface_dofs, int32_t m)
 {
@@ -190,7 +145,18 @@ static bool look(int32_t *const *node_image, const int32_t *interface_dofs, int3
     int32_t dofs = find->bulk->dof_count, dim = find->bulk->dim;
     find->border = NEW_ARRAY(int32_t, (int64_t)REDUCED_PARTS_MAX * m, err);
     find->place = NEW_ARRAY(int32_t, dofs, err);
-    if (!find_roots(find, err)) return false;
+
+    // The roots of the diagonals.
+    const Bulk *bulk = find->bulk;
+    for (int32_t which = 0; which < 2 + bulk->spectrum.matrix_count; which++) {
+        const double *values = values_of(bulk, which);
+        double *root = find->root[which] = NEW_ARRAY(double, dofs, err);
+        for (int32_t k = 0; root && k < dofs; k++)
+            root[k] = sqrt(values[sparse_entry(&bulk->pattern, k, k)]);
+    }
+    if (!error_is_clean(err)) return false;
+
+    // Axis by axis.
     for (int32_t axis = 0; axis < dim - 1; axis++) {
         if (!node_image[axis]) continue;
         int32_t last = find->axes++, *image = find->image[last];
@@ -224,10 +190,30 @@ typedef struct Parts {
 static bool make_part(void *context, int32_t p, Error *err)
 {
     const Parts *parts = context;
+    const Finder *find = parts->find;
     MirrorPart *part = &parts->part[p];
-    return list_unknowns(parts->find, p, &part->unknowns, err) &&
-           list_border_unknowns(parts->find, p, part, err) &&
-           bulk_transform(parts->find->bulk, &part->unknowns, &part->bulk, err);
+    int32_t dofs = find->bulk->dof_count, border = find->border_count, rows[REDUCED_PARTS_MAX];
+    double signs[REDUCED_PARTS_MAX];
+    if (!transform_create(dofs, dofs, dofs, &part->unknowns, err)) return false;
+    for (int32_t dof = 0; dof < dofs; dof++) {
+        int32_t count = list_images(find, p, dof, rows, signs);
+        if (count > 0 && least_of(rows, count) == dof)
+            transform_append_images(&part->unknowns, rows, count, signs);
+    }
+
+    // The border's unknowns as those of the part.
+    part->border_dofs = NEW_ARRAY(int32_t, border, err);
+    if (!transform_create(border, border, border, &part->border, err)) return false;
+    for (int32_t k = 0; k < border; k++) {
+        int32_t unknown = transform_column(&part->unknowns, find->border[k]);
+        if (unknown == NO_BLOCK) continue;
+        int32_t count = list_images(find, p, part->unknowns.blocks[unknown].rows[0], rows, signs);
+        for (int32_t i = 0; i < count; i++) rows[i] = find->place[rows[i]];
+        if (least_of(rows, count) != k) continue;
+        part->border_dofs[part->border.count] = unknown;
+        transform_append_images(&part->border, rows, count, signs);
+    }
+    return bulk_transform(find->bulk, &part->unknowns, &part->bulk, err);
 }
 
 bool mirror_find(const Bulk *bulk, int32_t *const *node_image, const int32_t *interface_dofs,

@@ -27,13 +27,6 @@ static double along(int32_t dim, const double *at)
     return sum;
 }
 
-static bool are_close(int32_t dim, const double *one, const double *other, double apart)
-{
-    for (int32_t d = 0; d < dim; d++)
-        if (!(fabs(one[d] - other[d]) <= apart)) return false;
-    return true;
-}
-
 // The nodes that are searched.
 typedef struct Nodes {
     int32_t dim, count;
@@ -59,18 +52,12 @@ static int32_t node_at(const Nodes *nodes, const double *at)
     for (int32_t k = first; k < nodes->count && nodes->places[k].along <= from + 2 * reach; k++) {
         int32_t node = nodes->places[k].node;
         const double *there = nodes->position + node_dof(nodes->dim, node, 0);
-        if (are_close(nodes->dim, there, at, nodes->apart)) return node;
+        bool close = true;
+        for (int32_t d = 0; d < nodes->dim; d++)
+            close = close && fabs(there[d] - at[d]) <= nodes->apart;
+        if (close) return node;
     }
     return -1;
-}
-
-// Both into the middle: across the mirror along `axis`, else alike.
-static void put_together(const Nodes *nodes, int32_t axis, double sum, double *here, double *there)
-{
-    here[axis] = (here[axis] + (sum - there[axis])) / 2;
-    there[axis] = sum - here[axis];
-    for (int32_t d = 0; d < nodes->dim; d++)
-        if (d != axis) there[d] = here[d] = (here[d] + there[d]) / 2;
 }
 
 bool mirror_nodes_find(int32_t dim, int32_t axis, double *position, int32_t nodes, int32_t **out,
@@ -98,10 +85,17 @@ bool mirror_nodes_find(int32_t dim, int32_t axis, double *position, int32_t node
         found = image[i] >= 0;
     }
     for (int32_t i = 0; found && i < nodes; i++) found = image[image[i]] == i;
-    for (int32_t i = 0; found && i < nodes; i++)
-        if (image[i] >= i)
-            put_together(&all, axis, sum, position + node_dof(dim, i, 0),
-                         position + node_dof(dim, image[i], 0));
+
+    // A node and its image both go into the middle: across the mirror along `axis`, else alike.
+    for (int32_t i = 0; found && i < nodes; i++) {
+        double *here = position + node_dof(dim, i, 0),
+               *there = position + node_dof(dim, image[i], 0);
+        if (image[i] < i) continue;
+        here[axis] = (here[axis] + (sum - there[axis])) / 2;
+        there[axis] = sum - here[axis];
+        for (int32_t d = 0; d < dim; d++)
+            if (d != axis) there[d] = here[d] = (here[d] + there[d]) / 2;
+    }
 cleanup:
     memory_free(all.places);
     if (found) return true;

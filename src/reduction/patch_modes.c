@@ -70,62 +70,47 @@ static double square_sum(const double *values, int64_t count)
     return sum;
 }
 
-// Fields less what F has of them, and their image. Twice where little is left: what rounding put
-// back is large beside it.
-static void take_out(const PatchModes *modes, int64_t columns, FarRoom *room)
-{
-    int64_t size = modes->size, count = modes->count;
-    DenseView fields = dense_view(room->rows, size, columns);
-    for (bool again = count > 0; again;) {
-        double before = square_sum(room->rows, size * columns);
-        dense_multiply_transposed(dense_view(modes->image, size, count), fields, 1, 0, room->parts);
-        dense_multiply(dense_view(modes->field, size, count),
-                       dense_view(room->parts, count, columns), -1, 1, room->rows);
-        double after = square_sum(room->rows, size * columns);
-        again = after > 0 && after < LITTLE * before;
-    }
-    sparse_apply_many(&modes->pattern, modes->stiffness, room->rows, columns, room->next);
-}
-
-// New columns of F and its image: those of the rows times eigenvectors of their energies; how many,
-// `most` of them. -1: LAPACK finds none. *again: some have few digits.
-static int32_t take_up(PatchModes *modes, int32_t columns, int32_t most, double least,
-                       FarRoom *room, bool *again)
-{
-    int64_t size = modes->size, c = columns, first = c, end = size * modes->count;
-    double *energies = room->energies, *values = room->values;
-    DenseView fields = dense_view(room->rows, size, c), image = dense_view(room->next, size, c);
-    dense_multiply_transposed(fields, image, 1, 0, energies);
-    if (!dense_eigen(energies, columns, values, room->eigen)) return -1;
-    double enough = fmax(least, DIGITS * values[c - 1]);
-    while (first > c - most && values[first - 1] > enough) first--;
-    *again = first > 0 && values[first - 1] > least;
-    for (int64_t j = first; j < c; j++)
-        for (int64_t i = 0; i < c; i++) energies[j * c + i] /= sqrt(values[j]);
-    DenseView kept = dense_view(energies + first * c, c, c - first);
-    if (first < c) {
-        dense_multiply(fields, kept, 1, 0, modes->field + end);
-        dense_multiply(image, kept, 1, 0, modes->image + end);
-    }
-    modes->count += (int32_t)(c - first);
-    return (int32_t)(c - first);
-}
-
 bool patch_modes_add(PatchModes *modes, DenseView fields, double least, FarRoom *room,
                      int32_t *added)
 {
-    int64_t size = modes->size, columns = fields.columns;
+    int64_t size = modes->size, c = fields.columns;
+    DenseView rows = dense_view(room->rows, size, c), image = dense_view(room->next, size, c);
+    double *energies = room->energies, *values = room->values;
     bool again = true;
     *added = 0;
-    for (int64_t j = 0; j < columns; j++)
+    for (int64_t j = 0; j < c; j++)
         for (int64_t i = 0; i < size; i++)
             room->rows[j * size + i] = fields.values[j * fields.rows + modes->dofs[i]];
-    while (again && *added < columns) {
-        take_out(modes, columns, room);
-        int32_t most = (int32_t)columns - *added;
-        int32_t taken = take_up(modes, (int32_t)columns, most, least, room, &again);
-        if (taken < 0) return false;
-        *added += taken;
+    while (again && *added < c) {
+        // Fields less what F has of them, and their image. Twice where little is left: what
+        // rounding put back is large beside it.
+        int64_t count = modes->count, end = size * count, first = c, most = c - *added;
+        for (bool once_more = count > 0; once_more;) {
+            double before = square_sum(room->rows, size * c);
+            dense_multiply_transposed(dense_view(modes->image, size, count), rows, 1, 0,
+                                      room->parts);
+            dense_multiply(dense_view(modes->field, size, count), dense_view(room->parts, count, c),
+                           -1, 1, room->rows);
+            double after = square_sum(room->rows, size * c);
+            once_more = after > 0 && after < LITTLE * before;
+        }
+        sparse_apply_many(&modes->pattern, modes->stiffness, room->rows, c, room->next);
+
+        // New columns of F and its image: those of the rows times eigenvectors of their energies.
+        dense_multiply_transposed(rows, image, 1, 0, energies);
+        if (!dense_eigen(energies, (int32_t)c, values, room->eigen)) return false;
+        double enough = fmax(least, DIGITS * values[c - 1]);
+        while (first > c - most && values[first - 1] > enough) first--;
+        again = first > 0 && values[first - 1] > least;   // with few digits as yet
+        for (int64_t j = first; j < c; j++)
+            for (int64_t i = 0; i < c; i++) energies[j * c + i] /= sqrt(values[j]);
+        DenseView kept = dense_view(energies + first * c, c, c - first);
+        if (first < c) {
+            dense_multiply(rows, kept, 1, 0, modes->field + end);
+            dense_multiply(image, kept, 1, 0, modes->image + end);
+        }
+        modes->count += (int32_t)(c - first);
+        *added += (int32_t)(c - first);
     }
     return true;
 }

@@ -131,19 +131,16 @@ cleanup:
 // above (a test asks at random: 1.2 times as large, of two materials).
 static const double BETWEEN = 1.5;
 
-static double part_error(const ReductionErrors *errors, double inertia)
-{
-    int32_t above = 0;
-    if (errors->count == 0) return 0;
-    while (above < errors->count - 1 && errors->inertia[above] < inertia) above++;
-    double below = above > 0 ? errors->error[above - 1] : 0;
-    return BETWEEN * fmax(below, errors->error[above]);
-}
-
 double reduced_bulk_error(const ReducedBulk *reduced, double inertia)
 {
     double error = 0;
-    for (int p = 0; p < reduced->part_count; p++)
-        error = fmax(error, part_error(&reduced->part[p].errors, inertia));
+    for (int p = 0; p < reduced->part_count; p++) {
+        const ReductionErrors *errors = &reduced->part[p].errors;
+        int32_t above = 0;
+        if (errors->count == 0) continue;
+        while (above < errors->count - 1 && errors->inertia[above] < inertia) above++;
+        double below = above > 0 ? errors->error[above - 1] : 0;
+        error = fmax(error, BETWEEN * fmax(below, errors->error[above]));
+    }
     return error;
 }

@@ -50,101 +50,29 @@ typedef struct Builder {
     FarField far;
 } Builder;
 
-// All but the part.
-static void builder_destroy(Builder *work)
-{
-    basis_destroy(&work->basis);
-    memory_free_all(work->excess, work->values, work->eigen_work);
-    bulk_operator_destroy(&work->mesh);
-    far_field_destroy(&work->far);
-}
-
-static bool builder_create(Builder *work, Error *err)
-{
-    int32_t m = work->full->interface_count;
-    if (!basis_create(work->full, &work->def->scales, &work->basis, err)) return false;
-    work->excess = NEW_ARRAY(double, (int64_t)m *m, err);
-    work->values = NEW_ARRAY(double, m, err);
-    work->eigen_work = NEW_ARRAY(double, DENSE_EIGEN_WORK(m), err);
-    return error_is_clean(err);
-}
-
 static double allowed_error(const Builder *work, ParameterPoint point)
 {
     return parameter_error_allowed(&work->training, point, work->def->tolerance);
 }
 
-// Solves (S_r - S) y = mu S y, S = L L': mu ascending in `values`; L'y of those above `allowed` in
-// the last columns of `excess`, which is S_r before.
-static bool compare(Builder *work, const double *schur, double allowed, Error *err)
-{
-    int32_t m = work->basis.interface_count;
-    dense_add_scaled(-1, schur, m * m, work->excess);
-    dense_divide_both_sides(work->lower, m, work->excess);
-    if (!dense_eigen_above(work->excess, m, allowed, work->values, work->eigen_work))
-        return FAULT(err, ERROR_LIBRARY, "LAPACK: no eigenvalues of the reduction's error");
-    return true;
-}
-
-// Responses of the full mesh to the last `wanted` columns of `excess`, scaled so that what they
-// differ by from the basis's has energy 1.
-static bool take_responses(Builder *work, InterfaceOperator *full, int32_t wanted,
-                           ResponseBlock *next, Error *err)
-{
-    int64_t m = work->basis.interface_count;
-    double *first = work->excess + (m - wanted) * m;
-    double *pushed = NEW_ARRAY(double, m *wanted, err);
-    if (!pushed) return false;
-    for (int64_t k = 0; k < wanted; k++)
-        for (int64_t i = 0; i < m; i++) first[k * m + i] /= sqrt(work->values[m - wanted + k]);
-    memcpy(pushed, first, (size_t)(m * wanted) * sizeof *pushed);
-    dense_lower_multiply(work->lower, (int32_t)m, wanted, pushed);   // S y = L L' (L^-T z) = L z
-    dense_lower_divide_transposed(work->lower, (int32_t)m, wanted, first);
-    for (int64_t k = 0; k < wanted; k++) {
-        memcpy(next->reaction + k * (m + 1), pushed + k * m, (size_t)m * sizeof *pushed);
-        memcpy(next->boundary + k * (m + 1), first + k * m, (size_t)m * sizeof *pushed);
-    }
-    memory_free(pushed);
-    return interface_operator_respond(full, first, wanted, next->field, err);
-}
-
-// The response to the load as the block's last column, scaled likewise: dropped unless the basis
-// lacks more than `allowed` of its energy.
-static void take_load(const Builder *work, const FactoredPoint *full, double allowed,
-                      ResponseBlock *next)
-{
-    int64_t dofs = work->full->dof_count, m = work->basis.interface_count;
-    double *x = next->field + (next->count - 1) * dofs;
-    double *reaction = next->reaction + (next->count - 1) * (m + 1);
-    // The load does less work on a Galerkin response than on the exact one, by the energy of the
-    // difference.
-    double energy = dense_dot(full->held, work->basis.responses.unit_load, (int32_t)dofs);
-    double missing = energy - work->load_energy;
-    if (!(missing > allowed * energy)) {
-        next->count--;
-        return;
-    }
-    for (int64_t k = 0; k < dofs; k++) x[k] = full->held[k] / sqrt(missing);
-    for (int64_t k = 0; k < m; k++) reaction[k] = -full->pull[k] / sqrt(missing);
-    reaction[m] = 1 / sqrt(missing);
-}
-
-static bool condense_basis(Builder *work, ParameterPoint point, bool *definite, Error *err)
-{
-    double factor[BULK_TERMS_MAX];
-    parameter_factors(point, &work->def->scales, &work->full->bulk->spectrum, factor);
-    return basis_condense(&work->basis, factor, work->excess, &work->load_energy, definite, err);
-}
-
-// Compares S_r with `schur`, S at the point. A Galerkin projection is too stiff, never too soft:
-// where this one is it is none any more.
+// Compares S_r of the basis with `schur`, S = L L' at the point: solves (S_r - S) y = mu S y, mu
+// ascending in `values`, L'y of those above what is allowed in the last columns of `excess`. A
+// Galerkin projection is too stiff, never too soft: where this one is it is none any more.
 static bool compare_at(Builder *work, ParameterPoint point, const double *schur, Error *err)
 {
-    double allowed = allowed_error(work, point);
+    double allowed = allowed_error(work, point), factor[BULK_TERMS_MAX];
     double least = -NEGATIVE_LIMIT * allowed - parameter_error_allowed(&work->training, point, 0);
+    int32_t m = work->basis.interface_count;
     bool definite = false;
-    if (!condense_basis(work, point, &definite, err)) return false;
-    if (definite && !compare(work, schur, allowed, err)) return false;
+    parameter_factors(point, &work->def->scales, &work->full->bulk->spectrum, factor);
+    if (!basis_condense(&work->basis, factor, work->excess, &work->load_energy, &definite, err))
+        return false;
+    if (definite) {
+        dense_add_scaled(-1, schur, m * m, work->excess);
+        dense_divide_both_sides(work->lower, m, work->excess);
+        if (!dense_eigen_above(work->excess, m, allowed, work->values, work->eigen_work))
+            return FAULT(err, ERROR_LIBRARY, "LAPACK: no eigenvalues of the reduction's error");
+    }
     work->spoiled = !definite || work->values[0] < least;
     if (work->spoiled) return FAULT(err, ERROR_COMPUTE, "the reduced bulk is softer than the mesh");
     return true;
@@ -154,8 +82,8 @@ static bool compare_at(Builder *work, ParameterPoint point, const double *schur,
 static bool train_at(Builder *work, ParameterPoint point, const FactoredPoint *full, double *left,
                      Error *err)
 {
-    int32_t m = work->basis.interface_count, wanted = 0;
-    double allowed = allowed_error(work, point);
+    int64_t m = work->basis.interface_count, dofs = work->full->dof_count, wanted = 0;
+    double allowed = allowed_error(work, point), *pushed = NULL;
     work->lower = interface_operator_schur_lower(full->full);
     TRY(compare_at(work, point, interface_operator_schur(full->full), err));
     // The error of what is added becomes 0; what is left is that of the first boundary motion not
@@ -164,24 +92,41 @@ static bool train_at(Builder *work, ParameterPoint point, const FactoredPoint *f
     *left = wanted < m ? fmax(work->values[m - 1 - wanted], 0) : 0;
     ResponseBlock *next = responses_next(&work->basis.responses, point, wanted + 1, err);
     if (!next) goto cleanup;
-    TRY(take_responses(work, full->full, wanted, next, err));
-    take_load(work, full, allowed, next);
+
+    // Responses of the full mesh to the last `wanted` columns of `excess`, scaled so that what they
+    // differ by from the basis's has energy 1.
+    double *first = work->excess + (m - wanted) * m;
+    TRY((pushed = NEW_ARRAY(double, m *wanted, err)));
+    for (int64_t k = 0; k < wanted; k++)
+        for (int64_t i = 0; i < m; i++) first[k * m + i] /= sqrt(work->values[m - wanted + k]);
+    memcpy(pushed, first, (size_t)(m * wanted) * sizeof *pushed);
+    dense_lower_multiply(work->lower, (int32_t)m, (int32_t)wanted,
+                         pushed);   // S y = L L' (L^-T z) = L z
+    dense_lower_divide_transposed(work->lower, (int32_t)m, (int32_t)wanted, first);
+    for (int64_t k = 0; k < wanted; k++) {
+        memcpy(next->reaction + k * (m + 1), pushed + k * m, (size_t)m * sizeof *pushed);
+        memcpy(next->boundary + k * (m + 1), first + k * m, (size_t)m * sizeof *pushed);
+    }
+    TRY(interface_operator_respond(full->full, first, (int32_t)wanted, next->field, err));
+
+    // The response to the load as the block's last column, scaled likewise: dropped unless the
+    // basis lacks more than `allowed` of its energy. The load does less work on a Galerkin response
+    // than on the exact one, by the energy of the difference.
+    double *x = next->field + wanted * dofs, *reaction = next->reaction + wanted * (m + 1);
+    double energy = dense_dot(full->held, work->basis.responses.unit_load, (int32_t)dofs);
+    double missing = energy - work->load_energy;
+    if (missing > allowed * energy) {
+        for (int64_t k = 0; k < dofs; k++) x[k] = full->held[k] / sqrt(missing);
+        for (int64_t k = 0; k < m; k++) reaction[k] = -full->pull[k] / sqrt(missing);
+        reaction[m] = 1 / sqrt(missing);
+    } else {
+        next->count--;
+    }
     if (next->count > 0) TRY(basis_extend(&work->basis, err));
 cleanup:
+    memory_free(pushed);
     if (!error_is_clean(err)) error_context(err, "at inertia %g", point.inertia);
     return error_is_clean(err);
-}
-
-static void list_training_points(Builder *work, double slowest)
-{
-    training_points_list(&work->def->materials, &work->def->scales, &work->full->bulk->spectrum,
-                         slowest,
-                         inertia_element(work->full->bulk, &work->def->scales,
-                                         work->full->interface_dofs, work->full->interface_count),
-                         &work->part->errors, &work->training);
-    work->basis.responses.inertia_least = slowest / 20;
-    for (int32_t k = 0; k < work->training.count; k++)
-        work->terms[k] = parameter_terms(work->training.points[k].point, &work->def->scales);
 }
 
 static bool train_point(void *self, int32_t k, const FactoredPoint *full, Error *err)
@@ -228,32 +173,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Expands the unknowns far from the interface in their modes.
-static bool expand_modes(Builder *work, Error *err)
-{
-    const Transform *by = &work->far.modes;
-    ReducedPart *part = work->part;
-    double *near = part->modes;
-    part->modes = NEW_ARRAY(double, (int64_t)by->size * part->count, err);
-    if (part->modes) transform_apply_many(by, near, part->count, part->modes, err);
-    memory_free(near);
-    return error_is_clean(err);
-}
-
-// The far field's own error is part of what is allowed at each level; statics are the mesh's own.
-static void add_far_field(const Builder *work)
-{
-    const FarField *far = &work->far;
-    ReducedPart *part = work->part;
-    int64_t m = part->border_count;
-    part->full_dofs = far->modes.size;
-    memcpy(part->stiffness, far->stiffness, (size_t)(m * m) * sizeof(double));
-    for (int32_t level = 0; level < part->errors.count - 1; level++) {
-        ParameterPoint point = {.inertia = part->errors.inertia[level]};
-        part->errors.error[level] += far->error * allowed_error(work, point);
-    }
-}
-
 static bool train_basis(Builder *work, Error *err)
 {
     const ReductionDef *def = work->def;
@@ -262,7 +181,15 @@ static bool train_basis(Builder *work, Error *err)
     InterfaceOperator *statics = interface_operator_create(work->full, terms, err);
     if (!statics) return false;
     if (!(slowest > 0)) TRY(inertia_slowest(work->full, &def->scales, statics, &slowest, err));
-    list_training_points(work, slowest);
+
+    // The points to train at.
+    training_points_list(&def->materials, &def->scales, &work->full->bulk->spectrum, slowest,
+                         inertia_element(work->full->bulk, &def->scales, work->full->interface_dofs,
+                                         work->full->interface_count),
+                         &work->part->errors, &work->training);
+    work->basis.responses.inertia_least = slowest / 20;
+    for (int32_t k = 0; k < work->training.count; k++)
+        work->terms[k] = parameter_terms(work->training.points[k].point, &def->scales);
     TRY(basis_start(&work->basis, statics, err));
     FactoredPointsDef points = {.system = work->full,
                                 .load = work->basis.responses.unit_load,
@@ -277,42 +204,61 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Where rounding spoils it once more, every block made orthonormal.
-static bool build_on(Builder *work, Error *err)
-{
-    const ReductionDef *def = work->def;
-    if (!builder_create(work, err)) return false;
-    work->basis.loss_max = LOSS_LIMIT;
-    if (!train_basis(work, err) && work->spoiled) {
-        error_clear(err);
-        basis_destroy(&work->basis);
-        work->part->errors = (ReductionErrors){0};
-        if (!basis_create(work->full, &def->scales, &work->basis, err))
-            return false;   // loss_max is 0
-        train_basis(work, err);
-    }
-    if (!error_is_clean(err)) return false;
-    if (!basis_finish(&work->basis, def->modes, work->part, err)) return false;
-    if (def->modes && work->far.used && !expand_modes(work, err)) return false;
-    if (work->far.used) add_far_field(work);
-    return error_is_clean(err);
-}
-
 bool reduction_build(const Bulk *bulk, const int32_t *interface_dofs, int32_t interface_count,
                      const ReductionDef *def, ReducedPart *part, Error *err)
 {
     Builder work = {.def = def, .part = part};
+    FarField *far = &work.far;
     FarFieldDef far_def = {def->tolerance, def->scales, def->materials};
+    int64_t m = interface_count;
     *part = (ReducedPart){.border = {.size = interface_count, .count = interface_count},
                           .mesh = {.size = bulk->dof_count, .count = bulk->dof_count}};
     if (interface_count >= FAR_INTERFACE && !def->no_patches)
-        TRY(far_field_create(bulk, interface_dofs, interface_count, &far_def, &work.far, err));
-    work.full = work.far.used ? &work.far.system : &work.mesh;
-    if (!work.far.used)
+        TRY(far_field_create(bulk, interface_dofs, interface_count, &far_def, far, err));
+    work.full = far->used ? &far->system : &work.mesh;
+    if (!far->used)
         TRY(bulk_operator_create(bulk, NULL, interface_dofs, interface_count, &work.mesh, err));
-    TRY(build_on(&work, err));
+
+    // The basis; where rounding spoils it once more, every block made orthonormal (loss_max 0).
+    TRY(basis_create(work.full, &def->scales, &work.basis, err));
+    work.excess = NEW_ARRAY(double, m *m, err);
+    work.values = NEW_ARRAY(double, m, err);
+    work.eigen_work = NEW_ARRAY(double, DENSE_EIGEN_WORK(interface_count), err);
+    TRY(error_is_clean(err));
+    work.basis.loss_max = LOSS_LIMIT;
+    if (!train_basis(&work, err) && work.spoiled) {
+        error_clear(err);
+        basis_destroy(&work.basis);
+        part->errors = (ReductionErrors){0};
+        TRY(basis_create(work.full, &def->scales, &work.basis, err));
+        train_basis(&work, err);
+    }
+    TRY(error_is_clean(err));
+    TRY(basis_finish(&work.basis, def->modes, part, err));
+    if (!far->used) goto cleanup;
+
+    // Unknowns far from the interface are expanded in their modes.
+    if (def->modes) {
+        double *near = part->modes;
+        part->modes = NEW_ARRAY(double, (int64_t)far->modes.size * part->count, err);
+        if (part->modes) transform_apply_many(&far->modes, near, part->count, part->modes, err);
+        memory_free(near);
+        TRY(error_is_clean(err));
+    }
+
+    // The far field's own error is part of what is allowed at each level; statics are the mesh's
+    // own.
+    part->full_dofs = far->modes.size;
+    memcpy(part->stiffness, far->stiffness, (size_t)(m * m) * sizeof(double));
+    for (int32_t level = 0; level < part->errors.count - 1; level++) {
+        ParameterPoint point = {.inertia = part->errors.inertia[level]};
+        part->errors.error[level] += far->error * allowed_error(&work, point);
+    }
 cleanup:
-    builder_destroy(&work);
+    basis_destroy(&work.basis);
+    memory_free_all(work.excess, work.values, work.eigen_work);
+    bulk_operator_destroy(&work.mesh);
+    far_field_destroy(far);
     if (!error_is_clean(err)) error_context(err, "while reducing the bulk");
     return error_is_clean(err);
 }

@@ -38,23 +38,6 @@ static Materials normalise(const Materials *given)
     return made;
 }
 
-// Shares over E, times over (eta1 + eta2)/E.
-static Spectrum normalise_spectrum(const Spectrum *given, const Material *mean)
-{
-    Spectrum made =
-        spectrum_scaled(given, 1 / mean->young, mean->young / (mean->eta1 + mean->eta2));
-    for (int32_t k = 0; k < made.count; k++) {
-        made.time[k] = keep_bits(made.time[k]);
-        for (int32_t j = 0; j < made.shape_count; j++)
-            made.share[k][j] = keep_bits(made.share[k][j]);
-    }
-    for (int32_t j = 0; j < made.shape_count; j++) {
-        made.shape[j].moduli.deviator = keep_bits(made.shape[j].moduli.deviator);
-        made.shape[j].moduli.trace = keep_bits(made.shape[j].moduli.trace);
-    }
-    return made;
-}
-
 void reduction_block_destroy(ReductionBlock *block)
 {
     memory_free(block->position);
@@ -92,7 +75,22 @@ bool reduction_block_create(const Mesh *mesh, const Bulk *bulk, const Materials 
     raise_base(mesh, BASE_APART, block->position);
     if (!done) return false;
     if (!bulk_create(mesh, &block->bulk, err)) return false;
-    block->bulk.spectrum = normalise_spectrum(&bulk->spectrum, &materials->mean);
+
+    // The spectrum: shares over E, times over (eta1 + eta2)/E.
+    const Material *mean = &materials->mean;
+    Spectrum *spectrum = &block->bulk.spectrum;
+    *spectrum =
+        spectrum_scaled(&bulk->spectrum, 1 / mean->young, mean->young / (mean->eta1 + mean->eta2));
+    for (int32_t k = 0; k < spectrum->count; k++) {
+        spectrum->time[k] = keep_bits(spectrum->time[k]);
+        for (int32_t j = 0; j < spectrum->shape_count; j++)
+            spectrum->share[k][j] = keep_bits(spectrum->share[k][j]);
+    }
+    for (int32_t j = 0; j < spectrum->shape_count; j++) {
+        Moduli *moduli = &spectrum->shape[j].moduli;
+        moduli->deviator = keep_bits(moduli->deviator);
+        moduli->trace = keep_bits(moduli->trace);
+    }
     for (int32_t dof = 0; dof < bulk->dof_count; dof++) {
         block->bulk.held[dof] = bulk->held[dof];
         block->bulk.load[dof] = load_size > 0 ? put_on_grid(bulk->load[dof] / load_size) : 0;
@@ -109,24 +107,6 @@ bool reduction_block_assemble(const Mesh *mesh, ReductionBlock *block, Error *er
     return bulk_assemble(&scaled, block->materials.list, &block->bulk, err);
 }
 
-// Hashes all numbers of several materials, and where each of them is.
-static void hash_materials(const Materials *materials, const Mesh *mesh, Hash *hash)
-{
-    hash_number(hash, materials->list[0].poisson);
-    hash_number(hash, materials->list[0].plane_strain);
-    hash_number(hash, materials->list[0].eta1);
-    if (materials->count == 1) return;
-    for (int32_t k = 0; k < materials->count; k++) {
-        const Material *one = &materials->list[k];
-        hash_number(hash, one->young);
-        hash_number(hash, one->poisson);
-        hash_number(hash, one->density);
-        hash_number(hash, one->eta1);
-        hash_number(hash, one->eta2);
-    }
-    hash_bytes(hash, mesh->region, (size_t)mesh->element_count);
-}
-
 // All that K, C, M, f and the split into interface and interior follow from; not gmsh's node and
 // element numbers, nor the names of groups.
 void reduction_block_hash(const ReductionBlock *block, const Mesh *mesh, const int32_t *dofs,
@@ -134,7 +114,21 @@ void reduction_block_hash(const ReductionBlock *block, const Mesh *mesh, const i
 {
     const Bulk *bulk = &block->bulk;
     size_t unknowns = (size_t)bulk->dof_count, elements = (size_t)mesh->element_count;
-    hash_materials(&block->materials, mesh, hash);
+
+    // All numbers of several materials, and where each of them is.
+    const Materials *materials = &block->materials;
+    hash_number(hash, materials->list[0].poisson);
+    hash_number(hash, materials->list[0].plane_strain);
+    hash_number(hash, materials->list[0].eta1);
+    for (int32_t k = 0; materials->count > 1 && k < materials->count; k++) {
+        const Material *one = &materials->list[k];
+        hash_number(hash, one->young);
+        hash_number(hash, one->poisson);
+        hash_number(hash, one->density);
+        hash_number(hash, one->eta1);
+        hash_number(hash, one->eta2);
+    }
+    if (materials->count > 1) hash_bytes(hash, mesh->region, elements);
     spectrum_hash(&bulk->spectrum, hash);
     hash_bytes(hash, block->position, unknowns * sizeof *block->position);
     hash_bytes(hash, mesh->kind, elements);

@@ -66,22 +66,6 @@ static int kind_of(ParameterPoint point)
     return point.viscosity < 0.5 ? 0 : 1;
 }
 
-// A new shelf has room for many blocks; memory that is never written to is never there.
-static double *shelf_room(Responses *responses, int kind, int64_t columns, Error *err)
-{
-    int32_t which = responses->shelf_of[kind];
-    ResponseShelf *shelf = &responses->shelves[which];
-    int64_t dofs = responses->full->dof_count, m = responses->full->interface_count;
-    if (shelf->filled + columns <= shelf->room) return shelf->field + shelf->filled * dofs;
-    if (shelf->filled == 0) memory_free(shelf->field);
-    if (shelf->filled > 0) which = responses->shelf_of[kind] = responses->shelf_count++;
-    shelf = &responses->shelves[which];
-    *shelf = (ResponseShelf){.room = columns > m ? columns : m};
-    shelf->field = memory_bytes(dofs * shelf->room * (int64_t)sizeof(double), err);
-    if (!shelf->field) shelf->room = 0;
-    return shelf->field;
-}
-
 ResponseBlock *responses_last(Responses *responses)
 {
     return &responses->blocks[responses->block_count];
@@ -96,7 +80,21 @@ ResponseBlock *responses_next(Responses *responses, ParameterPoint point, int64_
     if (responses->block_count == RESPONSE_BLOCKS_MAX)
         FAIL(err, ERROR_LIBRARY, "more than %d points to reduce the bulk at", RESPONSE_BLOCKS_MAX);
     *block = (ResponseBlock){.point = point, .first = responses->count, .count = columns};
-    block->field = shelf_room(responses, kind_of(point), columns, err);
+
+    // On the shelf of its kind, where that has room. A new one has room for many blocks; memory
+    // that is never written to is never there.
+    int64_t dofs = responses->full->dof_count, m = responses->full->interface_count;
+    int32_t *which = &responses->shelf_of[kind_of(point)];
+    ResponseShelf *shelf = &responses->shelves[*which];
+    if (shelf->filled + columns > shelf->room) {
+        if (shelf->filled == 0) memory_free(shelf->field);
+        if (shelf->filled > 0) *which = responses->shelf_count++;
+        shelf = &responses->shelves[*which];
+        *shelf = (ResponseShelf){.room = columns > m ? columns : m};
+        shelf->field = memory_bytes(dofs * shelf->room * (int64_t)sizeof(double), err);
+        if (!shelf->field) shelf->room = 0;
+    }
+    block->field = shelf->field ? shelf->field + shelf->filled * dofs : NULL;
     block->boundary = NEW_ARRAY(double, rows *columns, err);
     block->reaction = NEW_ARRAY(double, rows *columns, err);
 cleanup:
@@ -294,15 +292,6 @@ static void complete_block(const Responses *responses, const ResponseBlock *bloc
     }
 }
 
-static void mirror_own(const Responses *responses, double *gram)
-{
-    const ResponseBlock *next = &responses->blocks[responses->block_count];
-    int64_t rows = responses->count + next->count;
-    for (int64_t j = 0; j < next->count; j++)
-        for (int64_t i = 0; i < j; i++)
-            gram[j * rows + next->first + i] = gram[i * rows + next->first + j];
-}
-
 bool responses_multiply(Responses *responses, double *const *gram, Error *err)
 {
     const ResponseBlock *next = &responses->blocks[responses->block_count];
@@ -322,7 +311,10 @@ bool responses_multiply(Responses *responses, double *const *gram, Error *err)
     parallel_for(by_mesh.pieces, multiply_piece, &by_mesh);
     for (int32_t k = 0; k <= responses->block_count; k++)
         complete_block(responses, &responses->blocks[k], a, b, gram);
-    for (int term = 0; term < responses->term_count; term++) mirror_own(responses, gram[term]);
+    for (int term = 0; term < responses->term_count; term++)   // those of the block with itself
+        for (int64_t j = 0; j < next->count; j++)
+            for (int64_t i = 0; i < j; i++)
+                gram[term][j * rows + next->first + i] = gram[term][i * rows + next->first + j];
 cleanup:
     for (int32_t k = 0; k < PARALLEL_WORKERS_MAX; k++) {
         memory_free(responses->room[k].product);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Responses of the full mesh at points of the parameter domain of reduction/reduction: columns x
 // with A x = r on the interface and t f inside, f the unit load. A product of one with any other z
-// is known without the mesh: x' A z = r' z_b + t f' z. Used by reduction/basis_grow and
+// is known without the mesh: x' A z = r' z_b + t f' z. Used by reduction/basis and
 // reduction/reduction.
 #ifndef AMONTONS_REDUCTION_RESPONSES_H
 #define AMONTONS_REDUCTION_RESPONSES_H

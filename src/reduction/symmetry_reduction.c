@@ -5,37 +5,6 @@
 #include "base/parallel.h"
 #include "reduction/mirror.h"
 
-// Sets the numbers of the whole that follow from its parts.
-static bool join(ReducedBulk *reduced, Error *err)
-{
-    const double *loads[REDUCED_PARTS_MAX];
-    reduced->count = reduced->interface_count + reduced->mirrored;
-    for (int p = 0; p < reduced->part_count; p++) {
-        reduced->count += reduced->part[p].interior_count;
-        reduced->full_dofs += reduced->part[p].full_dofs;
-        loads[p] = reduced->part[p].load;
-    }
-    reduced->load = NEW_ARRAY(double, reduced->count, err);
-    if (reduced->load) reduced_bulk_join(reduced, loads, reduced->load);
-    return reduced->load != NULL;
-}
-
-// Lists rigid motions of the block as unknowns on the border, over a base that stands still; a
-// rigid motion is a static one, so that all else follows.
-static bool list_rigid_motions(const Bulk *bulk, const int32_t *border, const ReductionDef *def,
-                               ReducedBulk *reduced, Error *err)
-{
-    int32_t dim = bulk->dim, count = reduced->interface_count + reduced->mirrored;
-    double *next = reduced->rigid = NEW_ARRAY(double, (int64_t)rigid_count(dim) * count, err);
-    for (int32_t which = 0; next && which < rigid_count(dim); which++)
-        for (int32_t k = 0; k < count; k++) {
-            const double *place = def->position + node_dof(dim, dof_node(dim, border[k]), 0);
-            bool still = bulk->in_base && bulk->in_base[border[k]];
-            *next++ = still ? 0 : rigid_motion(dim, which, place, dof_axis(dim, border[k]));
-        }
-    return next != NULL;
-}
-
 enum { TOGETHER = 2 };   // parts, for memory
 
 typedef struct Parts {
@@ -82,10 +51,31 @@ bool symmetry_reduction_build(const Bulk *bulk, const int32_t *interface_dofs, i
     int together = def->one_by_one ? 1 : TOGETHER;
     for (; parts.first < mirror.part_count; parts.first += together)   // 2 or 4 of them
         TRY(parallel_try(together, build_part, &parts, err));
-    TRY(join(reduced, err));
-    if (def->position)
-        TRY(list_rigid_motions(bulk, mirror.border ? mirror.border : interface_dofs, def, reduced,
-                               err));
+
+    // Numbers of the whole that follow from its parts.
+    const double *loads[REDUCED_PARTS_MAX];
+    int32_t dim = bulk->dim, border_count = m + reduced->mirrored;
+    reduced->count = border_count;
+    for (int p = 0; p < reduced->part_count; p++) {
+        reduced->count += reduced->part[p].interior_count;
+        reduced->full_dofs += reduced->part[p].full_dofs;
+        loads[p] = reduced->part[p].load;
+    }
+    TRY((reduced->load = NEW_ARRAY(double, reduced->count, err)));
+    reduced_bulk_join(reduced, loads, reduced->load);
+    if (!def->position) goto cleanup;
+
+    // Rigid motions of the block as unknowns on the border, over a base that stands still; a rigid
+    // motion is a static one, so that all else follows.
+    const int32_t *border = mirror.border ? mirror.border : interface_dofs;
+    double *next = NEW_ARRAY(double, (int64_t)rigid_count(dim) * border_count, err);
+    TRY((reduced->rigid = next));
+    for (int32_t which = 0; which < rigid_count(dim); which++)
+        for (int32_t k = 0; k < border_count; k++) {
+            const double *place = def->position + node_dof(dim, dof_node(dim, border[k]), 0);
+            bool still = bulk->in_base && bulk->in_base[border[k]];
+            *next++ = still ? 0 : rigid_motion(dim, which, place, dof_axis(dim, border[k]));
+        }
 cleanup:
     mirror_destroy(&mirror);
     return error_is_clean(err);

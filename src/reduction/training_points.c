@@ -31,27 +31,6 @@ static const double MESH_SHARE = 2.5;
 // Errors of S below this are its rounding.
 static const double ERROR_LIMIT = 1e-10;
 
-// Where regions differ in eta/E, C may be far softer or stiffer than K: slower and faster modes.
-static void widen(const Materials *materials, double unit, double *slowest, double *element_inertia)
-{
-    ViscousTimes range = materials_viscous_range(materials);
-    *slowest *= fmin(1, unit * range.volume);
-    *element_inertia *= fmax(1, unit * range.shear);
-}
-
-// Ascending: even ones are built at first, odd ones lie between, the last beyond.
-static void list_levels(double slowest, double element_inertia, ReductionErrors *errors)
-{
-    // On a mesh of a few elements the slowest mode is hardly below that of one element.
-    double lowest = fmin(LEVEL_LOWEST * slowest, element_inertia / LEVEL_RATIO_LIMIT);
-    double parts = log(element_inertia / lowest) / log(LEVEL_RATIO_LIMIT);
-    int32_t steps = (int32_t)fmin(ceil(parts), (REDUCTION_LEVELS_MAX - 2) / 2);
-    for (int32_t k = 0; k <= 2 * steps; k++)
-        errors->inertia[k] = lowest * pow(element_inertia / lowest, k / (2.0 * steps));
-    errors->inertia[2 * steps + 1] = BEYOND_LIMIT * element_inertia;
-    errors->count = 2 * steps + 2;
-}
-
 // With branches a viscosity v stands for the rate v/(1 - v) at which they are asked, and moduli
 // change along the way in turns. What counts is by how much their quotients do, summed up: the
 // length of a path, in logarithms, on which points stand at equal distances. (Where quotients do
@@ -149,32 +128,21 @@ static double viscosity_at(double part, double volume, double shear)
     return (1 - quotient) / (1 - quotient + quotient * shear - volume);
 }
 
-// volume, shear: the viscous times of the two moduli, normalised, of all regions.
-static void normalised_times(const Materials *materials, const BulkScales *scales, double *volume,
-                             double *shear)
-{
-    ViscousTimes range = materials_viscous_range(materials);
-    double unit = scales->stiffness / scales->damping;
-    *volume = unit * range.volume;
-    *shear = unit * range.shear;
-}
-
-static int32_t viscosity_steps(double volume, double shear)
-{
-    double parts = ceil(fabs(log(volume / shear)) / log(VISCOSITY_RATIO));
-    return (int32_t)fmin(fmax(parts, 1), TRAINING_VISCOSITIES_MAX - 1);
-}
-
 static void list_path(const Materials *materials, const BulkScales *scales,
                       const Spectrum *spectrum, ViscosityPath *path)
 {
-    double volume = 0, shear = 0;
     if (spectrum->count > 0) {
         find_path(materials, scales, spectrum, path);
         return;
     }
-    normalised_times(materials, scales, &volume, &shear);
-    *path = (ViscosityPath){.steps = viscosity_steps(volume, shear), .stiffest = 1};
+
+    // The viscous times of the two moduli, normalised, of all regions.
+    ViscousTimes range = materials_viscous_range(materials);
+    double unit = scales->stiffness / scales->damping;
+    double volume = unit * range.volume, shear = unit * range.shear;
+    double parts = ceil(fabs(log(volume / shear)) / log(VISCOSITY_RATIO));
+    *path = (ViscosityPath){.steps = (int32_t)fmin(fmax(parts, 1), TRAINING_VISCOSITIES_MAX - 1),
+                            .stiffest = 1};
     for (int32_t k = 0; k <= path->steps; k++)
         path->at[2 * k] = viscosity_at((double)k / path->steps, volume, shear);
     for (int32_t k = 0; k < path->steps; k++)
@@ -231,9 +199,24 @@ void training_points_list(const Materials *materials, const BulkScales *scales,
     ViscosityPath path;
     list_path(materials, scales, spectrum, &path);
     element_inertia *= path.stiffest;
-    if (materials->count > 1)
-        widen(materials, scales->stiffness / scales->damping, &slowest, &element_inertia);
-    list_levels(slowest, element_inertia, errors);
+    if (materials->count > 1) {
+        // Where regions differ in eta/E, C may be far softer or stiffer than K: slower and faster
+        // modes.
+        ViscousTimes range = materials_viscous_range(materials);
+        double unit = scales->stiffness / scales->damping;
+        slowest *= fmin(1, unit * range.volume);
+        element_inertia *= fmax(1, unit * range.shear);
+    }
+
+    // Levels, ascending: even ones are built at first, odd ones lie between, the last beyond. On a
+    // mesh of a few elements the slowest mode is hardly below that of one element.
+    double lowest = fmin(LEVEL_LOWEST * slowest, element_inertia / LEVEL_RATIO_LIMIT);
+    double parts = log(element_inertia / lowest) / log(LEVEL_RATIO_LIMIT);
+    int32_t steps = (int32_t)fmin(ceil(parts), (REDUCTION_LEVELS_MAX - 2) / 2);
+    for (int32_t k = 0; k <= 2 * steps; k++)
+        errors->inertia[k] = lowest * pow(element_inertia / lowest, k / (2.0 * steps));
+    errors->inertia[2 * steps + 1] = BEYOND_LIMIT * element_inertia;
+    errors->count = 2 * steps + 2;
     *training = (TrainingPoints){.element_inertia = element_inertia};
     for (int32_t pass = 0; pass < 2; pass++) {
         for (int32_t level = pass; level < errors->count - 1; level += 2)

@@ -124,11 +124,6 @@ typedef struct Congruence {
     double *product;   // [columns^2]
 } Congruence;
 
-static void congruence_destroy(Congruence *work)
-{
-    memory_free_all(work->listed, work->slot, work->image, work->moved, work->product);
-}
-
 static void list_touched(Congruence *work, const TransformBlock *block)
 {
     const SparsePattern *from = work->from;
@@ -156,72 +151,6 @@ static const TransformBlock *next_block(const Congruence *work, int32_t start, i
     return block;
 }
 
-static bool count_entries(Congruence *work, Error *err)
-{
-    int64_t entries = 0;
-    const Transform *by = work->by;
-    for (const TransformBlock *block = by->blocks; block < by->blocks + by->block_count; block++) {
-        int64_t columns = 0;
-        list_touched(work, block);
-        for (int32_t start = 0, end; start < work->listed_count; start = end)
-            columns += next_block(work, start, &end)->count;
-        if (work->listed_count > work->most_listed) work->most_listed = work->listed_count;
-        if (block->count > work->most_columns) work->most_columns = block->count;
-        for (int32_t j = block->first; j < block->first + block->count; j++) {
-            entries += columns;
-            if (entries > INT32_MAX) return FAULT(err, ERROR_COMPUTE, "too many entries are left");
-            work->to->start[j + 1] = (int32_t)entries;
-        }
-    }
-    return true;
-}
-
-static void fill_pattern(const Congruence *work, const TransformBlock *block)
-{
-    for (int32_t j = block->first; j < block->first + block->count; j++) {
-        int32_t at = work->to->start[j];
-        for (int32_t start = 0, end; start < work->listed_count; start = end) {
-            const TransformBlock *other = next_block(work, start, &end);
-            for (int32_t i = 0; i < other->count; i++) work->to->index[at++] = other->first + i;
-        }
-    }
-}
-
-// product [other's columns * block's], row after row: of rows listed from `start` to `end`.
-static void multiply(const Congruence *work, const TransformBlock *other, int64_t columns,
-                     int32_t start, int32_t end)
-{
-    int64_t count = other->count;
-    memset(work->product, 0, (size_t)(count * columns) * sizeof *work->product);
-    for (int32_t k = start; k < end; k++) {
-        const double *row = other->values +
-                            (work->listed[k] - (other->rows - work->by->rows)) * count;
-        const double *image = work->image + k * columns;
-        for (int64_t j = 0; count == 1 && j < columns; j++) work->product[j] += row[0] * image[j];
-        memcpy(work->moved + (k - start) * count, row, (size_t)count * sizeof *row);
-    }
-    if (count > 1)
-        dense_multiply_by_transposed(
-            dense_view(work->image + start * columns, columns, end - start),
-            dense_view(work->moved, count, end - start), work->product);
-}
-
-// Rows and columns of the product's blocks.
-static void put(const Congruence *work, const TransformBlock *block, const TransformBlock *other,
-                double *to)
-{
-    const double *product = work->product;
-    int64_t columns = block->count;
-    if (other == block) dense_mirror(work->product, columns);
-    for (int32_t i = 0; i < other->count; i++)
-        memcpy(to + sparse_entry(work->to, other->first + i, block->first), product + i * columns,
-               (size_t)columns * sizeof *product);
-    for (int32_t j = 0; other != block && j < columns; j++) {
-        double *out = to + sparse_entry(work->to, block->first + j, other->first);
-        for (int32_t i = 0; i < other->count; i++) out[i] = product[i * columns + j];
-    }
-}
-
 // A block's columns with all blocks up to itself, and what faces them.
 static void fill_values(const Congruence *work, const TransformBlock *block, const double *from,
                         double *to)
@@ -242,8 +171,32 @@ static void fill_values(const Congruence *work, const TransformBlock *block, con
     for (int32_t start = 0, end; start < work->listed_count; start = end) {
         const TransformBlock *other = next_block(work, start, &end);
         if (other > block) break;
-        multiply(work, other, columns, start, end);
-        put(work, block, other, to);
+
+        // Their product [other's columns * block's], row after row.
+        double *product = work->product;
+        int64_t count = other->count;
+        memset(product, 0, (size_t)(count * columns) * sizeof *product);
+        for (int32_t k = start; k < end; k++) {
+            const double *row = other->values +
+                                (work->listed[k] - (other->rows - work->by->rows)) * count;
+            const double *image = work->image + k * columns;
+            for (int64_t j = 0; count == 1 && j < columns; j++) product[j] += row[0] * image[j];
+            memcpy(work->moved + (k - start) * count, row, (size_t)count * sizeof *row);
+        }
+        if (count > 1)
+            dense_multiply_by_transposed(
+                dense_view(work->image + start * columns, columns, end - start),
+                dense_view(work->moved, count, end - start), product);
+
+        // Into rows and columns of both blocks.
+        if (other == block) dense_mirror(product, columns);
+        for (int32_t i = 0; i < count; i++)
+            memcpy(to + sparse_entry(work->to, other->first + i, block->first),
+                   product + i * columns, (size_t)columns * sizeof *product);
+        for (int32_t j = 0; other != block && j < columns; j++) {
+            double *out = to + sparse_entry(work->to, block->first + j, other->first);
+            for (int32_t i = 0; i < count; i++) out[i] = product[i * columns + j];
+        }
     }
 }
 
@@ -257,8 +210,23 @@ static bool transform_matrices(const Bulk *from, const Transform *by, Bulk *to, 
     to->pattern = (SparsePattern){.size = by->count,
                                   .start = NEW_ARRAY(int32_t, (int64_t)by->count + 1, err)};
     if (!error_is_clean(err)) goto cleanup;
-    TRY(count_entries(&work, err));
-    int64_t entries = to->pattern.start[by->count], columns = work.most_columns;
+
+    // How many entries each column has.
+    int64_t entries = 0;
+    for (const TransformBlock *block = by->blocks; block < by->blocks + by->block_count; block++) {
+        int64_t touched = 0;
+        list_touched(&work, block);
+        for (int32_t start = 0, end; start < work.listed_count; start = end)
+            touched += next_block(&work, start, &end)->count;
+        if (work.listed_count > work.most_listed) work.most_listed = work.listed_count;
+        if (block->count > work.most_columns) work.most_columns = block->count;
+        for (int32_t j = block->first; j < block->first + block->count; j++) {
+            entries += touched;
+            if (entries > INT32_MAX) FAIL(err, ERROR_COMPUTE, "too many entries are left");
+            to->pattern.start[j + 1] = (int32_t)entries;
+        }
+    }
+    int64_t columns = work.most_columns;
     to->pattern.index = NEW_ARRAY(int32_t, entries, err);
     to->stiffness = NEW_ARRAY(double, entries, err);
     to->damping = NEW_ARRAY(double, entries, err);
@@ -272,7 +240,14 @@ static bool transform_matrices(const Bulk *from, const Transform *by, Bulk *to, 
     if (!error_is_clean(err)) goto cleanup;
     for (const TransformBlock *b = by->blocks; b < by->blocks + by->block_count; b++) {
         list_touched(&work, b);
-        fill_pattern(&work, b);
+        for (int32_t j = b->first; j < b->first + b->count; j++) {
+            int32_t at = to->pattern.start[j];
+            for (int32_t start = 0, end; start < work.listed_count; start = end) {
+                const TransformBlock *other = next_block(&work, start, &end);
+                for (int32_t i = 0; i < other->count; i++)
+                    to->pattern.index[at++] = other->first + i;
+            }
+        }
         fill_values(&work, b, from->stiffness, to->stiffness);
         fill_values(&work, b, from->damping, to->damping);
         if (from->mass_beside) fill_values(&work, b, from->mass_beside, to->mass_beside);
@@ -280,7 +255,7 @@ static bool transform_matrices(const Bulk *from, const Transform *by, Bulk *to, 
             fill_values(&work, b, from->shape[j], to->shape[j]);
     }
 cleanup:
-    congruence_destroy(&work);
+    memory_free_all(work.listed, work.slot, work.image, work.moved, work.product);
     return error_is_clean(err);
 }
 

@@ -6,13 +6,13 @@
 #include "base/memory.h"
 #include "io/cache/cache_folder.h"
 #include "model/step_rule.h"
-#include "run/level_scene.h"
 #include "run/one_mesh.h"
 #include "scene/programs.h"
 
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 enum {
     CONTACT_NODES_MIN = 21,   // of the first level
@@ -49,22 +49,32 @@ double accuracy_seconds_left(const Accuracy *accuracy)
     return accuracy->deadline - accuracy_full(accuracy, 1) - clock_seconds();
 }
 
-// The scene of a run that writes nothing; owned by the caller.
-static Scene *scene_of_run(const Accuracy *accuracy, double refine, double pressure, Error *err)
+bool scene_refine(Scene *scene, double refine, Error *err)
 {
-    Scene *scene = NEW_ARRAY(Scene, 1, err);
-    if (!scene) return NULL;
-    *scene = *accuracy->scene;
-    scene->output.history = scene->output.fields = false;
-    scene->output.figures.count = 0;
-    scene->time.until_U *= LONGER;
-    scene->time.until_t *= LONGER;
-    scene->time.until_periodic = false;
-    scene->time.until_slidings = scene->time.until_mu_below = 0;   // its answer ends it
-    scene_scale_loads(scene, pressure);
-    if (scene_refine(scene, refine, err)) return scene;
-    memory_free(scene);
-    return NULL;
+    int32_t k = 0, count = scene->mesh.parameter_count;
+    while (k < count && strcmp(scene->mesh.parameters[k].name, "refine") != 0) k++;
+    if (refine == 1) return true;
+    if (k < count) {
+        scene->mesh.parameters[k].value *= refine;
+        return true;
+    }
+    if (k == SCENE_LIST_MAX)
+        return REFUSE(err, "%s: mesh.set: no room for `refine` beside %d parameters", scene->path,
+                      k);
+    scene->mesh.parameters[k] = (MeshParameter){.name = "refine", .value = refine};
+    scene->mesh.parameter_count++;
+    return true;
+}
+
+void scene_scale_loads(Scene *scene, double factor)
+{
+    scene->load.pressure *= factor;
+    scene->load.force *= factor;
+    for (int32_t k = 0; k < scene->load.traction_count; k++) {
+        scene->load.tractions[k].x *= factor;
+        scene->load.tractions[k].y *= factor;
+        scene->load.tractions[k].z *= factor;
+    }
 }
 
 bool accuracy_is_known(const Accuracy *accuracy, const Answers *answers)
@@ -218,10 +228,21 @@ bool accuracy_run_member(Accuracy *accuracy, bool *coarse, Error *err)
     double place = places[accuracy->members / 2 % (int32_t)(sizeof places / sizeof *places)];
     double pressure = 1 + (accuracy->members % 2 == 0 ? -half : half) * place;
 
-    // Mesh and basis.
-    Scene *scene = scene_of_run(accuracy, level->refine, pressure, err);
+    // The scene of a run that writes nothing, and is ended by its answer.
+    Scene *scene = NEW_ARRAY(Scene, 1, err);
     accuracy->so_far = (Answers){.mu_M = {NAN, NAN}, .mu_hold = {NAN, NAN}};
     TRY(scene);
+    *scene = *accuracy->scene;
+    scene->output.history = scene->output.fields = false;
+    scene->output.figures.count = 0;
+    scene->time.until_U *= LONGER;
+    scene->time.until_t *= LONGER;
+    scene->time.until_periodic = false;
+    scene->time.until_slidings = scene->time.until_mu_below = 0;
+    scene_scale_loads(scene, pressure);
+    TRY(scene_refine(scene, level->refine, err));
+
+    // Mesh and basis.
     TRY(simulation_create_by(scene, &options, first ? INFINITY : deadline, &simulation, err));
     simulation->deadline = deadline;   // one step is made, whatever time there is
     const Interface *interface = &simulation->model.interface;

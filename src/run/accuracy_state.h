@@ -44,6 +44,11 @@ double accuracy_seconds_left(const Accuracy *accuracy);
 // Returns true if the change that more slidings could make is a small part of the bar wanted.
 bool accuracy_is_known(const Accuracy *accuracy, const Answers *answers);
 
+// The scene of a level: the parameter `refine` of every mesh, times what the scene may have set it
+// to (ERROR_INPUT: there is no room for it); pressure and tractions times `factor`.
+bool scene_refine(Scene *scene, double refine, Error *err);
+void scene_scale_loads(Scene *scene, double factor);
+
 // Adds a run that came to its end, and the pads that slid in it, to the last level.
 void accuracy_count_run(Accuracy *accuracy, const Simulation *simulation, double pressure,
                         const Answers *answers);

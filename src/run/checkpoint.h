@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // RESULT/checkpoint.bin: a saved state (run/saved_state) that a run goes on from. Written now and
 // then, where a run is stopped, and at its end; first all steps of the history are put on the disk,
-// so that it goes at least as far. Called by run/simulation and run/simulation_loop.
+// so that it goes at least as far. Called by run/simulation.
 #ifndef AMONTONS_RUN_CHECKPOINT_H
 #define AMONTONS_RUN_CHECKPOINT_H
 

@@ -4,7 +4,7 @@
 // one of them, and goes again: steps repeat themselves to the last bit, and are written this time.
 // A state is as large as checkpoint.bin, which holds all of them, and costs as little as writing it
 // to memory; steps kept for later would take far more, or be written and removed again. Called by
-// run/simulation_loop.
+// run/simulation.
 #ifndef AMONTONS_RUN_REWIND_H
 #define AMONTONS_RUN_REWIND_H
 

@@ -43,23 +43,6 @@ static bool key_counts(const char *key)
     return strncmp(key, "time.until", strlen("time.until")) != 0;
 }
 
-// By the matrices themselves, not by the mesh file: a reduced state is in coordinates of its basis.
-static bool find_identity(Simulation *simulation, Error *err)
-{
-    const Interface *interface = &simulation->model.interface;
-    Hash hash = hash_start();
-    if (simulation->identity[0]) return true;
-    if (!scene_hash(&simulation->scene, key_counts, &hash, err)) return false;
-    bulk_operator_hash(&simulation->model.system, &hash);
-    size_t contacts = (size_t)interface->contact_count, rods = (size_t)interface->rod_count;
-    hash_bytes(&hash, interface->x, contacts * sizeof *interface->x);
-    hash_bytes(&hash, interface->weight, contacts * sizeof *interface->weight);
-    hash_bytes(&hash, interface->pad, contacts * sizeof *interface->pad);
-    hash_bytes(&hash, simulation->rod.softness, rods * sizeof *simulation->rod.softness);
-    hash_write(&hash, simulation->identity);
-    return true;
-}
-
 // *found: what the state has in this place, where it is read.
 static void pass_word(Archive *archive, const char *word, char found[WORD_SIZE + 1])
 {
@@ -75,7 +58,21 @@ static bool archive_head(Simulation *simulation, Archive *archive, SavedHead *he
     char ours[HASH_TEXT_SIZE];
     Hash computation = computation_hash();
     hash_write(&computation, ours);
-    if (!find_identity(simulation, err)) return false;
+
+    // The identity is of the matrices themselves, not of the mesh file: a reduced state is in
+    // coordinates of its basis.
+    if (!simulation->identity[0]) {
+        const Interface *interface = &simulation->model.interface;
+        size_t contacts = (size_t)interface->contact_count, rods = (size_t)interface->rod_count;
+        Hash hash = hash_start();
+        if (!scene_hash(&simulation->scene, key_counts, &hash, err)) return false;
+        bulk_operator_hash(&simulation->model.system, &hash);
+        hash_bytes(&hash, interface->x, contacts * sizeof *interface->x);
+        hash_bytes(&hash, interface->weight, contacts * sizeof *interface->weight);
+        hash_bytes(&hash, interface->pad, contacts * sizeof *interface->pad);
+        hash_bytes(&hash, simulation->rod.softness, rods * sizeof *simulation->rod.softness);
+        hash_write(&hash, simulation->identity);
+    }
     pass_word(archive, FORMATS[simulation->model.reduced.count > 0], format);
     pass_word(archive, ours, sources);
     pass_word(archive, simulation->identity, identity);
@@ -117,26 +114,6 @@ static void archive_report(Simulation *simulation, int64_t in_loop, Archive *arc
     simulation->allocations_before = simulation_allocations(simulation) - in_loop;
 }
 
-// A scene that ends elsewhere than the saved one ends where it says itself.
-static void archive_end(Simulation *simulation, Archive *archive)
-{
-    double end = simulation->t_end;
-    double until[] = {simulation->scene.time.until_U, simulation->scene.time.until_t};
-    archive_section(archive, "end");
-    archive_number(archive, &end);
-    archive_numbers(archive, until, 2);
-    if (!archive_reads(archive)) return;
-    bool same = until[0] == simulation->scene.time.until_U &&
-                until[1] == simulation->scene.time.until_t;
-    simulation->end_moved = !same;
-    const Rod *rod = &simulation->rod;
-    bool steered = rod->since != 0 || rod->velocity != simulation->scene.rod.velocity;
-    if (same)
-        simulation->t_end = end;
-    else if (steered)
-        simulation->t_end = steering_end(simulation);
-}
-
 // Where the computation stands.
 static bool archive_parts(Simulation *simulation, Archive *archive, Error *err)
 {
@@ -150,7 +127,24 @@ static bool archive_parts(Simulation *simulation, Archive *archive, Error *err)
     rod_archive(&simulation->rod, archive);
     if (!step_control_archive(&simulation->control, archive, err)) return false;
     simulation->model.system.factorisations = factorisations;   // levels made again do not count
-    archive_end(simulation, archive);
+
+    // A scene that ends elsewhere than the saved one ends where it says itself.
+    double end = simulation->t_end;
+    double until[] = {simulation->scene.time.until_U, simulation->scene.time.until_t};
+    archive_section(archive, "end");
+    archive_number(archive, &end);
+    archive_numbers(archive, until, 2);
+    if (archive_reads(archive)) {
+        const Rod *rod = &simulation->rod;
+        bool steered = rod->since != 0 || rod->velocity != simulation->scene.rod.velocity;
+        simulation->end_moved = until[0] != simulation->scene.time.until_U ||
+                                until[1] != simulation->scene.time.until_t;
+        if (!simulation->end_moved)
+            simulation->t_end = end;
+        else if (steered)
+            simulation->t_end = steering_end(simulation);
+    }
+
     explicit_reference_archive(&simulation->explicit_reference, archive);
     if (!events_archive(&simulation->events, interface, archive, err)) return false;
     if (!drops_archive(&simulation->drops, archive, err)) return false;

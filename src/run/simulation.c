@@ -8,6 +8,7 @@
 #include "base/clock.h"
 #include "base/decimal_point.h"
 #include "base/memory.h"
+#include "fem/floor.h"
 #include "io/files/own_list.h"
 #include "model/obtain.h"
 #include "run/checkpoint.h"
@@ -15,6 +16,7 @@
 #include "run/one_mesh.h"
 #include "run/output.h"
 #include "run/report.h"
+#include "run/rewind.h"
 #include "run/saved_state.h"
 #include "run/start.h"
 #include "run/summary.h"
@@ -163,28 +165,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Checks what a scene must have to be run; claims the folder, and reads the checkpoint where the
-// run is to be continued from one.
-static bool accept(Simulation *simulation, SavedState *state, Error *err)
-{
-    const Scene *scene = &simulation->scene;
-    const RunOptions *options = &simulation->options;
-    if (options->folder && !output_check(scene, err)) return false;
-    if (!result_folder_claim(options->folder, options->overwrite || options->resume,
-                             &simulation->folder, err))
-        return false;
-    const char *unlocked = file_lock_warning(&simulation->folder.lock);
-    if (unlocked) warnings_add(&simulation->warnings, "%s", unlocked);
-    if (!(scene->time.until_U > 0) && !(scene->time.until_t > 0))
-        return REFUSE(err,
-                      "%s: says not when to stop (time.until): it is a scene for `amontons static`",
-                      scene->path);
-    if (options->resume && !options->folder)
-        return REFUSE(err, "a run without a result folder leaves nothing to go on from");
-    if (options->resume && !checkpoint_read(options->folder, state, err)) return false;
-    return true;
-}
-
 // On failure *out still holds what was made: amontons_run reports it, and everyone destroys it.
 bool simulation_create_by(const Scene *scene, const RunOptions *options, double deadline,
                           Simulation **out, Error *err)
@@ -206,7 +186,23 @@ bool simulation_create_by(const Scene *scene, const RunOptions *options, double 
     simulation->scene.output.whole = options->whole_block;
     simulation->started = simulation->checkpoint_at = clock_seconds();
     TRY(dense_begin(err));
-    TRY(accept(simulation, &state, err));
+
+    // The scene must have all that a run needs. Then the folder is claimed, and the checkpoint read
+    // where the run is to be continued from one.
+    if (options->folder) TRY(output_check(scene, err));
+    TRY(result_folder_claim(options->folder, options->overwrite || options->resume,
+                            &simulation->folder, err));
+    const char *unlocked = file_lock_warning(&simulation->folder.lock);
+    if (unlocked) warnings_add(&simulation->warnings, "%s", unlocked);
+    if (!(scene->time.until_U > 0) && !(scene->time.until_t > 0))
+        FAIL(err, ERROR_INPUT,
+             "%s: says not when to stop (time.until): it is a scene for `amontons static`",
+             scene->path);
+    if (options->resume && !options->folder)
+        FAIL(err, ERROR_INPUT, "a run without a result folder leaves nothing to go on from");
+    if (options->resume) TRY(checkpoint_read(options->folder, &state, err));
+
+    // The model, the steps, and what makes their answer doubtful.
     const char *warning = amontons_scene_warning(scene);
     if (warning) warnings_add(&simulation->warnings, "%s", warning);
     StageNotice notice = {.tell = tell_stage, .goes_on = goes_on_reducing, .self = simulation};
@@ -331,28 +327,78 @@ bool amontons_simulation_step(Simulation *simulation, StepView *view, bool *fini
     return true;
 }
 
+void amontons_simulation_view(const Simulation *simulation, StepView *view)
+{
+    *view =
+        step_view(&simulation->seen, &simulation->events, &simulation->contact, simulation->t_end);
+}
+
+// Recovered at each call: a product with all modes of a reduced bulk.
+bool amontons_simulation_block(Simulation *simulation, BlockView *view, Error *err)
+{
+    NUMBERS_HAVE_A_POINT;
+    const Mesh *mesh = &simulation->model.mesh;
+    const BulkOperator *system = &simulation->model.system;
+    const State *now = &simulation->control.now;
+    *view = (BlockView){0};
+    if (!simulation->options.whole_block)
+        return REFUSE(
+            err,
+            "the motion of the whole block is kept only where RunOptions.whole_block asks for it");
+    int64_t dofs = (int64_t)mesh->dim * mesh->node_count;
+    if (!simulation->block_motion && !(simulation->block_motion = NEW_ARRAY(double, 2 * dofs, err)))
+        return false;
+    double *displacement = simulation->block_motion;
+    double *velocity = displacement + dofs;
+    if (!bulk_operator_recover(system, 2, (const double *[]){now->displacement, now->velocity},
+                               (double *[]){displacement, velocity}, err))
+        return false;
+    floor_displace(mesh, displacement);
+    floor_displace(mesh, velocity);
+    *view = (BlockView){.nodes = mesh->node_count,
+                        .dimensions = mesh->dim,
+                        .elements = mesh->element_count,
+                        .position = mesh->position,
+                        .displacement = displacement,
+                        .velocity = velocity,
+                        .first_node = mesh->first_node,
+                        .element_nodes = mesh->element_nodes};
+    return true;
+}
+
+// Until the scene ends, or something ends it before.
+bool simulation_loop(Simulation *simulation, Error *err)
+{
+    Error unseen = {0}, lost = {0};
+    bool finished = simulation->goes_on && simulation_is_finished(simulation);
+    if (!rewind_start(simulation, err)) return false;
+    while (!finished) {
+        if (!amontons_simulation_step(simulation, NULL, &finished, err)) return false;
+        if (!rewind_follow(simulation, &finished, err)) return false;
+        checkpoint_when_due(simulation);
+        if (simulation_may_go_on(simulation, &unseen)) continue;
+
+        // Stopped. It says what is kept only where it is.
+        bool asked = checkpoint_is_kept(simulation);
+        bool kept = asked && checkpoint_now(simulation, &lost);
+        const char *folder = simulation->folder.path;
+        double U = simulation->seen.U, t = simulation->seen.t;
+        if (asked && !kept)
+            return FAULT(err, ERROR_INTERRUPT,
+                         "stopped at U = %g (t = %g); this state is not kept: %s", U, t,
+                         lost.message);
+        return FAULT(err, ERROR_INTERRUPT, "stopped at U = %g (t = %g)%s%s%s", U, t,
+                     *folder ? "; what was computed is kept in " : "", folder,
+                     kept ? "; the same command with --resume goes on from there" : "");
+    }
+    return true;
+}
+
 Answers simulation_answers(const Simulation *simulation)
 {
     Answers answers = answers_of(&simulation->drops);
     steady_answer(&simulation->steady, &answers);
     return answers;
-}
-
-static bool hand_out_report(const Simulation *simulation, const RunReport *report, Error *err)
-{
-    const RunOptions *options = &simulation->options;
-    char *text = NULL;
-    bool refused = report->failure && report->failure->code == ERROR_INPUT;   // leaves nothing
-    if (result_folder_is_settled(&simulation->folder) && !refused) {
-        TRY(own_list_make(simulation->folder.path, err));   // a run that failed before t = 0
-        TRY(report_write(simulation->folder.path, report, err));
-    }
-    if (!options->on_report) goto cleanup;
-    TRY((text = report_text(options->folder ? options->folder : ".", report, err)));
-    options->on_report(text, options->context);
-cleanup:
-    memory_free(text);
-    return error_is_clean(err);
 }
 
 bool simulation_finish(Simulation *simulation, const Error *failure, RunSummary *summary,
@@ -392,9 +438,21 @@ bool simulation_finish(Simulation *simulation, const Error *failure, RunSummary 
     simulation->timing.output += clock_seconds() - started;
     simulation->timing.total = clock_seconds() - simulation->started;
     simulation->timing.outside += clock_processor_seconds();
-    if (result_folder_is_ours(&simulation->folder) || simulation->options.on_report) {
-        RunReport report = {simulation, failure, &counters, &answers, least};
-        if (!hand_out_report(simulation, &report, err)) return false;
+
+    // run.json, and the same for the caller. A run whose input was refused leaves none; one that
+    // failed before t = 0 has made no list of its files yet.
+    const RunOptions *options = &simulation->options;
+    RunReport report = {simulation, failure, &counters, &answers, least};
+    bool refused = failure && failure->code == ERROR_INPUT;
+    if (result_folder_is_settled(&simulation->folder) && !refused &&
+        !(own_list_make(simulation->folder.path, err) &&
+          report_write(simulation->folder.path, &report, err)))
+        return false;
+    if (options->on_report) {
+        char *text = report_text(options->folder ? options->folder : ".", &report, err);
+        if (!text) return false;
+        options->on_report(text, options->context);
+        memory_free(text);
     }
     summary_fill(simulation, &counters, &answers, summary);
     summary->bar_own_mu_M = own_mu_M;
@@ -424,4 +482,27 @@ void amontons_simulation_destroy(Simulation *simulation)
     kept_states_destroy(&simulation->kept);
     result_folder_release(&simulation->folder);
     memory_free_all(simulation->block_motion, simulation);
+}
+
+void simulation_end(Simulation *simulation, RunSummary *summary, const Error *err)
+{
+    if (simulation && !error_is_clean(err)) {
+        Error second = {0};   // the first error is the one that counts
+        simulation_finish(simulation, err, summary, &second);
+    }
+    amontons_simulation_destroy(simulation);
+}
+
+// The loop itself allocates nothing but levels and output. A failure anywhere is written into
+// run.json with what there was until then.
+bool simulation_run(const Scene *scene, const RunOptions *options, RunSummary *summary, Error *err)
+{
+    Simulation *simulation = NULL;
+    *summary = summary_none();
+    TRY(amontons_simulation_create(scene, options, &simulation, err));
+    TRY(simulation_loop(simulation, err));
+    TRY(amontons_simulation_finish(simulation, summary, err));
+cleanup:
+    simulation_end(simulation, summary, err);
+    return error_is_clean(err);
 }

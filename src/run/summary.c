@@ -128,21 +128,6 @@ RunCounters summary_count(const Simulation *simulation)
                                                  : 0};
 }
 
-static void note_levels(const Simulation *simulation, RunSummary *summary)
-{
-    const Levels *levels = simulation->levels;
-    const Level *last = levels_last(levels);
-    for (int32_t l = 0; l < levels->count; l++) summary->bar_runs += levels->list[l].run_count;
-    summary->bar_meshes = levels->count;
-    summary->bar_nodes = last ? last->contact_nodes : 0;
-    summary->bar_wanted = levels->wanted;
-    summary->bar_window = simulation->scene.accuracy.window;
-    summary->bar_ended = levels->ended;
-    const Scene *scene = &simulation->scene;
-    summary->bar_goes_on = scene->time.until_periodic || scene->time.until_slidings > 0 ||
-                           scene->time.until_mu_below > 0;
-}
-
 void amontons_estimate(double value, double bar, double known_to, char text[ESTIMATE_SIZE])
 {
     NUMBERS_HAVE_A_POINT;
@@ -275,7 +260,21 @@ void summary_fill(const Simulation *simulation, const RunCounters *counters, con
 
     memcpy(summary->mu_M_parts, &answers->mu_M_parts, sizeof summary->mu_M_parts);
     memcpy(summary->mu_hold_parts, &answers->mu_hold_parts, sizeof summary->mu_hold_parts);
-    if (simulation->levels) note_levels(simulation, summary);
+
+    // Meshes and runs behind an error bar.
+    const Levels *levels = simulation->levels;
+    if (levels) {
+        const Scene *scene = &simulation->scene;
+        const Level *last = levels_last(levels);
+        for (int32_t l = 0; l < levels->count; l++) summary->bar_runs += levels->list[l].run_count;
+        summary->bar_meshes = levels->count;
+        summary->bar_nodes = last ? last->contact_nodes : 0;
+        summary->bar_wanted = levels->wanted;
+        summary->bar_window = simulation->scene.accuracy.window;
+        summary->bar_ended = levels->ended;
+        summary->bar_goes_on = scene->time.until_periodic || scene->time.until_slidings > 0 ||
+                               scene->time.until_mu_below > 0;
+    }
     snprintf(summary->folder, sizeof summary->folder, "%s", simulation->folder.path);
     list_phases(simulation, summary);
 }

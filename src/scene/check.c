@@ -75,32 +75,33 @@ static const char *friction_word(const SceneKey *key)
     return strncmp(key->name, map, length) == 0 ? key->name + length : NULL;
 }
 
-static bool is_needed(const SceneKey *key, const Scene *scene)
-{
-    const char *word = friction_word(key);
-    bool of_table = key->offset == offsetof(Scene, own_friction.velocity) ||
-                    key->offset == offsetof(Scene, own_friction.mu);
-    if (of_table && *scene->own_friction.file) return false;
-    if (word && !key->standard) return friction_use(&scene->friction, word) == FRICTION_MUST;
-    if (strcmp(key->name, "material.young") == 0 && scene->material.young_short > 0) return false;
-    if (strcmp(key->name, "rod.velocity") == 0)
-        return scene->rod.kind != ROD_NONE && !is_static(scene);
-    if (strcmp(key->name, "load.pressure") == 0) return !(scene->load.force > 0);
-    return key->must_be_given || (key->given_in_si && scene->units == UNITS_SI);
-}
-
 // Keys without a default, and in SI those whose default of 1 would be 1 Pa or 1 kg/m3.
 static bool check_required(const Check *check)
 {
+    const Scene *scene = check->scene;
     int32_t count = 0;
     const SceneKey *keys = scene_keys(&count);
     for (int32_t k = 0; k < count; k++) {
-        if (check->scene->given[k] || !is_needed(&keys[k], check->scene)) continue;
+        const SceneKey *key = &keys[k];
+        const char *word = friction_word(key);
+        bool of_table = key->offset == offsetof(Scene, own_friction.velocity) ||
+                        key->offset == offsetof(Scene, own_friction.mu);
+        bool needed = key->must_be_given || (key->given_in_si && scene->units == UNITS_SI);
+        if (of_table && *scene->own_friction.file)
+            needed = false;
+        else if (word && !key->standard)
+            needed = friction_use(&scene->friction, word) == FRICTION_MUST;
+        else if (strcmp(key->name, "material.young") == 0 && scene->material.young_short > 0)
+            needed = false;
+        else if (strcmp(key->name, "rod.velocity") == 0)
+            needed = scene->rod.kind != ROD_NONE && !is_static(scene);
+        else if (strcmp(key->name, "load.pressure") == 0)
+            needed = !(scene->load.force > 0);
+        if (!needed || scene->given[k]) continue;
         char allowed[300];
-        scene_key_allowed(&keys[k], allowed, sizeof allowed);
-        return blame(check, keys[k].name, "missing%s; allowed: %s (%s)",
-                     keys[k].standard ? ", which an SI scene must give" : "", allowed,
-                     keys[k].sentence);
+        scene_key_allowed(key, allowed, sizeof allowed);
+        return blame(check, key->name, "missing%s; allowed: %s (%s)",
+                     key->standard ? ", which an SI scene must give" : "", allowed, key->sentence);
     }
     return true;
 }
@@ -226,8 +227,8 @@ static bool check_load(const Check *check)
     return true;
 }
 
-// One curve, one meaning.
-static bool check_groups(const Check *check)
+// One curve has one meaning; and a unit of lengths is one of an SI scene.
+static bool check_mesh(const Check *check)
 {
     const Scene *scene = check->scene;
     const char *top = scene->groups.top, *rod = scene->groups.rod;
@@ -245,21 +246,10 @@ static bool check_groups(const Check *check)
                          : strcmp(contact, rod) == 0 ? "rod"
                                                      : "floor");
     }
+    if (scene->units == UNITS_NORMALISED && is_given(check, "mesh.unit"))
+        return blame(check, "mesh.unit",
+                     "a normalised scene has no units of length: give mesh.scale, or units: si");
     return true;
-}
-
-static bool check_mesh(const Check *check)
-{
-    bool plain = check->scene->units == UNITS_NORMALISED && is_given(check, "mesh.unit");
-    return !plain ||
-           blame(check, "mesh.unit",
-                 "a normalised scene has no units of length: give mesh.scale, or units: si");
-}
-
-static bool check_rod(const Check *check)
-{
-    if (check->scene->rod.kind != ROD_NONE || !is_given(check, "rod.stiffness")) return true;
-    return blame(check, "rod.stiffness", "the scene has no rod (rod.kind: none); leave it out");
 }
 
 // As many factors as points, of time or of U, which ascend from 0.
@@ -297,13 +287,15 @@ static double least_factor(const SceneProgram *program)
 }
 
 // A program that is given by U needs a U that rises.
-static bool check_programs(const Check *check)
+static bool check_rod_and_programs(const Check *check)
 {
     const Scene *scene = check->scene;
     const SceneProgram *rod = &scene->rod.program, *load = &scene->load.program;
+    bool moves = scene->rod.kind != ROD_NONE;
+    if (!moves && is_given(check, "rod.stiffness"))
+        return blame(check, "rod.stiffness", "the scene has no rod (rod.kind: none); leave it out");
     if (!check_points(check, "rod.program", rod) || !check_points(check, "load.program", load))
         return false;
-    bool moves = scene->rod.kind != ROD_NONE;
     if (scene_has_program(rod) && !moves)
         return blame(check, "rod.program", "the scene has no rod (rod.kind: none); leave it out");
     if (load->U.count > 0 && !moves)
@@ -349,8 +341,8 @@ static bool check_time(const Check *check)
     return true;
 }
 
-// Checks how the window begins, how it ends, and what is written in it.
-static bool check_window(const Check *check)
+// How the window begins, how it ends, and what is written in it; then the pictures.
+static bool check_output(const Check *check)
 {
     const Scene *scene = check->scene;
     const SceneWindow *window = &scene->output.window;
@@ -377,13 +369,7 @@ static bool check_window(const Check *check)
         return blame(check, "output.window",
                      "nothing is written in it: output.fields is none; give it, as in {every_step: "
                      "true}, or history: true for the steps of history.h5");
-    return true;
-}
 
-static bool check_output(const Check *check)
-{
-    const Scene *scene = check->scene;
-    if (!check_window(check)) return false;
     if (scene->output.figures.count > 0 && !scene->output.history)
         return blame(check, "output.figures",
                      "pictures are drawn from the history: they need output.history: true, also "
@@ -439,7 +425,6 @@ bool scene_check(const Scene *scene, const SceneValue *sources, const YamlDocume
 {
     Check check = {.scene = scene, .sources = sources, .file = file, .err = err};
     return check_required(&check) && check_friction(&check) && check_load(&check) &&
-           check_materials(&check) && check_groups(&check) && check_mesh(&check) &&
-           check_rod(&check) && check_programs(&check) && check_time(&check) &&
-           check_output(&check);
+           check_materials(&check) && check_mesh(&check) && check_rod_and_programs(&check) &&
+           check_time(&check) && check_output(&check);
 }

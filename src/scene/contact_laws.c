@@ -12,13 +12,22 @@ bool scene_has_contact_law(const SceneContactLaw *item)
            *item->formula;
 }
 
-// A law that is not the scene's law must be one of the built-in laws, or a formula of its own.
-static bool check_item(const SceneContactLaw *item, const FrictionLaw *scene_law,
-                       const FrictionLaw *law, Error *err)
+bool scene_contact_law(const Scene *scene, const SceneContactLaw *item, double pressure,
+                       FrictionLaw *law, Error *err)
 {
+    const char *key = NULL;
+    *law = scene->friction;
+    if (!scene_has_contact_law(item)) return true;
+    *law = (FrictionLaw){.kind = item->kind,
+                         .mu_static = item->mu_static,
+                         .mu_kinetic = item->mu_kinetic,
+                         .critical_velocity = item->critical_velocity};
+    if (!friction_has_drop(law)) law->mu_kinetic = law->mu_static;
+
+    // A law that is not the scene's law must be one of the built-in laws, or a formula of its own.
     bool own = friction_is_own(law), formula = friction_use(law, "formula") == FRICTION_MUST;
     bool has_numbers = friction_use(law, "mu_static") != FRICTION_UNUSED;
-    if (friction_use(law, "slip_distance") == FRICTION_MUST && law->kind != scene_law->kind)
+    if (friction_use(law, "slip_distance") == FRICTION_MUST && law->kind != scene->friction.kind)
         return REFUSE(err,
                       "`%s` takes numbers that friction gives, so friction.law has to be the same",
                       friction_law_name(law));
@@ -39,22 +48,7 @@ static bool check_item(const SceneContactLaw *item, const FrictionLaw *scene_law
     bool fades = friction_use(law, "critical_velocity") == FRICTION_MUST;
     if (!own && fades && !(law->critical_velocity > 0))
         return REFUSE(err, "critical_velocity: a weakening law needs it");
-    return true;
-}
-
-bool scene_contact_law(const Scene *scene, const SceneContactLaw *item, double pressure,
-                       FrictionLaw *law, Error *err)
-{
-    const char *key = NULL;
-    *law = scene->friction;
-    if (!scene_has_contact_law(item)) return true;
-    *law = (FrictionLaw){.kind = item->kind,
-                         .mu_static = item->mu_static,
-                         .mu_kinetic = item->mu_kinetic,
-                         .critical_velocity = item->critical_velocity};
-    if (!friction_has_drop(law)) law->mu_kinetic = law->mu_static;
-    return check_item(item, &scene->friction, law, err) &&
-           scene_friction_law(scene, item->formula, pressure, law, &key, err);
+    return scene_friction_law(scene, item->formula, pressure, law, &key, err);
 }
 
 bool scene_contact_laws(const SceneValue *value, Scene *scene, Error *err)

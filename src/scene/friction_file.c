@@ -20,40 +20,33 @@ static const char *const SPEEDS[] = {"v",
 static const char *const COEFFICIENTS[] = {"mu",      "cof",     "friction", "mu_mean",
                                            "mean mu", "F_T/F_N", "F_t/F_n",  NULL};
 
-// Columns of v, mu and its error, and what a 1 in each stands for in the scene's units.
-static bool find_columns(const CsvTable *csv, SceneUnits units, int32_t column[3], double factor[3],
-                         Error *err)
-{
-    static const char WANTED[] = "wanted: v with its unit and mu, as in `v (mm/s), mu, mu_error`";
-    CsvUnit unit[3] = {{"", 0}, {"", 0}, {"", 0}};
-    column[0] = 0, column[1] = 1, column[2] = -1;
-    factor[0] = factor[1] = factor[2] = 1;
-    if (!csv->named && csv->columns != 2)
-        return REFUSE(err, "%s:%d: %d columns without names; %s", csv->path, csv->line[1],
-                      csv->columns, WANTED);
-    if (!csv->named) return true;
-    if (!csv_find_any(csv, SPEEDS, &column[0], &unit[0], err) ||
-        !csv_find_any(csv, COEFFICIENTS, &column[1], &unit[1], err))
-        return false;
-    if (column[0] < 0 || column[1] < 0)
-        return REFUSE(err, "%s:%d: there is no column of the %s; %s", csv->path, csv->line[0],
-                      column[0] < 0 ? "slip rate v" : "coefficient mu", WANTED);
-    csv_find_error(csv, column[1], &column[2], &unit[2]);
-    for (int32_t k = 0; k < 3; k++)
-        if (column[k] >= 0 && !csv_to_scene(csv, column[k], unit[k], k == 0 ? "velocity" : "1",
-                                            units == UNITS_SI, &factor[k], err))
-            return false;
-    return true;
-}
-
 bool friction_data_read(const Scene *scene, FrictionData *data, Error *err)
 {
+    static const char WANTED[] = "wanted: v with its unit and mu, as in `v (mm/s), mu, mu_error`";
     CsvTable csv = {0};
-    int32_t column[3];
-    double factor[3];
     *data = (FrictionData){0};
     TRY(csv_read_bare(scene->own_friction.file, &csv, err));
-    TRY(find_columns(&csv, scene->units, column, factor, err));
+
+    // Columns of v, mu and its error, and what a 1 in each stands for in the scene's units.
+    CsvUnit unit[3] = {{"", 0}, {"", 0}, {"", 0}};
+    int32_t column[3] = {0, 1, -1};
+    double factor[3] = {1, 1, 1};
+    if (!csv.named && csv.columns != 2)
+        FAIL(err, ERROR_INPUT, "%s:%d: %d columns without names; %s", csv.path, csv.line[1],
+             csv.columns, WANTED);
+    if (csv.named) {
+        TRY(csv_find_any(&csv, SPEEDS, &column[0], &unit[0], err));
+        TRY(csv_find_any(&csv, COEFFICIENTS, &column[1], &unit[1], err));
+        if (column[0] < 0 || column[1] < 0)
+            FAIL(err, ERROR_INPUT, "%s:%d: there is no column of the %s; %s", csv.path, csv.line[0],
+                 column[0] < 0 ? "slip rate v" : "coefficient mu", WANTED);
+        csv_find_error(&csv, column[1], &column[2], &unit[2]);
+        for (int32_t k = 0; k < 3; k++)
+            TRY(column[k] < 0 || csv_to_scene(&csv, column[k], unit[k], k == 0 ? "velocity" : "1",
+                                              scene->units == UNITS_SI, &factor[k], err));
+    }
+
+    // Rows.
     TRY(csv_check(&csv, column[2], true, err));
     TRY(data->velocity = NEW_ARRAY(double, csv.rows + 1, err));
     TRY(data->mu = NEW_ARRAY(double, csv.rows + 1, err));

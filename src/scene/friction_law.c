@@ -8,26 +8,6 @@
 #include <math.h>
 #include <string.h>
 
-// The slip rate up to which a law is asked: friction.velocity_max, or the speed of sound, the
-// fastest of all regions.
-static double fastest_slip(const Scene *scene)
-{
-    double given = scene->own_friction.velocity_max;
-    double own = scene->material.young_short > 0 ? scene->material.young_short
-                                                 : scene->material.young;
-    double fastest = sqrt(own / scene->material.density);
-    if (given > 0) return given;
-    for (int32_t i = 0; i < scene->materials.count; i++) {
-        const SceneMaterial *region = &scene->materials.region[i];
-        double young = scene_material_number(
-            scene, region,
-            scene_material_is_short(scene, region) ? MATERIAL_YOUNG_SHORT : MATERIAL_YOUNG);
-        double density = scene_material_number(scene, region, MATERIAL_DENSITY);
-        fastest = fmax(fastest, sqrt(young / density));
-    }
-    return fastest;
-}
-
 // Numbers of the map `friction` that a formula may name, and their symbols.
 static const char *const NUMBER_NAMES[][2] = {{"mu_static", "mu_S"},
                                               {"mu_kinetic", "mu_K"},
@@ -87,6 +67,21 @@ bool scene_friction_law(const Scene *scene, const char *formula, double pressure
         friction_data_destroy(&data);
         if (!ERROR_AT(key, "file", done)) return false;
     }
+
+    // The slip rate up to which the law is asked: friction.velocity_max, or the speed of sound, the
+    // fastest of all regions.
+    double young = scene->material.young_short > 0 ? scene->material.young_short
+                                                   : scene->material.young;
+    double fastest = sqrt(young / scene->material.density);
+    for (int32_t i = 0; i < scene->materials.count; i++) {
+        const SceneMaterial *region = &scene->materials.region[i];
+        bool is_short = scene_material_is_short(scene, region);
+        young =
+            scene_material_number(scene, region, is_short ? MATERIAL_YOUNG_SHORT : MATERIAL_YOUNG);
+        double density = scene_material_number(scene, region, MATERIAL_DENSITY);
+        fastest = fmax(fastest, sqrt(young / density));
+    }
+    if (own->velocity_max > 0) fastest = own->velocity_max;
     FrictionSource source = {.velocity = points > 0 ? velocity : own->velocity.value,
                              .velocity_count = points > 0 ? points : own->velocity.count,
                              .mu = points > 0 ? mu : own->mu.value,
@@ -105,7 +100,7 @@ bool scene_friction_law(const Scene *scene, const char *formula, double pressure
                              .pressure = pressure,
                              .parameters = own->parameters.value,
                              .parameter_count = own->parameters.count,
-                             .end = fastest_slip(scene)};
+                             .end = fastest};
     return friction_make(&source, law, key, err);
 }
 

@@ -3,8 +3,9 @@
 // are those of keys.
 #include "scene/items.h"
 
-#include "scene/states.h"
+#include "scene/friction_law.h"
 
+#include <ctype.h>
 #include <string.h>
 
 enum { PATH_SIZE = 160, ALLOWED_SIZE = 300 };
@@ -95,26 +96,6 @@ static void path_of(const SceneKey *key, const char *item, char path[PATH_SIZE])
     snprintf(path, PATH_SIZE, "%s%s%.70s", key->name, named ? "." : "", named ? item : "");
 }
 
-// Always false.
-static bool report_word(const SceneKey *key, const char *path, const SceneValue *value, Error *err)
-{
-    char allowed[ALLOWED_SIZE] = "", whole[PATH_SIZE];
-    const SceneItems *items = key->items;
-    const char *word = yaml_key(value->document, value->node);
-    if (value->part) word = value->part;
-    for (const ScenePart *part = items->parts; part->word; part++) {
-        size_t used = strlen(allowed);
-        snprintf(allowed + used, sizeof allowed - used, "%s%s", used || !items->named ? ", " : "",
-                 part->word);
-    }
-    snprintf(whole, sizeof whole, "%s.%.60s", items->like ? items->like : "", word);
-    bool known = items->like && scene_key_index(whole) >= 0;
-    return yaml_key_error(value->document, value->node, err,
-                          "%s: unknown key `%.60s`%s%s%s; allowed: %s%s", path, word,
-                          known ? ", which is for the whole block (" : "", known ? whole : "",
-                          known ? ")" : "", items->named ? "" : "group", allowed);
-}
-
 // One word of item number k: its own key, or value->part.
 static bool set_word(const SceneKey *key, int32_t k, const SceneValue *value, Scene *scene,
                      Error *err)
@@ -135,7 +116,22 @@ static bool set_word(const SceneKey *key, int32_t k, const SceneValue *value, Sc
     bool is_group = !items->named && strcmp(word, "group") == 0;
     const ScenePart *part = is_group ? &group : find_part(items, word);
     path_of(key, item, path);
-    if (!part) return report_word(key, path, value, err);
+    if (!part) {
+        // Which words are allowed; one that is a key of the whole block is told so.
+        char allowed[ALLOWED_SIZE] = "", whole[PATH_SIZE];
+        const char *given = value->part ? value->part : word;
+        for (const ScenePart *one = items->parts; one->word; one++) {
+            size_t used = strlen(allowed);
+            snprintf(allowed + used, sizeof allowed - used, "%s%s",
+                     used || !items->named ? ", " : "", one->word);
+        }
+        snprintf(whole, sizeof whole, "%s.%.60s", items->like ? items->like : "", given);
+        bool known = items->like && scene_key_index(whole) >= 0;
+        return yaml_key_error(value->document, value->node, err,
+                              "%s: unknown key `%.60s`%s%s%s; allowed: %s%s", path, given,
+                              known ? ", which is for the whole block (" : "", known ? whole : "",
+                              known ? ")" : "", items->named ? "" : "group", allowed);
+    }
     snprintf(name, sizeof name, "%s.%s", path, word);
     SceneKey own = scene_part_key(items, part, k, name);
     if (own.type == KEY_TEXT && !*yaml_text(value->document, value->node))
@@ -175,6 +171,21 @@ static bool set_item(const SceneKey *key, int32_t k, const SceneValue *value, Sc
                                 items->noun, lacks);
 }
 
+// A name of a state of friction.state: letters, digits and _, of which no formula has another
+// meaning.
+static bool may_be_state(const char *name)
+{
+    // Names that scene/friction_law or every formula uses already.
+    static const char *const taken[] = {"v",     "p",   "sqrt", "exp", "log",   "tanh",
+                                        "asinh", "abs", "min",  "max", "round", "points"};
+    if (!isalpha((unsigned char)*name) || strlen(name) >= STATE_NAME_SIZE) return false;
+    for (const char *at = name; *at; at++)
+        if (!isalnum((unsigned char)*at) && *at != '_') return false;
+    for (size_t k = 0; k < sizeof taken / sizeof *taken; k++)
+        if (strcmp(name, taken[k]) == 0) return false;
+    return scene_friction_number(name) < 0;
+}
+
 // The number of the item that `name` [length] names, as it is or a new one; of a list a new one.
 // -1: it is refused.
 static int32_t take_item(const SceneKey *key, const char *name, size_t length,
@@ -195,7 +206,7 @@ static int32_t take_item(const SceneKey *key, const char *name, size_t length,
     }
     char word[GROUP_NAME_SIZE];
     snprintf(word, sizeof word, "%.*s", (int)length, name);
-    if (items == &scene_state_items && !scene_state_may_be(word)) {
+    if (items == &scene_state_items && !may_be_state(word)) {
         yaml_key_error(value->document, value->node, err,
                        "%s: `%.40s` cannot be the name of a state; allowed: letters, digits and _, "
                        "at most 31, and not v, p, a function or a number of friction (mu_S, D_c, "
@@ -209,32 +220,27 @@ static int32_t take_item(const SceneKey *key, const char *name, size_t length,
     return *count - 1;
 }
 
-// The rest of the path of a --set: an item's map, or one word of an item.
-static bool set_below(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
-{
-    SceneValue one = {.document = value->document, .node = value->node};
-
-    // Where the words of an item begin in "layer.young" and "layer.relaxation.0.shear"; names of
-    // items may have dots. NULL: nowhere.
-    static const char branches[] = ".relaxation.";
-    const char *found = strstr(value->part, branches);
-    const char *dot = found ? found : strrchr(value->part, '.');
-
-    bool whole = yaml_kind(value->document, value->node) == YAML_MAP;
-    size_t length = whole ? strlen(value->part) : dot ? (size_t)(dot - value->part) : 0;
-    int32_t k = take_item(key, value->part, length, &one, scene, err);
-    if (k < 0) return false;
-    if (whole) return set_item(key, k, &one, scene, err);
-    one.part = dot + 1;
-    return set_word(key, k, &one, scene, err);
-}
-
 bool scene_items_set(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
 {
     const SceneItems *items = key->items;
     const YamlDocument *document = value->document;
     YamlKind kind = yaml_kind(document, value->node);
-    if (value->part) return set_below(key, value, scene, err);
+    if (value->part) {
+        // The rest of the path of a --set: an item's map, or one word of an item. Where the words
+        // of an item begin in "layer.young" and "layer.relaxation.0.shear"; names of items may have
+        // dots. NULL: nowhere.
+        SceneValue one = {.document = document, .node = value->node};
+        const char *found = strstr(value->part, ".relaxation.");
+        const char *dot = found ? found : strrchr(value->part, '.');
+        size_t length = kind == YAML_MAP ? strlen(value->part)
+                        : dot            ? (size_t)(dot - value->part)
+                                         : 0;
+        int32_t k = take_item(key, value->part, length, &one, scene, err);
+        if (k < 0) return false;
+        if (kind == YAML_MAP) return set_item(key, k, &one, scene, err);
+        one.part = dot + 1;
+        return set_word(key, k, &one, scene, err);
+    }
     *(int32_t *)(void *)((char *)scene + items->count) = 0;
     if (kind == YAML_NOTHING) return true;
     if (kind != (items->named ? YAML_MAP : YAML_LIST) ||

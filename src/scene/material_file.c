@@ -153,27 +153,6 @@ void material_data_destroy(MaterialData *data)
     *data = (MaterialData){0};
 }
 
-// Shear moduli of data in Young's modulus: with K constant G = 3 K E / (9 K - E), complex; with
-// Poisson's ratio constant G = E / (2 (1 + nu)).
-static bool to_shear(const MaterialData *data, double poisson, bool bulk_relaxes, double young,
-                     double *storage, double *loss, Error *err)
-{
-    double over_K = 3 * (1 - 2 * poisson) / young;
-    for (int32_t i = 0; i < data->data.count; i++) {
-        double complex E = data->data.storage[i] + I * (data->data.loss ? data->data.loss[i] : 0);
-        double complex G = bulk_relaxes ? E / (2 * (1 + poisson)) : 3 * E / (9 - E * over_K);
-        if (!(9 - creal(E) * over_K > 0))
-            return REFUSE(err,
-                          "a modulus of %g is more than an elastic volume allows for, with poisson "
-                          "= %g of a long-time modulus of %g: poisson nearer to 0.5, or bulk: "
-                          "relaxes",
-                          creal(E), poisson, young);
-        storage[i] = creal(G);
-        loss[i] = cimag(G);
-    }
-    return true;
-}
-
 void material_fit_at(const MaterialFit *fit, const MaterialData *data, double at, double value[2])
 {
     double storage, loss = 0;
@@ -218,8 +197,22 @@ bool material_fit(const MaterialData *data, double poisson, bool bulk_relaxes, d
         moduli[i] = own.storage[i];
         loss[i] = own.loss ? own.loss[i] : 0;
     }
-    if (!data->shear)
-        TRY(to_shear(data, poisson, bulk_relaxes, fit->shear.rest, moduli, loss, err));
+
+    // Shear moduli of data in Young's modulus: with K constant G = 3 K E / (9 K - E), complex; with
+    // Poisson's ratio constant G = E / (2 (1 + nu)).
+    double young = fit->shear.rest, over_K = 3 * (1 - 2 * poisson) / young;
+    for (int32_t i = 0; !data->shear && i < own.count; i++) {
+        double complex E = moduli[i] + I * loss[i];
+        double complex G = bulk_relaxes ? E / (2 * (1 + poisson)) : 3 * E / (9 - E * over_K);
+        if (!(9 - creal(E) * over_K > 0))
+            FAIL(err, ERROR_INPUT,
+                 "a modulus of %g is more than an elastic volume allows for, with poisson "
+                 "= %g of a long-time modulus of %g: poisson nearer to 0.5, or bulk: "
+                 "relaxes",
+                 creal(E), poisson, young);
+        moduli[i] = creal(G);
+        loss[i] = cimag(G);
+    }
 
     // The part of a given viscosity is taken off the losses in shear.
     for (int32_t i = 0; own.loss && !has_viscosity && i < own.count; i++) {
@@ -281,32 +274,6 @@ bool scene_material_file(const Scene *scene, const SceneMaterial *region, Materi
 
 static const char BESIDE[] = "gives young and relaxation: leave these out beside it";
 
-static bool complete_region(const Scene *scene, SceneMaterial *region, const char **key, Error *err)
-{
-    MaterialData data;
-    MaterialFit fit;
-    bool has_eta = region->given[MATERIAL_ETA1];
-    if (region->given[MATERIAL_YOUNG] || region->given[MATERIAL_YOUNG_SHORT] ||
-        region->has_relaxation)
-        return REFUSE_AT(err, key, "materials", "%s: `from` %s", region->group, BESIDE);
-    bool done = scene_material_file(scene, region, &data, &fit, key, err);
-    material_data_destroy(&data);
-    if (!done) return false;
-    const double number[] = {
-        [MATERIAL_YOUNG] = fit.young, [MATERIAL_ETA1] = fit.eta1, [MATERIAL_ETA2] = 0};
-    static const int32_t list[] = {MATERIAL_YOUNG, MATERIAL_ETA1, MATERIAL_ETA2};
-    for (int32_t i = 0; i < 3; i++) {
-        int32_t k = list[i];
-        if (!region->given[k]) region->number[k] = number[k];
-        region->given[k] = true;
-    }
-    region->eta_from_file = !has_eta;
-    region->relaxation = fit.relaxation;
-    region->has_relaxation = true;
-    region->has_from = false;
-    return true;
-}
-
 static bool is_given(const Scene *scene, const char *key)
 {
     return scene->given[scene_key_index(key)];
@@ -316,16 +283,32 @@ static bool is_given(const Scene *scene, const char *key)
 // without it.
 bool scene_material_files(Scene *scene, const char **key, Error *err)
 {
-    for (int32_t k = 0; k < scene->materials.count; k++)
-        if (scene->materials.region[k].has_from &&
-            !complete_region(scene, &scene->materials.region[k], key, err))
-            return false;
+    MaterialData data;
+    MaterialFit fit;
+    for (int32_t k = 0; k < scene->materials.count; k++) {
+        SceneMaterial *region = &scene->materials.region[k];
+        const bool *given = region->given;
+        if (!region->has_from) continue;
+        if (given[MATERIAL_YOUNG] || given[MATERIAL_YOUNG_SHORT] || region->has_relaxation)
+            return REFUSE_AT(err, key, "materials", "%s: `from` %s", region->group, BESIDE);
+        bool found = scene_material_file(scene, region, &data, &fit, key, err);
+        material_data_destroy(&data);
+        if (!found) return false;
+        static const int32_t list[] = {MATERIAL_YOUNG, MATERIAL_ETA1, MATERIAL_ETA2};
+        const double number[] = {fit.young, fit.eta1, 0};
+        region->eta_from_file = !given[MATERIAL_ETA1];
+        for (int32_t i = 0; i < 3; i++) {
+            if (!given[list[i]]) region->number[list[i]] = number[i];
+            region->given[list[i]] = true;
+        }
+        region->relaxation = fit.relaxation;
+        region->has_relaxation = true;
+        region->has_from = false;
+    }
     if (!is_given(scene, "material.from")) return true;
     if (is_given(scene, "material.young") || is_given(scene, "material.young_short") ||
         is_given(scene, "material.relaxation"))
         return REFUSE_AT(err, key, "material.from", "%s", BESIDE);
-    MaterialData data;
-    MaterialFit fit;
     bool done = scene_material_file(scene, NULL, &data, &fit, key, err);
     material_data_destroy(&data);
     if (!done) return false;

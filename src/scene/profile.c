@@ -95,30 +95,6 @@ static bool read_heads(const CsvTable *csv, SceneUnits units, int32_t place[COLU
     return true;
 }
 
-static bool read_points(const CsvTable *csv, const int32_t place[COLUMNS_MAX],
-                        const double scale[COLUMNS_MAX], Table *table, Error *err)
-{
-    double before = -INFINITY;
-    if (!(table->points = memory_array(csv->rows, sizeof *table->points, err))) return false;
-    for (int32_t row = 0; row < csv->rows; row++) {
-        ProfilePoint *point = &table->points[table->count++];
-        for (int32_t name = 0, k = 0; name < COLUMNS_MAX; name++) {
-            if (place[name] < 0) continue;
-            if (!csv_read_number(csv, row, place[name], &point->column[k], err)) return false;
-            point->column[k++] *= scale[name];
-        }
-        double x = point->column[0], gap = point->column[table->columns - 1];
-        if (table->columns == 2 && !(x > before))
-            return csv_refuse(csv, row, place[0], err, "x = %g comes after %g; x must ascend", x,
-                              before);
-        if (!(gap >= 0))
-            return csv_refuse(csv, row, place[COLUMNS_MAX - 1], err,
-                              "at x = %g the gap is %g; a number >= 0 is needed", x, gap);
-        before = x;
-    }
-    return true;
-}
-
 // The places along a column, ascending, each once.
 static bool list_places(const Table *table, int32_t column, double **places, int32_t *count,
                         Error *err)
@@ -148,38 +124,6 @@ static int32_t place_before(const double *places, int32_t count, double at)
     return low;
 }
 
-// Points into rows: of a map each pair of an x and a y needs its one.
-static bool lay_out(const Table *table, SceneProfile *profile, Error *err)
-{
-    int32_t last = table->columns - 1;
-    profile->rows = 1;
-    if (!list_places(table, 0, &profile->x, &profile->count, err)) return false;
-    if (last == COLUMNS_MAX - 1 && !list_places(table, 1, &profile->y, &profile->rows, err))
-        return false;
-    if ((int64_t)profile->count * profile->rows != table->count)
-        return REFUSE(err,
-                      "%s has %d points at %d different x and %d different y: a height map is a "
-                      "grid, with one point for each x and y",
-                      table->path, table->count, profile->count, profile->rows);
-    if (!(profile->gap = NEW_ARRAY(double, table->count, err))) return false;
-    for (int32_t i = 0; i < table->count; i++) profile->gap[i] = NAN;
-    for (int32_t i = 0; i < table->count; i++) {
-        const double *point = table->points[i].column;
-        int32_t k = place_before(profile->x, profile->count, point[0]), row = 0;
-        k += point[0] > profile->x[k];
-        if (profile->y) {
-            row = place_before(profile->y, profile->rows, point[1]);
-            row += point[1] > profile->y[row];
-        }
-        double *gap = &profile->gap[(int64_t)profile->count * row + k];
-        if (!isnan(*gap))
-            return REFUSE(err, "%s has two points at x = %g, y = %g", table->path, point[0],
-                          point[1]);
-        *gap = point[last];
-    }
-    return true;
-}
-
 bool scene_profile_read(const Scene *scene, SceneProfile *profile, Error *err)
 {
     Table table = {.path = scene->contact.profile};
@@ -192,8 +136,53 @@ bool scene_profile_read(const Scene *scene, SceneProfile *profile, Error *err)
     TRY(read_heads(&csv, scene->units, place, scale, &table.columns, err));
     if (csv.rows == 0)
         FAIL(err, ERROR_INPUT, "%s has 0 points; two or more are needed", table.path);
-    TRY(read_points(&csv, place, scale, &table, err));
-    TRY(lay_out(&table, profile, err));
+
+    // Points as they stand in the file. Along x alone they ascend.
+    double before = -INFINITY;
+    int32_t last = table.columns - 1;
+    TRY((table.points = memory_array(csv.rows, sizeof *table.points, err)));
+    for (int32_t row = 0; row < csv.rows; row++) {
+        ProfilePoint *point = &table.points[table.count++];
+        for (int32_t name = 0, k = 0; name < COLUMNS_MAX; name++) {
+            if (place[name] < 0) continue;
+            TRY(csv_read_number(&csv, row, place[name], &point->column[k], err));
+            point->column[k++] *= scale[name];
+        }
+        double x = point->column[0], gap = point->column[last];
+        if (table.columns == 2 && !(x > before))
+            TRY(csv_refuse(&csv, row, place[0], err, "x = %g comes after %g; x must ascend", x,
+                           before));
+        if (!(gap >= 0))
+            TRY(csv_refuse(&csv, row, place[COLUMNS_MAX - 1], err,
+                           "at x = %g the gap is %g; a number >= 0 is needed", x, gap));
+        before = x;
+    }
+
+    // The grid: of a map each pair of an x and a y needs its one point.
+    profile->rows = 1;
+    TRY(list_places(&table, 0, &profile->x, &profile->count, err));
+    if (last == COLUMNS_MAX - 1) TRY(list_places(&table, 1, &profile->y, &profile->rows, err));
+    if ((int64_t)profile->count * profile->rows != table.count)
+        FAIL(err, ERROR_INPUT,
+             "%s has %d points at %d different x and %d different y: a height map is a "
+             "grid, with one point for each x and y",
+             table.path, table.count, profile->count, profile->rows);
+    TRY((profile->gap = NEW_ARRAY(double, table.count, err)));
+    for (int32_t i = 0; i < table.count; i++) profile->gap[i] = NAN;
+    for (int32_t i = 0; i < table.count; i++) {
+        const double *point = table.points[i].column;
+        int32_t k = place_before(profile->x, profile->count, point[0]), row = 0;
+        k += point[0] > profile->x[k];
+        if (profile->y) {
+            row = place_before(profile->y, profile->rows, point[1]);
+            row += point[1] > profile->y[row];
+        }
+        double *gap = &profile->gap[(int64_t)profile->count * row + k];
+        if (!isnan(*gap))
+            FAIL(err, ERROR_INPUT, "%s has two points at x = %g, y = %g", table.path, point[0],
+                 point[1]);
+        *gap = point[last];
+    }
 cleanup:
     memory_free(table.points);
     csv_destroy(&csv);

@@ -12,6 +12,7 @@
 #include "scene/scene_values.h"
 
 enum { SCENE_KEYS_MAX = 144 };   // of scene/keys
+enum { SCENE_KEY_SIZE = 96 };   // of a key's name as a user gives it, with the zero at its end
 
 typedef enum SceneUnits { UNITS_NORMALISED, UNITS_SI } SceneUnits;
 typedef enum ScenePlane { PLANE_STRESS, PLANE_STRAIN } ScenePlane;
@@ -163,6 +164,12 @@ bool scene_read(const char *path, const char *const *overrides, int32_t override
 // Passes on whether a use of the value of `key` was `done`. If not, the error is wrong input, and
 // says where it stands: "FILE:LINE: KEY: ...", without a line where the file does not give it.
 bool scene_blame(const Scene *scene, const char *key, bool done, Error *err);
+
+// Takes "key=value", as after --set, apart: *document (to be destroyed by the caller, NULL after a
+// failure) holds the value at its root, and errors about it name the --set. ERROR_INPUT: there is
+// no `=`, no key, a key too long to be one, or no YAML.
+bool scene_override_parse(const char *text, char key[SCENE_KEY_SIZE], YamlDocument **document,
+                          Error *err);
 
 // `key` as after --set, the value a node of another document (a study's), which errors show.
 typedef struct SceneSetting {

@@ -25,17 +25,17 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { SETTINGS_MAX = 4 * SCENE_KEYS_MAX, KEY_NAME_SIZE = 96, FORMULAS_MAX = 256 };
+enum { SETTINGS_MAX = 4 * SCENE_KEYS_MAX, FORMULAS_MAX = 256 };
 
 typedef struct Setting {
     int32_t key;   // of scene_keys(); -1: give `group` its defaults back
     SceneValue value;
-    char group[KEY_NAME_SIZE];
+    char group[SCENE_KEY_SIZE];
 } Setting;
 
 // A formula over the others, in the place of a number.
 typedef struct FormulaSetting {
-    char name[KEY_NAME_SIZE];   // as after --set: "mesh.set.height"; in a list "load.program.t.0"
+    char name[SCENE_KEY_SIZE];   // as after --set: "mesh.set.height"; in a list "load.program.t.0"
     SceneValue value;
     int32_t before;   // settings that were gathered before it; later ones replace it
 } FormulaSetting;
@@ -66,16 +66,6 @@ static bool add_setting(Reader *reader, const Setting *setting, Error *err)
     return true;
 }
 
-// Always false.
-static bool report_unknown(const char *name, const SceneValue *value, Error *err)
-{
-    const char *nearest = scene_key_nearest(name);
-    return yaml_key_error(value->document, value->node, err,
-                          "%s: unknown key%s%s%s (`amontons info keys` lists them all)", name,
-                          nearest ? "; did you mean `" : "", nearest ? nearest : "",
-                          nearest ? "`?" : "");
-}
-
 static bool gather(Reader *reader, const char *name, const SceneValue *value, Error *err);
 
 // An empty map (`load:` alone) is taken as one without keys.
@@ -86,7 +76,7 @@ static bool gather_children(Reader *reader, const char *name, const SceneValue *
     if (kind != YAML_MAP && kind != YAML_NOTHING)
         return yaml_refuse(document, value->node, name, "a map of keys", err);
     YAML_EACH (item, document, value->node) {
-        char path[KEY_NAME_SIZE];
+        char path[SCENE_KEY_SIZE];
         SceneValue child = {.document = document, .node = item};
         snprintf(path, sizeof path, "%s%s%.60s", name, *name ? "." : "", yaml_key(document, item));
         if (!gather(reader, path, &child, err)) return false;
@@ -113,7 +103,7 @@ static bool gather_formulas(Reader *reader, const SceneItems *items, const char 
     }
     if (kind != YAML_LIST && kind != YAML_MAP) return true;
     YAML_EACH (node, value->document, value->node) {
-        char path[KEY_NAME_SIZE], place[16];
+        char path[SCENE_KEY_SIZE], place[16];
         SceneValue child = {.document = value->document, .node = node};
         const char *word = yaml_key(value->document, node);
         snprintf(place, sizeof place, "%d", number++);
@@ -145,8 +135,12 @@ static bool gather(Reader *reader, const char *name, const SceneValue *value, Er
                             yaml_kind(value->document, value->node) == YAML_MAP;
         return !has_children || gather_children(reader, name, value, err);
     }
-    return scene_key_is_group(name) ? gather_children(reader, name, value, err)
-                                    : report_unknown(name, value, err);
+    if (scene_key_is_group(name)) return gather_children(reader, name, value, err);
+    const char *nearest = scene_key_nearest(name);
+    return yaml_key_error(value->document, value->node, err,
+                          "%s: unknown key%s%s%s (`amontons info keys` lists them all)", name,
+                          nearest ? "; did you mean `" : "", nearest ? nearest : "",
+                          nearest ? "`?" : "");
 }
 
 // A value given for `name` from outside of the file; `mesh.set.NAME` sets a single parameter,
@@ -154,7 +148,7 @@ static bool gather(Reader *reader, const char *name, const SceneValue *value, Er
 static bool gather_outside(Reader *reader, const char *name, const SceneValue *value, Error *err)
 {
     Setting setting = {.key = -1, .value = *value};
-    if (strlen(name) >= KEY_NAME_SIZE)
+    if (strlen(name) >= SCENE_KEY_SIZE)
         return REFUSE(err, "%.80s...: unknown key (`amontons info keys` lists them all)", name);
     setting.key = scene_key_above(name, &setting.value.part);
     if (setting.key >= 0) {
@@ -168,37 +162,19 @@ static bool gather_outside(Reader *reader, const char *name, const SceneValue *v
     return gather(reader, name, value, err);
 }
 
-// One `--set`: "key=value".
-static bool gather_override(Reader *reader, const char *text, Error *err)
+bool scene_override_parse(const char *text, char key[SCENE_KEY_SIZE], YamlDocument **document,
+                          Error *err)
 {
-    char name[KEY_NAME_SIZE] = "", shown[KEY_NAME_SIZE + 8];
+    char shown[SCENE_KEY_SIZE + 8];
     const char *equals = strchr(text, '=');
-    if (!equals || equals == text || equals - text >= KEY_NAME_SIZE)
+    if (!equals || equals == text || equals - text >= SCENE_KEY_SIZE)
         return REFUSE(err, "--set %.80s: wanted is key=value, as in load.pressure=0.006", text);
-    memcpy(name, text, (size_t)(equals - text));
-    snprintf(shown, sizeof shown, "--set %s", name);
-    YamlDocument **document = &reader->overrides[reader->override_count];
-    if (!yaml_parse(shown, text, (int32_t)(equals - text) + 1, document, err)) return false;
-    reader->override_count++;
-    SceneValue value = {.document = *document, .node = YAML_ROOT};
-    if (scene_is_formula(*document, YAML_ROOT)) return true;   // needs the others: work_out_all
-    return gather_outside(reader, name, &value, err);
+    snprintf(key, SCENE_KEY_SIZE, "%.*s", (int)(equals - text), text);
+    snprintf(shown, sizeof shown, "--set %s", key);
+    return yaml_parse(shown, text, (int32_t)(equals - text) + 1, document, err);
 }
 
 // --- storing ------------------------------------------------------------------------------------
-
-// The table's defaults are texts, read by the same parser as a scene's values: what is shown as a
-// default can be typed.
-static bool read_defaults(Reader *reader, Error *err)
-{
-    char text[16 * SCENE_KEYS_MAX] = "[";
-    size_t used = 1;
-    for (int32_t k = 0; k < reader->key_count; k++)
-        used += (size_t)snprintf(text + used, sizeof text - used, "%s, ",
-                                 reader->keys[k].standard ? reader->keys[k].standard : "~");
-    snprintf(text + used - 2, sizeof text - used, "]");
-    return yaml_parse("defaults", text, 0, &reader->defaults, err);
-}
 
 static bool store_value(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
 {
@@ -283,7 +259,7 @@ static bool is_replaced(const Reader *reader, const FormulaSetting *formula)
 {
     for (int32_t i = formula->before; i < reader->setting_count; i++) {
         const Setting *setting = &reader->settings[i];
-        char name[2 * KEY_NAME_SIZE];
+        char name[2 * SCENE_KEY_SIZE];
         bool below = setting->key >= 0 && setting->value.part;
         const char *key = setting->key >= 0 ? reader->keys[setting->key].name : setting->group;
         snprintf(name, sizeof name, "%s%s%s", key, below ? "." : "", below ? setting->group : "");
@@ -385,20 +361,6 @@ static bool resolve_file(const char *path, const char *key, char *name, Error *e
     return true;
 }
 
-static bool gather_file(Reader *reader, Error *err)
-{
-    SceneValue root = {.document = reader->file, .node = YAML_ROOT};
-    if (yaml_kind(reader->file, YAML_ROOT) == YAML_NOTHING)
-        return yaml_error(
-            reader->file, YAML_ROOT, err,
-            "the scene is empty; a scene is a map of keys (`amontons info keys` lists them)");
-    if (yaml_kind(reader->file, YAML_ROOT) != YAML_MAP)
-        return yaml_error(reader->file, YAML_ROOT, err,
-                          "not a scene: a scene is a map of keys, as in `units: normalised` "
-                          "(`amontons info keys` lists them)");
-    return gather_children(reader, "", &root, err);
-}
-
 // Reads the values that the file gives. *scene is overwritten, and of no use after a failure.
 static bool begin_reading(Reader *reader, const char *path, Scene *scene, Error *err)
 {
@@ -408,40 +370,37 @@ static bool begin_reading(Reader *reader, const char *path, Scene *scene, Error 
     if (strlen(path) >= SCENE_TEXT_SIZE)
         return REFUSE(err, "%.80s...: a path of more than 511 bytes", path);
     memcpy(scene->path, path, strlen(path) + 1);
-    return (reader->settings = NEW_ARRAY(Setting, SETTINGS_MAX, err)) &&
-           (reader->formulas = NEW_ARRAY(FormulaSetting, FORMULAS_MAX, err)) &&
-           read_defaults(reader, err) && gather_file(reader, err);
-}
+    if (!(reader->settings = NEW_ARRAY(Setting, SETTINGS_MAX, err)) ||
+        !(reader->formulas = NEW_ARRAY(FormulaSetting, FORMULAS_MAX, err)))
+        return false;
 
-// Formulas of --set, in their order, over the scene that all else and those before make.
-static bool work_out_all(Reader *reader, const char *const *overrides, int32_t count, Scene *scene,
-                         Error *err)
-{
-    for (int32_t i = 0; i < count; i++) {
-        const YamlDocument *formula = reader->overrides[i];
-        YamlDocument **value = &reader->overrides[reader->override_count];
-        char name[KEY_NAME_SIZE] = "", shown[3 * KEY_NAME_SIZE];
-        int32_t first = reader->setting_count;
-        if (!scene_is_formula(formula, YAML_ROOT)) continue;
-        memcpy(name, overrides[i], (size_t)(strchr(overrides[i], '=') - overrides[i]));
-        snprintf(shown, sizeof shown, "--set %s, value of `%.80s`", name,
-                 yaml_text(formula, YAML_ROOT));
-        SceneSetting setting = {.key = name, .document = formula, .node = YAML_ROOT};
-        if (!scene_work_out(scene, &setting, shown, value, err)) return false;
-        reader->override_count++;
-        if (!gather_outside(reader, name, &(SceneValue){.document = *value, .node = YAML_ROOT},
-                            err))
-            return false;
-        if (!store_from(reader, first, scene, err) || !work_out_formulas(reader, scene, err))
-            return false;
-    }
-    return true;
+    // The table's defaults are texts, read by the same parser as a scene's values: a default can be
+    // typed as it is shown.
+    char text[16 * SCENE_KEYS_MAX] = "[";
+    size_t used = 1;
+    for (int32_t k = 0; k < reader->key_count; k++)
+        used += (size_t)snprintf(text + used, sizeof text - used, "%s, ",
+                                 reader->keys[k].standard ? reader->keys[k].standard : "~");
+    snprintf(text + used - 2, sizeof text - used, "]");
+    if (!yaml_parse("defaults", text, 0, &reader->defaults, err)) return false;
+
+    SceneValue root = {.document = reader->file, .node = YAML_ROOT};
+    YamlKind kind = yaml_kind(reader->file, YAML_ROOT);
+    if (kind == YAML_NOTHING)
+        return yaml_error(
+            reader->file, YAML_ROOT, err,
+            "the scene is empty; a scene is a map of keys (`amontons info keys` lists them)");
+    if (kind != YAML_MAP)
+        return yaml_error(reader->file, YAML_ROOT, err,
+                          "not a scene: a scene is a map of keys, as in `units: normalised` "
+                          "(`amontons info keys` lists them)");
+    return gather_children(reader, "", &root, err);
 }
 
 // When everything is stored.
 static bool finish_reading(Reader *reader, const char *path, Scene *scene, Error *err)
 {
-    char key[KEY_NAME_SIZE];
+    char key[SCENE_KEY_SIZE];
     const char *word = NULL;
     SceneProfile profile;   // read again when the contact is known
     bool done;
@@ -482,12 +441,38 @@ bool scene_read(const char *path, const char *const *overrides, int32_t override
                 bool trusted, Scene *scene, Error *err)
 {
     Reader reader = {.trusted = trusted};
+    char name[SCENE_KEY_SIZE];
     TRY(begin_reading(&reader, path, scene, err));
     TRY((reader.overrides = NEW_ARRAY(YamlDocument *, 2 * (int64_t)override_count, err)));
-    for (int32_t i = 0; i < override_count; i++) TRY(gather_override(&reader, overrides[i], err));
+    for (int32_t i = 0; i < override_count; i++) {
+        YamlDocument **document = &reader.overrides[i];
+        TRY(scene_override_parse(overrides[i], name, document, err));
+        reader.override_count++;
+        if (scene_is_formula(*document, YAML_ROOT)) continue;   // needs the others: below
+        TRY(gather_outside(&reader, name, &(SceneValue){.document = *document, .node = YAML_ROOT},
+                           err));
+    }
     TRY(store_settings(&reader, scene, err));
     TRY(work_out_formulas(&reader, scene, err));
-    TRY(work_out_all(&reader, overrides, override_count, scene, err));
+
+    // Formulas of --set, in their order, over the scene that all else and those before make.
+    for (int32_t i = 0; i < override_count; i++) {
+        const YamlDocument *formula = reader.overrides[i];
+        YamlDocument **value = &reader.overrides[reader.override_count];
+        char shown[3 * SCENE_KEY_SIZE];
+        int32_t first = reader.setting_count;
+        if (!scene_is_formula(formula, YAML_ROOT)) continue;
+        snprintf(name, sizeof name, "%.*s", (int)strcspn(overrides[i], "="), overrides[i]);
+        snprintf(shown, sizeof shown, "--set %s, value of `%.80s`", name,
+                 yaml_text(formula, YAML_ROOT));
+        SceneSetting setting = {.key = name, .document = formula, .node = YAML_ROOT};
+        TRY(scene_work_out(scene, &setting, shown, value, err));
+        reader.override_count++;
+        TRY(gather_outside(&reader, name, &(SceneValue){.document = *value, .node = YAML_ROOT},
+                           err));
+        TRY(store_from(&reader, first, scene, err));
+        TRY(work_out_formulas(&reader, scene, err));
+    }
     TRY(finish_reading(&reader, path, scene, err));
 cleanup:
     destroy_reader(&reader);

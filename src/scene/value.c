@@ -55,26 +55,6 @@ static bool set_items(const SceneKey *key, const SceneValue *value, YamlKind kin
 
 // --- numbers ------------------------------------------------------------------------------------
 
-// A unit of another dimension: which are allowed, and by what the number has to be divided. Always
-// false.
-static bool report_unit(const SceneKey *key, const SceneValue *value, const char *suffix,
-                        Error *err)
-{
-    const char *text = yaml_text(value->document, value->node);
-    bool times = false;
-    const char *by = unit_quotient(suffix, key->unit, &times);
-    const char *article = by && strchr("aeiou", *by) ? "an" : "a";
-    char advice[240] = "";
-    if (by)
-        snprintf(advice, sizeof advice, "; %s it by %s %s%s%s%s", times ? "multiply" : "divide",
-                 article, by, key->hint ? " (" : "", key->hint ? key->hint : "",
-                 key->hint ? ")" : "");
-    return yaml_error(value->document, value->node, err,
-                      "%s: found `%.60s`; `%.30s` is no unit of %s; allowed: %s%s%s%s", key->name,
-                      text, suffix, key->unit, unit_examples(key->unit), key->whole ? ", " : "",
-                      key->whole ? unit_examples(key->whole) : "", advice);
-}
-
 // Applies the unit `suffix` to *number, or says why it does not fit. *whole: it is one of the
 // dimension key->whole.
 static bool apply_unit(const SceneKey *key, const SceneValue *value, SceneUnits units,
@@ -98,7 +78,21 @@ static bool apply_unit(const SceneKey *key, const SceneValue *value, SceneUnits 
                           text, scene_range_words(key->range));
     if (unit_to_si(suffix, key->unit, number)) return true;
     *whole = key->whole && unit_to_si(suffix, key->whole, number);
-    return *whole || report_unit(key, value, suffix, err);
+    if (*whole) return true;
+
+    // A unit of another dimension: which are allowed, and by what the number has to be divided.
+    bool times = false;
+    const char *by = unit_quotient(suffix, key->unit, &times);
+    const char *article = by && strchr("aeiou", *by) ? "an" : "a";
+    char advice[240] = "";
+    if (by)
+        snprintf(advice, sizeof advice, "; %s it by %s %s%s%s%s", times ? "multiply" : "divide",
+                 article, by, key->hint ? " (" : "", key->hint ? key->hint : "",
+                 key->hint ? ")" : "");
+    return yaml_error(value->document, value->node, err,
+                      "%s: found `%.60s`; `%.30s` is no unit of %s; allowed: %s%s%s%s", key->name,
+                      text, suffix, key->unit, unit_examples(key->unit), key->whole ? ", " : "",
+                      key->whole ? unit_examples(key->whole) : "", advice);
 }
 
 // A formula that has no value yet: what holds it is read again when scene/scene_read has worked it
@@ -151,17 +145,6 @@ static bool read_in_range(const SceneKey *key, const SceneValue *value, SceneUni
     return scene_range_holds(key->range, *number) || report_wrong(key, value, err);
 }
 
-static bool set_number(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
-{
-    double number = 0;
-    bool whole = false;
-    if (is_waiting(value)) return true;   // the default stays
-    if (!read_in_range(key, value, scene->units, &number, &whole, err)) return false;
-    memcpy(field_of(key, scene), &number, sizeof number);
-    if (key->whole) *(bool *)((char *)scene + key->is_whole) = whole;
-    return true;
-}
-
 static bool add_number(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
 {
     SceneNumbers *numbers = field_of(key, scene);
@@ -170,12 +153,6 @@ static bool add_number(const SceneKey *key, const SceneValue *value, Scene *scen
     if (!read_in_range(key, value, scene->units, &number, &whole, err)) return false;
     numbers->value[numbers->count++] = number;
     return true;
-}
-
-static bool set_numbers(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
-{
-    scene_value_clear(key, scene);
-    return set_items(key, value, YAML_LIST, add_number, scene, err);
 }
 
 // --- branches -----------------------------------------------------------------------------------
@@ -258,14 +235,6 @@ static bool set_branch_part(const SceneKey *key, const SceneValue *value, Scene 
     return true;
 }
 
-static bool set_branches(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
-{
-    if (value->part) return set_branch_part(key, value, scene, err);
-    scene_value_clear(key, scene);
-    if (yaml_kind(value->document, value->node) == YAML_NOTHING) return true;
-    return set_items(key, value, YAML_LIST, add_branch, scene, err);
-}
-
 // --- words --------------------------------------------------------------------------------------
 
 // true and false as YAML 1.2's core schema has them; YAML 1.1's yes, no, on and off are refused.
@@ -277,15 +246,6 @@ static bool read_flag(const char *text, bool *flag)
         if (strcmp(text, words[*flag][k % 3]) == 0) return true;
     }
     return false;
-}
-
-static bool set_flag(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
-{
-    bool flag;
-    if (!read_flag(yaml_text(value->document, value->node), &flag))
-        return report_wrong(key, value, err);
-    memcpy(field_of(key, scene), &flag, sizeof flag);
-    return true;
 }
 
 // size: of `out`, which is filled with zeros first. A name (GROUP_NAME_SIZE) must not be empty; no
@@ -336,15 +296,6 @@ static bool report_choice(const SceneKey *key, const SceneValue *value, Error *e
                       key->choices[nearest], allowed);
 }
 
-static bool set_choice(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
-{
-    if (!expect_scalar(key, value, err)) return false;
-    int32_t choice = find_choice(key, yaml_text(value->document, value->node));
-    if (choice < 0) return report_choice(key, value, err);
-    memcpy(field_of(key, scene), &choice, sizeof choice);
-    return true;
-}
-
 static bool add_name(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
 {
     SceneNames *names = field_of(key, scene);
@@ -359,17 +310,7 @@ static bool add_name(const SceneKey *key, const SceneValue *value, Scene *scene,
     return true;
 }
 
-// One name, or a list of them; nothing is an empty list.
-static bool set_names(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
-{
-    YamlKind kind = yaml_kind(value->document, value->node);
-    *(SceneNames *)field_of(key, scene) = (SceneNames){0};
-    if (kind == YAML_NOTHING) return true;
-    if (kind == YAML_SCALAR) return add_name(key, value, scene, err);
-    return set_items(key, value, YAML_LIST, add_name, scene, err);
-}
-
-// --- the keys that are maps and lists of their own ----------------------------------------------
+// --- by the type of the key ---------------------------------------------------------------------
 
 // The parameter that the value's own key names, or the rest of the path of a --set.
 static bool set_parameter(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
@@ -399,29 +340,6 @@ static bool set_parameter(const SceneKey *key, const SceneValue *value, Scene *s
     return true;
 }
 
-static bool set_parameters(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
-{
-    if (value->part) return set_parameter(key, value, scene, err);
-    scene->mesh.parameter_count = 0;
-    if (yaml_kind(value->document, value->node) == YAML_NOTHING) return true;
-    return set_items(key, value, YAML_MAP, set_parameter, scene, err);
-}
-
-// `none`, or a map whose keys follow as settings of their own; these were given their defaults
-// before.
-static bool set_fields(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
-{
-    bool is_map = yaml_kind(value->document, value->node) == YAML_MAP;
-    bool is_film = !is_map && strcmp(yaml_text(value->document, value->node), "film") == 0;
-    if (!is_map && !is_film && strcmp(yaml_text(value->document, value->node), "none") != 0)
-        return report_wrong(key, value, err);
-    scene->output.fields = is_map || is_film;
-    scene->output.fields_film = is_film;
-    scene->output.fields_every_U = scene->output.fields_every_t = 0;
-    scene->output.fields_every_step = scene->output.fields_at_events = false;
-    return true;
-}
-
 void scene_value_clear(const SceneKey *key, Scene *scene)
 {
     size_t size = key->type == KEY_NUMBER     ? sizeof(double)
@@ -437,29 +355,68 @@ void scene_value_clear(const SceneKey *key, Scene *scene)
 
 bool scene_value_set(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
 {
+    YamlKind kind = yaml_kind(value->document, value->node);
+    const char *text = yaml_text(value->document, value->node);   // of a scalar
+    void *field = field_of(key, scene);
     switch (key->type) {
-    case KEY_NUMBER:
-        return set_number(key, value, scene, err);
-    case KEY_FLAG:
-        return set_flag(key, value, scene, err);
+    case KEY_NUMBER: {
+        double number = 0;
+        bool whole = false;
+        if (is_waiting(value)) return true;   // the default stays
+        if (!read_in_range(key, value, scene->units, &number, &whole, err)) return false;
+        memcpy(field, &number, sizeof number);
+        if (key->whole) *(bool *)((char *)scene + key->is_whole) = whole;
+        return true;
+    }
+    case KEY_FLAG: {
+        bool flag;
+        if (!read_flag(text, &flag)) return report_wrong(key, value, err);
+        memcpy(field, &flag, sizeof flag);
+        return true;
+    }
     case KEY_TEXT:
-        return copy_text(key, value, SCENE_TEXT_SIZE, field_of(key, scene), err);
+        return copy_text(key, value, SCENE_TEXT_SIZE, field, err);
     case KEY_NAME:
-        return copy_text(key, value, GROUP_NAME_SIZE, field_of(key, scene), err);
-    case KEY_CHOICE:
-        return set_choice(key, value, scene, err);
+        return copy_text(key, value, GROUP_NAME_SIZE, field, err);
+    case KEY_CHOICE: {
+        if (!expect_scalar(key, value, err)) return false;
+        int32_t choice = find_choice(key, text);
+        if (choice < 0) return report_choice(key, value, err);
+        memcpy(field, &choice, sizeof choice);
+        return true;
+    }
     case KEY_NUMBERS:
-        return set_numbers(key, value, scene, err);
-    case KEY_NAMES:
-        return set_names(key, value, scene, err);
+        scene_value_clear(key, scene);
+        return set_items(key, value, YAML_LIST, add_number, scene, err);
+    case KEY_NAMES:   // one name, or a list of them; nothing is an empty list
+        *(SceneNames *)field = (SceneNames){0};
+        if (kind == YAML_NOTHING) return true;
+        if (kind == YAML_SCALAR) return add_name(key, value, scene, err);
+        return set_items(key, value, YAML_LIST, add_name, scene, err);
     case KEY_PARAMETERS:
-        return set_parameters(key, value, scene, err);
+        if (value->part) return set_parameter(key, value, scene, err);
+        scene->mesh.parameter_count = 0;
+        if (kind == YAML_NOTHING) return true;
+        return set_items(key, value, YAML_MAP, set_parameter, scene, err);
     case KEY_ITEMS:   // scene/items
         return true;
     case KEY_BRANCHES:
-        return set_branches(key, value, scene, err);
-    case KEY_FIELDS:
-        return set_fields(key, value, scene, err);
+        if (value->part) return set_branch_part(key, value, scene, err);
+        scene_value_clear(key, scene);
+        if (kind == YAML_NOTHING) return true;
+        return set_items(key, value, YAML_LIST, add_branch, scene, err);
+    case KEY_FIELDS: {
+        // `none`, or a map whose keys follow as settings of their own; these were given their
+        // defaults before.
+        bool is_film = kind != YAML_MAP && strcmp(text, "film") == 0;
+        if (kind != YAML_MAP && !is_film && strcmp(text, "none") != 0)
+            return report_wrong(key, value, err);
+        scene->output.fields = kind == YAML_MAP || is_film;
+        scene->output.fields_film = is_film;
+        scene->output.fields_every_U = scene->output.fields_every_t = 0;
+        scene->output.fields_every_step = scene->output.fields_at_events = false;
+        return true;
+    }
     }
     return true;
 }

@@ -169,7 +169,8 @@ static double excess_speed(const FrictionNode *node, double free_speed, double s
 
 // The speed left of `free_speed` by friction: the largest root of excess_speed; 0: sticks. Newton
 // from the right goes down to it where the law is convex; else halving helps where a step leaves
-// the interval that holds it. Both end where nothing is left between the ends of this interval.
+// the interval that holds it. Both end where nothing is left between the ends of this interval. A
+// node begins to slip where friction at rest cannot take all of free_speed in one step.
 static double slip_speed(const FrictionNode *node, double free_speed, double strength, bool slipped)
 {
     enum { EXCESS_PARTS = 64 };

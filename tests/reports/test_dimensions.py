@@ -41,7 +41,7 @@ REASONS = {
     "src/record/fields.c": ("displacement and velocity", r"unknowns\[k % 2\]|whole\[k % 2\]|slot \+ k / 2"),
     "src/reduction/training_points.c": ("levels", r"2 \* steps"),
     "render/figures/figure_maps.c": ("begin and end of a stretch of time", r"events"),
-    "src/run/static/static_report.c": ("two arrays", r"contact = NEW_ARRAY"),
+    "src/run/static/static_solve.c": ("two arrays", r"contact = NEW_ARRAY"),
     "src/study/line/modes.c": ("even modes", r"j % 2 == 0"),
     "src/study/stability/file.c": ("real and imaginary part", r"modes/slip"),
     "src/study/sweep/showing/sweep_plot.c": ("x and y of a figure", r"places\["),

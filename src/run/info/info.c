@@ -71,31 +71,28 @@ cleanup:
     return error_is_clean(err);
 }
 
-// A file of a result stands for the folder that it lies in.
-static bool is_of_result(const char *path, char folder[AMONTONS_PATH_SIZE])
-{
-    static const char *const names[] = {"run.json", "history.h5", "history.h5.part"};
-    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
-    int length = slash ? (int)(slash - path) : 0;
-    if (length >= AMONTONS_PATH_SIZE) return false;
-    snprintf(folder, AMONTONS_PATH_SIZE, "%.*s", length, path);
-    if (length == 0) snprintf(folder, AMONTONS_PATH_SIZE, slash ? "/" : ".");
-    for (size_t k = 0; k < sizeof names / sizeof names[0]; k++)
-        if (strcmp(name, names[k]) == 0) return true;
-    return false;
-}
-
 // Problems with the output (a full disk, a closed pipe) are errors too.
 bool amontons_info(const char *path, const InfoOptions *options, FILE *out, Error *err)
 {
     NUMBERS_HAVE_A_POINT;
+    static const char *const names[] = {"run.json", "history.h5", "history.h5.part"};
     struct stat status;
     InfoOptions none = {0};
     char folder[AMONTONS_PATH_SIZE];
     if (!options) options = &none;
     if (stat(path, &status) != 0) return REFUSE(err, "%s: %s", path, strerror(errno));
-    if (!S_ISDIR(status.st_mode) && is_of_result(path, folder))
+
+    // A file of a result stands for the folder that it lies in.
+    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+    int length = slash ? (int)(slash - path) : 0;
+    bool fits = !S_ISDIR(status.st_mode) && length < AMONTONS_PATH_SIZE;
+    for (size_t k = 0; fits && k < sizeof names / sizeof names[0]; k++) {
+        if (strcmp(name, names[k]) != 0) continue;
+        snprintf(folder, sizeof folder, "%.*s", length, path);
+        if (length == 0) snprintf(folder, sizeof folder, slash ? "/" : ".");
         return amontons_info(folder, options, out, err);
+    }
+
     bool told;
     if (S_ISDIR(status.st_mode)) {
         if (options->picture || options->override_count > 0)

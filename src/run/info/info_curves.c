@@ -28,6 +28,20 @@ enum {
 static const double BEYOND = 3;   // how far a law is drawn beyond its data, in factors of speed
 static const double DECADES = 1e3;   // beyond v_c to either side, where there are no data
 
+typedef struct Curve {
+    const char *label;
+    const char *line, *marker;   // as in a plot's file (render/plot/plot_file.h)
+    int32_t color;   // of its eight; 0: ink
+    int32_t count;
+    const double *x, *y;   // [count]
+    const double *error;   // [count] of y; NULL: no bars
+} Curve;
+
+typedef struct Axis {
+    const char *label, *unit;   // unit NULL: none
+    bool by_log;
+} Axis;
+
 bool info_picture_is_of(const char *picture, const char *name)
 {
     const char *slash = strrchr(picture, '/'), *first = slash ? slash + 1 : picture;
@@ -45,9 +59,19 @@ static void write_list(JsonWriter *json, const char *name, const double *value, 
     json_end(json);
 }
 
-static void write_plot(JsonWriter *json, const char *title, const InfoAxis axes[2],
-                       const InfoCurve *curves, int32_t count)
+// Draws the curves into options->picture. NaN: a gap.
+static bool draw_curves(const char *title, const Axis axes[2], const Curve *curves, int32_t count,
+                        const InfoOptions *options, Error *err)
 {
+    char folder[PATH_SIZE], path[PATH_SIZE + 16];
+    const char *place = getenv("TMPDIR");
+    PictureStyle style = {.overwrite = options->overwrite};
+    bool done = false;
+    snprintf(folder, sizeof folder, "%s/amontons-XXXXXX", place && *place ? place : "/tmp");
+    if (!mkdtemp(folder)) return FAULT(err, ERROR_FILE, "cannot make the folder %s", folder);
+    snprintf(path, sizeof path, "%s/plot.json", folder);
+    JsonWriter *json = json_create(path, err);
+    if (!json) goto cleanup;
     json_begin_object(json, NULL);
     json_text(json, "title", title);
     for (int32_t d = 0; d < 2; d++) {
@@ -59,7 +83,7 @@ static void write_plot(JsonWriter *json, const char *title, const InfoAxis axes[
     }
     json_begin_list(json, "series");
     for (int32_t k = 0; k < count; k++) {
-        const InfoCurve *curve = &curves[k];
+        const Curve *curve = &curves[k];
         json_begin_object(json, NULL);
         json_text(json, "label", curve->label);
         write_list(json, "x", curve->x, NULL, 0, curve->count);
@@ -76,21 +100,8 @@ static void write_plot(JsonWriter *json, const char *title, const InfoAxis axes[
     }
     json_end(json);
     json_end(json);
-}
-
-bool info_draw_curves(const char *title, const InfoAxis axes[2], const InfoCurve *curves,
-                      int32_t count, const InfoOptions *options, Error *err)
-{
-    char folder[PATH_SIZE], path[PATH_SIZE + 16];
-    const char *place = getenv("TMPDIR");
-    PictureStyle style = {.overwrite = options->overwrite};
-    snprintf(folder, sizeof folder, "%s/amontons-XXXXXX", place && *place ? place : "/tmp");
-    if (!mkdtemp(folder)) return FAULT(err, ERROR_FILE, "cannot make the folder %s", folder);
-    snprintf(path, sizeof path, "%s/plot.json", folder);
-    JsonWriter *json = json_create(path, err);
-    if (json) write_plot(json, title, axes, curves, count);
-    bool done = json && json_finish(json, err) &&
-                amontons_render_plot_file(path, options->picture, &style, err);
+    done = json_finish(json, err) && amontons_render_plot_file(path, options->picture, &style, err);
+cleanup:
     unlink(path);
     rmdir(folder);
     return done;
@@ -148,20 +159,17 @@ bool info_draw_friction(const Scene *scene, const InfoOptions *options, Error *e
     double driven[2] = {rod, rod}, span[2] = {fmin(lowest, rest), fmax(highest, rest)};
     char at_rest[80];
     snprintf(at_rest, sizeof at_rest, "at rest: %.3g", rest);
-    InfoCurve curves[4] = {{law->remembers ? "steady slip" : "the law", "solid", "none", 1,
-                            FRICTION_SPEEDS, speed, mu, NULL}};
+    Curve curves[4] = {{law->remembers ? "steady slip" : "the law", "solid", "none", 1,
+                        FRICTION_SPEEDS, speed, mu, NULL}};
     int32_t count = 1;
-    if (!law->creeps)
-        curves[count++] = (InfoCurve){at_rest, "dashed", "none", 0, 2, ends, level, NULL};
+    if (!law->creeps) curves[count++] = (Curve){at_rest, "dashed", "none", 0, 2, ends, level, NULL};
     if (rod > 0)
-        curves[count++] = (InfoCurve){"~{V} of the rod", "thin", "none", 2, 2, driven, span, NULL};
+        curves[count++] = (Curve){"~{V} of the rod", "thin", "none", 2, 2, driven, span, NULL};
     if (points > 0)
-        curves[count++] =
-            (InfoCurve){"measured", "none", "circle", 3, points, at, value, data.error};
-    InfoAxis axes[2] = {{"slip rate ~{v}", scene->units == UNITS_SI ? "m/s" : NULL, true},
-                        {"coefficient ~{\xCE\xBC}", NULL, false}};
-    TRY(info_draw_curves(*scene->title ? scene->title : "friction", axes, curves, count, options,
-                         err));
+        curves[count++] = (Curve){"measured", "none", "circle", 3, points, at, value, data.error};
+    Axis axes[2] = {{"slip rate ~{v}", scene->units == UNITS_SI ? "m/s" : NULL, true},
+                    {"coefficient ~{\xCE\xBC}", NULL, false}};
+    TRY(draw_curves(*scene->title ? scene->title : "friction", axes, curves, count, options, err));
 cleanup:
     friction_data_destroy(&data);
     return error_is_clean(err);
@@ -300,27 +308,26 @@ bool info_draw_material(const Scene *scene, const InfoOptions *options, Error *e
     char loss[80];
     snprintf(loss, sizeof loss, "%s measured", words[1]);
     double low[2] = {band[0], band[0]}, high[2] = {band[1], band[1]}, span[2] = {least, most};
-    InfoCurve curves[6] = {{label[0], "solid", "none", 1, MODULUS_POINTS, x, y[0], NULL}};
+    Curve curves[6] = {{label[0], "solid", "none", 1, MODULUS_POINTS, x, y[0], NULL}};
     int32_t count = 1;
     if (!over_time)
-        curves[count++] = (InfoCurve){"", "solid", "none", 1, MODULUS_POINTS, x, y[1], NULL};
+        curves[count++] = (Curve){"", "solid", "none", 1, MODULUS_POINTS, x, y[1], NULL};
     curves[count++] =
-        (InfoCurve){label[1], "none", "circle", 3, moduli->count, at, moduli->storage, NULL};
+        (Curve){label[1], "none", "circle", 3, moduli->count, at, moduli->storage, NULL};
     if (!over_time)
-        curves[count++] =
-            (InfoCurve){loss, "none", "square", 2, moduli->count, at, moduli->loss, NULL};
+        curves[count++] = (Curve){loss, "none", "square", 2, moduli->count, at, moduli->loss, NULL};
     if (known) {
-        curves[count++] = (InfoCurve){
+        curves[count++] = (Curve){
             "rates of the run: 1/duration, wave/cell", "thin", "none", 0, 2, low, span, NULL};
-        curves[count++] = (InfoCurve){"", "thin", "none", 0, 2, high, span, NULL};
+        curves[count++] = (Curve){"", "thin", "none", 0, 2, high, span, NULL};
     }
-    InfoAxis axes[2] = {{over_time ? "time ~{t}" : "frequency ~{f}",
-                         !si         ? NULL
-                         : over_time ? "s"
-                                     : "Hz",
-                         true},
-                        {"modulus", si ? "Pa" : NULL, true}};
-    TRY(info_draw_curves(title, axes, curves, count, options, err));
+    Axis axes[2] = {{over_time ? "time ~{t}" : "frequency ~{f}",
+                     !si         ? NULL
+                     : over_time ? "s"
+                                 : "Hz",
+                     true},
+                    {"modulus", si ? "Pa" : NULL, true}};
+    TRY(draw_curves(title, axes, curves, count, options, err));
 cleanup:
     memory_free(at);
     material_data_destroy(&data);

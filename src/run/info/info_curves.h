@@ -5,24 +5,6 @@
 
 #include "amontons.h"
 
-typedef struct InfoCurve {
-    const char *label;
-    const char *line, *marker;   // as in a plot's file (render/plot/plot_file.h)
-    int32_t color;   // of its eight; 0: ink
-    int32_t count;
-    const double *x, *y;   // [count]
-    const double *error;   // [count] of y; NULL: no bars
-} InfoCurve;
-
-typedef struct InfoAxis {
-    const char *label, *unit;   // unit NULL: none
-    bool by_log;
-} InfoAxis;
-
-// Draws the curves into options->picture. NaN: a gap.
-bool info_draw_curves(const char *title, const InfoAxis axes[2], const InfoCurve *curves,
-                      int32_t count, const InfoOptions *options, Error *err);
-
 // mu of the scene's friction law over the slip rate, with the points that it was made of; of a law
 // that remembers in steady slip.
 bool info_draw_friction(const Scene *scene, const InfoOptions *options, Error *err);

@@ -17,11 +17,27 @@ static const char *size_name(const Mesh *mesh)
     return mesh->dim == 2 ? "area" : "volume";
 }
 
-// Cells and area or volume of a region, which `materials` of a scene may name; how long a curve of
-// the boundary is, and its edges; faces and nodes of a surface.
-static void write_groups(const Mesh *mesh, FILE *out)
+// The aspect ratio is fem/mesh_summary's: longest over shortest edge of an element.
+void info_write_mesh(const Mesh *mesh, FILE *out)
 {
     static const char *const dimensions[] = {"point", "curve", "surface", "volume"};
+    MeshSummary summary = mesh_summarise(mesh);
+    char moved[MOVE_TEXT_SIZE];
+    fprintf(out, "mesh %s\n  %d nodes, %d elements:", mesh->path, mesh->node_count,
+            mesh->element_count);
+    for (int32_t kind = 0; kind < ELEMENT_KIND_COUNT; kind++)
+        if (summary.element_counts[kind])
+            fprintf(out, " %d %s", summary.element_counts[kind], ELEMENTS[(ElementKind)kind].name);
+    fprintf(out, "\n  x from %.6g to %.6g", mesh->x_min, mesh->x_max);
+    if (mesh->dim > 2) fprintf(out, ", y from %.6g to %.6g", mesh->y_min, mesh->y_max);
+    fprintf(out, ", z from %.6g to %.6g, %s %.6g\n", mesh->z_min, mesh->z_max, size_name(mesh),
+            summary.area);
+    fprintf(out, "  element edges %.4g to %.4g, largest aspect ratio %.3g\n", summary.edge_min,
+            summary.edge_max, summary.aspect_max);
+    if (*mesh_move_text(mesh, moved)) fprintf(out, "  %s\n", moved);
+
+    // Cells and area or volume of a region, which `materials` of a scene may name; how long a curve
+    // of the boundary is, and its edges; faces and nodes of a surface.
     fprintf(out, "  groups\n");
     for (int32_t g = 0; g < mesh->group_count; g++) {
         const MeshGroup *group = &mesh->groups[g];
@@ -52,26 +68,6 @@ static void write_groups(const Mesh *mesh, FILE *out)
         }
         fprintf(out, "\n");
     }
-}
-
-// The aspect ratio is fem/mesh_summary's: longest over shortest edge of an element.
-void info_write_mesh(const Mesh *mesh, FILE *out)
-{
-    MeshSummary summary = mesh_summarise(mesh);
-    char moved[MOVE_TEXT_SIZE];
-    fprintf(out, "mesh %s\n  %d nodes, %d elements:", mesh->path, mesh->node_count,
-            mesh->element_count);
-    for (int32_t kind = 0; kind < ELEMENT_KIND_COUNT; kind++)
-        if (summary.element_counts[kind])
-            fprintf(out, " %d %s", summary.element_counts[kind], ELEMENTS[(ElementKind)kind].name);
-    fprintf(out, "\n  x from %.6g to %.6g", mesh->x_min, mesh->x_max);
-    if (mesh->dim > 2) fprintf(out, ", y from %.6g to %.6g", mesh->y_min, mesh->y_max);
-    fprintf(out, ", z from %.6g to %.6g, %s %.6g\n", mesh->z_min, mesh->z_max, size_name(mesh),
-            summary.area);
-    fprintf(out, "  element edges %.4g to %.4g, largest aspect ratio %.3g\n", summary.edge_min,
-            summary.edge_max, summary.aspect_max);
-    if (*mesh_move_text(mesh, moved)) fprintf(out, "  %s\n", moved);
-    write_groups(mesh, out);
     if (mesh->warning[0]) fprintf(out, "  gmsh made it, but says: %s\n", mesh->warning);
 }
 

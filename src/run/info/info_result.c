@@ -144,25 +144,6 @@ static bool write_history_in_child(void *context, FILE *reply, Error *err)
     return write_history(context, reply, err);
 }
 
-// A stranger's history may crash HDF5, or keep it busy for ever. Ours takes milliseconds: only
-// columns of one number a state are read.
-static bool write_history_safely(const char *folder, FILE *out, Error *err)
-{
-    ChildReply reply = {0};
-    ChildWork work = {.path = folder,
-                      .reader = "HDF5",
-                      .seconds = HISTORY_SECONDS_MAX,
-                      .advice = "its history is damaged",
-                      .read = write_history_in_child,
-                      .context = (void *)folder};
-    if (!child_is_wanted()) return write_history(folder, out, err);
-    TRY(child_read(&work, &reply, err));
-    fwrite(reply.bytes, 1, (size_t)reply.size, out);   // the caller looks at the stream's state
-cleanup:
-    child_destroy(&reply);
-    return error_is_clean(err);
-}
-
 // The history is missing where the scene did not ask for it.
 bool info_result(const char *folder, FILE *out, Error *err)
 {
@@ -177,6 +158,21 @@ bool info_result(const char *folder, FILE *out, Error *err)
         return REFUSE(err, "%s: not a result folder: no run.json and no history.h5 in it", folder);
     fprintf(out, "result %s\n", folder);
     if (!write_run(folder, out, err)) return false;
-    if ((there[0] || there[1]) && !write_history_safely(folder, out, err)) return false;
-    return true;
+    if (!there[0] && !there[1]) return true;
+    if (!child_is_wanted()) return write_history(folder, out, err);
+
+    // A stranger's history may crash HDF5, or keep it busy for ever. Ours takes milliseconds: only
+    // columns of one number a state are read.
+    ChildReply reply = {0};
+    ChildWork work = {.path = folder,
+                      .reader = "HDF5",
+                      .seconds = HISTORY_SECONDS_MAX,
+                      .advice = "its history is damaged",
+                      .read = write_history_in_child,
+                      .context = (void *)folder};
+    TRY(child_read(&work, &reply, err));
+    fwrite(reply.bytes, 1, (size_t)reply.size, out);   // the caller looks at the stream's state
+cleanup:
+    child_destroy(&reply);
+    return error_is_clean(err);
 }

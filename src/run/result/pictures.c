@@ -77,9 +77,18 @@ bool amontons_render_plot_file(const char *plot, const char *picture, const Pict
     return render && render(plot, picture, style, err);
 }
 
-// From figures/misfit.csv of `folder` (render/figure_data): a line a figure.
-static bool tell_misfits(const char *folder, char *words, int32_t size, Error *err)
+bool amontons_compare(const char *folder, const char *measured, const PictureStyle *style,
+                      char *words, int32_t size, Error *err)
 {
+    NUMBERS_HAVE_A_POINT;
+    static const char *const figure = "measured";
+    PictureRequest request = {.figures = &figure, .figure_count = 1};
+    if (style) request.style = *style;
+    request.style.compare = measured;
+    if (size > 0) words[0] = 0;
+    if (!amontons_render_result(folder, &request, err)) return false;
+
+    // From figures/misfit.csv of the folder (render/figure_data), a line a figure.
     CsvTable table = {0};
     char path[AMONTONS_PATH_SIZE + 40];
     int32_t used = 0;
@@ -110,16 +119,4 @@ static bool tell_misfits(const char *folder, char *words, int32_t size, Error *e
 cleanup:
     csv_destroy(&table);
     return error_is_clean(err);
-}
-
-bool amontons_compare(const char *folder, const char *measured, const PictureStyle *style,
-                      char *words, int32_t size, Error *err)
-{
-    NUMBERS_HAVE_A_POINT;
-    static const char *const figure = "measured";
-    PictureRequest request = {.figures = &figure, .figure_count = 1};
-    if (style) request.style = *style;
-    request.style.compare = measured;
-    if (size > 0) words[0] = 0;
-    return amontons_render_result(folder, &request, err) && tell_misfits(folder, words, size, err);
 }

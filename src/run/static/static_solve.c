@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// `amontons static`: K u = f + G' r with unilateral contact and Coulomb friction by mu_static,
-// where slip is measured from the undeformed block. It is the contact problem of one stage
-// (contact/contact_problem) with displacements in the place of velocities: S of K alone, g
-// condensed from the load, and bounds that are lengths. Reactions are then found anew from element
-// stresses, r = int B' sigma - f, so that the balances printed owe nothing to the solver.
-#include "run/static/static_solve.h"
-
+// `amontons static`: equilibrium under given load, K u = f + G' r with the plane, friction and rod
+// of a run,
+//
+//     S u_b = g + r,   S, g: K and f condensed on the interface,
+//
+// which is the contact problem of one stage (contact/contact_problem) with displacements in the
+// place of velocities: gap u_z >= 0, the rod at its displacement, friction Coulomb's with
+// mu_static, stick meaning u_x = 0: slip is measured from the undeformed block. The problem is
+// positively homogeneous: loading in proportional steps gives the same states, hence one solve.
+// Reactions are then found anew from element stresses, r = int B' sigma - f, so that the balances
+// printed owe nothing to the solver.
+#include "amontons.h"
 #include "algebra/dense.h"
 #include "base/decimal_point.h"
 #include "base/memory.h"
@@ -13,12 +18,37 @@
 #include "fem/element_group.h"
 #include "fem/floor.h"
 #include "contact/contact_check.h"
+#include "contact/contact_solver.h"
+#include "io/hdf5/array_file.h"
+#include "io/text/json_writer.h"
+#include "model/assemble.h"
 #include "model/contact_laws.h"
 #include "model/gaps.h"
+#include "record/field_files.h"
 #include "run/result/result_folder.h"
+#include "scene/keys.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
+
+enum { PATH_SIZE = 1200 };
+
+typedef struct StaticSolution {
+    double *displacement;   // u [dof_count]; owned, like all that follows
+    double *load;   // f as prescribed, also where supports hold [dof_count]
+    double *reaction;   // int B' sigma - f [dof_count]: plane, rod, supports; elsewhere rounding
+    double *contact_displacement;   // [interface_count]
+    double *contact_reaction;   // [interface_count] r
+    uint8_t *status;   // [contact_count] ContactStatus
+    uint8_t *rod_touches;   // [rod_count]
+    double *work;   // [dof_count]
+    Rod rod;
+    double rod_way;   // where it stands: rod.displacement, or less on a spring; length
+    FrictionNode *friction_nodes;   // [contact_count] Coulomb's law with mu_static; owned
+    Friction friction;   // of them all
+    int64_t iterations;
+} StaticSolution;
 
 // Bounds say where the nodes may go: as far as the rod, and down to the substrate. They lie in
 // [interface_count] `bound`, borrowed, like rod and law of the solution; S and g are the caller's
@@ -68,30 +98,6 @@ cleanup:
     contact_solver_destroy(&solver);
     contact_matrix_destroy(&matrix);
     return error_is_clean(err);
-}
-
-// reaction = int B' sigma - f, element by element: owes nothing to the assembled matrices.
-static void find_reactions(const Model *model, StaticSolution *solution)
-{
-    const Mesh *mesh = &model->mesh;
-    int32_t dofs[ELEMENT_DOFS_MAX];
-    ElementGroup group;
-    ElementMatrices matrices;
-    for (int32_t dof = 0; dof < model->bulk.dof_count; dof++)
-        solution->reaction[dof] = -solution->load[dof];
-    for (int32_t e = 0; e < mesh->element_count; e++) {
-        if (!element_group_at(mesh, e, &group)) continue;
-        element_group_matrices(mesh, model->materials.list, &group, &matrices);
-        for (int32_t i = 0; i < matrices.dof_count; i++)
-            dofs[i] =
-                node_dof(mesh->dim, group.node[dof_node(mesh->dim, i)], dof_axis(mesh->dim, i));
-        for (int32_t row = 0; row < matrices.dof_count; row++) {
-            double force = 0;
-            for (int32_t column = 0; column < matrices.dof_count; column++)
-                force += matrices.stiffness[row][column] * solution->displacement[dofs[column]];
-            solution->reaction[dofs[row]] += force;
-        }
-    }
 }
 
 // model: mesh, loads and interface are there; supports are held and the rod is built here. K
@@ -148,7 +154,27 @@ static bool static_solve(Model *model, StaticSolution *solution, Error *err)
     for (int32_t k = 0; k < interface->count; k++)
         solution->displacement[interface->dofs[k]] = solution->contact_displacement[k];
     floor_displace(&model->mesh, solution->displacement);
-    find_reactions(model, solution);
+
+    // reaction = int B' sigma - f, element by element: owes nothing to the assembled matrices.
+    const Mesh *mesh = &model->mesh;
+    int32_t dofs[ELEMENT_DOFS_MAX];
+    ElementGroup group;
+    ElementMatrices matrices;
+    for (int32_t dof = 0; dof < bulk->dof_count; dof++)
+        solution->reaction[dof] = -solution->load[dof];
+    for (int32_t e = 0; e < mesh->element_count; e++) {
+        if (!element_group_at(mesh, e, &group)) continue;
+        element_group_matrices(mesh, model->materials.list, &group, &matrices);
+        for (int32_t i = 0; i < matrices.dof_count; i++)
+            dofs[i] =
+                node_dof(mesh->dim, group.node[dof_node(mesh->dim, i)], dof_axis(mesh->dim, i));
+        for (int32_t row = 0; row < matrices.dof_count; row++) {
+            double force = 0;
+            for (int32_t column = 0; column < matrices.dof_count; column++)
+                force += matrices.stiffness[row][column] * solution->displacement[dofs[column]];
+            solution->reaction[dofs[row]] += force;
+        }
+    }
 cleanup:
     interface_operator_destroy(stiffness);
     bulk_operator_destroy(&system);
@@ -239,6 +265,133 @@ static StaticSummary static_summarise(const Model *model, StaticSolution *soluti
     return summary;
 }
 
+// --- files --------------------------------------------------------------------------------------
+
+static bool write_json(const char *folder, const Model *model, const StaticSolution *solution,
+                       const StaticSummary *summary, Error *err)
+{
+    char path[PATH_SIZE];
+    snprintf(path, sizeof path, "%s/static.json", folder);
+    JsonWriter *json = json_create(path, err);
+    if (!json) return false;
+    json_begin_object(json, NULL);
+    json_text(json, "status", "done");
+    json_text(json, "version", AMONTONS_VERSION);
+    scene_write_json(model->scene, json, "scene", folder);
+    json_object_of(json, "model", {"nodes", summary->nodes},
+                   {"contact_nodes", summary->contact_nodes}, {"rod_nodes", summary->rod_nodes});
+    json_begin_object(json, "results");
+    json_numbers_of(json, {"open", summary->open}, {"sticking", summary->sticking},
+                    {"slipping", summary->slipping}, {"normal_force", summary->normal_force},
+                    {"shear_force", summary->shear_force},
+                    {"pressure_moment", summary->pressure_moment},
+                    {"rod_force", summary->rod_force}, {"rod_height", summary->rod_height});
+    if (model->scene->rod.stiffness > 0) json_number(json, "rod_way", solution->rod_way);
+    json_numbers_of(json, {"elastic_energy", summary->elastic_energy},
+                    {"load_work", summary->load_work});
+    json_integer(json, "iterations", summary->iterations);
+    json_end(json);
+    json_object_of(json, "errors", {"residual", summary->residual},
+                   {"force", summary->force_balance}, {"moment", summary->moment_balance},
+                   {"energy", summary->energy_balance},
+                   {"complementarity", summary->complementarity});
+    json_end(json);
+    return json_finish(json, err);
+}
+
+// One array of the file: values [rows * width].
+typedef struct Column {
+    ArraySeries series;
+    const double *values;
+    int64_t rows;
+} Column;
+
+// number: [nodes], stress: of the solution; contact: [2][contacts] node, status.
+static bool write_arrays(const char *folder, const Model *model, const StaticSolution *solution,
+                         const NodalStress *stress, Error *err)
+{
+    const Mesh *mesh = &model->mesh;
+    const Interface *interface = &model->interface;
+    int64_t nodes = mesh->node_count, contacts = interface->contact_count;
+    int32_t dim = mesh->dim, plane = dim == 2;
+    const char *force = plane ? "force/width" : "force";
+    ArrayFile *file = NULL;
+    char path[PATH_SIZE];
+    double *number = NEW_ARRAY(double, nodes, err), *contact = NEW_ARRAY(double, 2 * contacts, err);
+    if (!number || !contact) goto cleanup;
+    for (int64_t i = 0; i < nodes; i++) number[i] = (double)mesh->node_number[i];
+    for (int64_t i = 0; i < contacts; i++) {
+        contact[i] = interface->node[i];
+        contact[contacts + i] = solution->status[i];
+    }
+    const Column columns[] = {
+        {{"nodes/number", ARRAY_INT32, 1, "1", "the mesh's node tags"}, number, nodes},
+        {{"nodes/position", ARRAY_FLOAT64, dim, "length", plane ? "x, z" : "x, y, z"},
+         mesh->position,
+         nodes},
+        {{"nodes/displacement", ARRAY_FLOAT64, dim, "length", plane ? "u_x, u_z" : "u_x, u_y, u_z"},
+         solution->displacement,
+         nodes},
+        {{"nodes/load", ARRAY_FLOAT64, dim, force, "of pressure and tractions"},
+         solution->load,
+         nodes},
+        {{"nodes/reaction", ARRAY_FLOAT64, dim, force,
+          "of plane, rod and supports on the block; rounding at free nodes"},
+         solution->reaction,
+         nodes},
+        {{"nodes/stress", ARRAY_FLOAT64, strain_count(dim), "stress",
+          plane ? "xx, zz, xz, mean of the elements around"
+                : "xx, yy, zz, xy, yz, xz, mean of the elements around"},
+         stress->elastic,
+         nodes},
+        {{"contact/node", ARRAY_INT32, 1, "1", "row of nodes/*, by ascending x"},
+         contact,
+         contacts},
+        {{"contact/status", ARRAY_UINT8, 1, "1",
+          plane ? "0 open, 1 stick, 2 slip towards +x, 3 slip towards -x"
+                : "0 open, 1 stick, 2 slip"},
+         contact + contacts,
+         contacts},
+        {{"contact/weight", ARRAY_FLOAT64, 1, plane ? "length" : "length^2",
+          "integral of the shape function"},
+         interface->weight,
+         contacts},
+        {{"contact/jump", ARRAY_FLOAT64, dim, "length", "displacement against the floor"},
+         solution->contact_displacement,
+         contacts}};
+    snprintf(path, sizeof path, "%s/static.h5", folder);
+    TRY((file = array_file_create(path, err)));
+    for (size_t k = 0; k < sizeof columns / sizeof columns[0]; k++)
+        TRY(array_file_write(file, &columns[k].series, columns[k].values, 0, columns[k].rows, err));
+cleanup:
+    memory_free_all(number, contact);
+    if (error_is_clean(err)) return array_file_close(file, err);
+    array_file_abandon(file);
+    return false;
+}
+
+// Files in `folder`: static.vtu, the fields for ParaView; static.h5, each node's values, for
+// comparison node by node; static.json, the sums, last: if it exists, the others are whole.
+// solution->work is overwritten.
+static bool write_files(const char *folder, const Model *model, StaticSolution *solution,
+                        const StaticSummary *summary, Error *err)
+{
+    FieldFiles files = {0};
+    char path[PATH_SIZE];
+    FieldState state = {.displacement = solution->displacement, .velocity = solution->work};
+    snprintf(path, sizeof path, "%s/static.vtu", folder);
+    for (int32_t k = 0; k < model->bulk.dof_count; k++) solution->work[k] = 0;
+    TRY(field_files_create(&model->mesh, &model->interface, &files, err));
+    files.materials = model->materials.list;
+    files.spectrum = &model->bulk.spectrum;
+    TRY(field_files_write_bulk(&files, &state, path, err));
+    TRY(write_arrays(folder, model, solution, &files.stress, err));
+    TRY(write_json(folder, model, solution, summary, err));
+cleanup:
+    field_files_destroy(&files);
+    return error_is_clean(err);
+}
+
 // mesh -> bulk -> equilibrium -> sums -> files. folder NULL: nothing is written.
 bool amontons_static(const Scene *scene, const char *folder, bool overwrite, StaticSummary *summary,
                      Error *err)
@@ -260,7 +413,7 @@ bool amontons_static(const Scene *scene, const char *folder, bool overwrite, Sta
     TRY(static_solve(&model, &solution, err));
     *summary = static_summarise(&model, &solution);
     TRY(result_folder_clear(&place, err));
-    if (folder) TRY(static_report_write(folder, &model, &solution, summary, err));
+    if (folder) TRY(write_files(folder, &model, &solution, summary, err));
     TRY(result_folder_settle(&place, err));
 cleanup:
     memory_free_all(solution.displacement, solution.load, solution.reaction, solution.work);

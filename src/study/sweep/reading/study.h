@@ -61,7 +61,12 @@ enum {
 #define STUDY_STANDARD                                                                             \
     "{time.until.periodic: true, output.history: false, output.fields: none, output.figures: []}"
 
-enum { STUDY_NAME_SIZE = 96, PLOT_TEXT_SIZE = 200, PLOT_FOLDER_SIZE = 512, PLOT_WITH_MAX = 6 };
+enum {
+    STUDY_NAME_SIZE = SCENE_KEY_SIZE,
+    PLOT_TEXT_SIZE = 200,
+    PLOT_FOLDER_SIZE = 512,
+    PLOT_WITH_MAX = 6
+};
 
 typedef enum PlotKey {
     PLOT_X,
@@ -174,7 +179,7 @@ typedef struct Study {
     int32_t made_count;
     YamlDocument *standard;   // one of `made`
     SceneSetting overrides[STUDY_SETTINGS_MAX];   // --set; documents in `made`
-    char override_keys[STUDY_SETTINGS_MAX][STUDY_NAME_SIZE];
+    char override_keys[STUDY_SETTINGS_MAX][SCENE_KEY_SIZE];
     int32_t override_count;
     YamlNode set, cases;   // YAML_NO_NODE: none
     int32_t case_count;   // at least 1

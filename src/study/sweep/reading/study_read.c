@@ -240,14 +240,9 @@ static bool read_changes(Study *study, const char *const *overrides, int32_t ove
 
     // --set: a key that varies is refused, rather than silently losing to `vary`.
     for (int32_t k = 0; k < override_count; k++) {
-        const char *text = overrides[k], *equals = strchr(text, '=');
-        char shown[STUDY_NAME_SIZE + 8], *key = study->override_keys[k];
-        if (!equals || equals == text || equals - text >= STUDY_NAME_SIZE)
-            return REFUSE(err, "--set %.80s: expected key=value, as in load.pressure=0.006", text);
-        memcpy(key, text, (size_t)(equals - text));
-        snprintf(shown, sizeof shown, "--set %s", key);
+        char *key = study->override_keys[k];
         YamlDocument **document = &study->made[study->made_count];
-        if (!yaml_parse(shown, text, (int32_t)(equals - text) + 1, document, err)) return false;
+        if (!scene_override_parse(overrides[k], key, document, err)) return false;
         study->made_count++;
         const char *found = find_given(study, study->chosen, key, *document, YAML_ROOT);
         if (found) return REFUSE(err, "--set %s: %s varies %s", key, study->path, found);

@@ -5,7 +5,6 @@
 #include "base/memory.h"
 #include "cases.h"
 #include "scene/scene.h"
-#include "run/static/static_solve.h"
 #include "scene_of_text.h"
 
 #include <math.h>

@@ -419,8 +419,8 @@ TEST(test_faults_of_overrides)
 {
     static const char *const overrides[][2] = {{"load.pressure=3", "varies load.pressure"},
                                                {"load={pressure: 3}", "varies load.pressure"},
-                                               {"=3", "expected key=value"},
-                                               {"a", "expected"}};
+                                               {"=3", "wanted is key=value"},
+                                               {"a", "wanted"}};
     for (size_t k = 0; k < 4; k++) {
         Error err = {0};
         write_study("vary: {load.pressure: [1]}\n");

@@ -145,7 +145,7 @@ TEST(test_too_many)
     assert_refused(words, 300, "settings by --set");
     words[0] = "one.more.an.override.whose.key.is.longer.than.any.key.of.a.scene.may.be.so.that.it."
                "cannot.be.one.of.them=1";
-    assert_refused(words, 1, "expected key=value");
+    assert_refused(words, 1, "wanted is key=value");
 }
 
 FIXTURE(make)
