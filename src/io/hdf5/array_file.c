@@ -5,7 +5,6 @@
 #include "io/hdf5/array_file.h"
 
 #include "base/module.h"
-#include "io/hdf5/array_file_module.h"
 
 #include <stddef.h>
 

@@ -11,10 +11,7 @@
 #ifndef AMONTONS_IO_HDF5_ARRAY_FILE_H
 #define AMONTONS_IO_HDF5_ARRAY_FILE_H
 
-#include "base/error.h"
-#include "io/hdf5/array_types.h"
-
-typedef struct ArrayFile ArrayFile;   // the module's
+#include "io/hdf5/array_file_module.h"
 
 ArrayFile *array_file_create(const char *path, Error *err);
 // Opens `path` for reading; where only `path`.part stands, that. Errors name the file.

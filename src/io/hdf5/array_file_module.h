@@ -1,12 +1,27 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Interface of the module amontons_hdf5.so: the calls of io/hdf5/array_file.h, done by HDF5. It is
-// a module because Debian's HDF5 loads 40 libraries (curl, ssl, kerberos ...), which takes longer
-// than all else that a short run does outside its time loop.
+// Interface of the module amontons_hdf5.so: the types and calls of io/hdf5/array_file.h, done by
+// HDF5. It is a module because Debian's HDF5 loads 40 libraries (curl, ssl, kerberos ...), which
+// takes longer than all else that a short run does outside its time loop.
 #ifndef AMONTONS_IO_HDF5_ARRAY_FILE_MODULE_H
 #define AMONTONS_IO_HDF5_ARRAY_FILE_MODULE_H
 
 #include "base/error.h"
-#include "io/hdf5/array_types.h"
+
+#include <stdint.h>
+
+enum { ARRAY_RANK_MAX = 3 };
+
+typedef enum ArrayType { ARRAY_FLOAT64, ARRAY_FLOAT32, ARRAY_UINT8, ARRAY_INT32 } ArrayType;
+
+// A series of rows of `width` values (1: a scalar series), extendable, empty. `name` may hold
+// slashes ("interface/slip_rate"); `unit` and `description` are stored as attributes.
+typedef struct ArraySeries {
+    const char *name;
+    ArrayType type;   // as stored
+    int32_t width;
+    const char *unit;
+    const char *description;
+} ArraySeries;
 
 typedef struct ArrayFile ArrayFile;   // begins with a pointer to its module's table
 
