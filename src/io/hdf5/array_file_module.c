@@ -6,7 +6,7 @@
 // (io/hdf5/array_parts); the end joins them. HDF5's own way, SWMR, allows no new arrays or
 // attributes while writing, takes twice the time, marks a killed writer's file so that ordinary
 // readers refuse it, and has HDF5 write to a disk that may be full, on which it crashes.
-#include "io/hdf5/array_file_module.h"
+#include "io/hdf5/array_file.h"
 
 #include "base/memory.h"
 #include "base/transfer.h"

@@ -34,8 +34,8 @@ hid_t hdf5_disk_open(const char *path, Error *err);
 // `path` for writing, anew. A file that HDF5 could not write is never to be closed: see above.
 hid_t hdf5_disk_create(const char *path, Error *err);
 
-// Attributes of an object: single numbers and texts. Negative: HDF5 failed, and its error stack says
-// why. One cannot be changed in place: an old one of this name is removed first.
+// Attributes of an object: single numbers and texts. Negative: HDF5 failed, and its error stack
+// says why. One cannot be changed in place: an old one of this name is removed first.
 herr_t attribute_write_number(hid_t object, const char *name, double value);
 herr_t attribute_write_text(hid_t object, const char *name, const char *value);   // h5py: str
 // A scalar or an array of one, whatever its stored type.
