@@ -145,7 +145,7 @@ double friction_critical_stiffness(const FrictionRates *rates)
     double first = 1e-3 * slowest;
     if (!(first > 0)) return NAN;
 
-    // Upwards from far below it.
+    // Frequencies are gone through upwards, from far below it.
     double low = first, before = real_part(rates, low, &stiffness);
     for (int32_t k = 1; k <= DECADES * DECADE; k++) {
         double high = first * pow(10, (double)k / DECADE);

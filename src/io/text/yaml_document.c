@@ -85,7 +85,7 @@ static bool error_at(const YamlDocument *document, int32_t position, Error *err,
         if (column >= first + SHOWN_WIDTH || used == 4 * SHOWN_WIDTH) break;
         line[used++] = (unsigned char)byte < ' ' ? ' ' : byte;
     }
-    // And a caret below.
+    // A caret stands below it.
     snprintf(excerpt, sizeof excerpt, "\n%5d | %s\n      | %*s^", place.line, line,
              place.column - first, "");
     // The error's own file and line are this file's: the place in the user's text is in the
@@ -273,8 +273,8 @@ static bool add_scalar(Reader *reader, int32_t position, YamlNode beside, YamlNo
     if (style == FYSS_SINGLE_QUOTED || style == FYSS_DOUBLE_QUOTED)
         position--;   // libfyaml's mark stands behind the quote
 
-    // What YAML 1.2's core schema has for null. Block scalars (| and >) count as quoted: `null` in
-    // one of them is a word.
+    // YAML 1.2's core schema has these words for null. Block scalars (| and >) count as quoted:
+    // `null` in one of them is a word.
     bool quoted = style != FYSS_PLAIN;
     bool null = !*text || strcmp(text, "~") == 0 || strcmp(text, "null") == 0 ||
                 strcmp(text, "Null") == 0 || strcmp(text, "NULL") == 0;
