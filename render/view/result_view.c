@@ -307,7 +307,8 @@ bool result_view_open(const char *folder, ResultView *view, Error *err)
     TRY(lines_read(view, "warnings", &view->warnings, err));
     TRY(lines_read(view, "states", &view->state_names, err));
     TRY(lines_read(view, "state_unit", &view->state_unit, err));
-    view->states = result_file_remembers(view->file);   // older histories may not name them
+    view->states =
+        result_file_has_series(view->file, SERIES_STATE);   // older histories may not name them
     for (const char *at = view->state_names; view->states > 0 && *at; ++at)
         view->states += *at == '\n';
     TRY(lines_read(view, "probes", &view->probe_names, err));

@@ -53,26 +53,23 @@ void child_allow(int32_t seconds)
     setrlimit(RLIMIT_CPU, &now);
 }
 
-// Closes what else is open: a child that was misled has nothing to write to but the pipe and, for
-// the words of a crash, standard error. kept: another one that stays; below 1: none.
-static void keep_only(int pipe, int kept)
-{
-    int nothing = open("/dev/null", O_RDWR);
-    int low = kept < 1 || pipe < kept ? pipe : kept, high = kept > pipe ? kept : pipe;
-    if (nothing >= 0) {
-        dup2(nothing, STDIN_FILENO);
-        dup2(nothing, STDOUT_FILENO);
-    }
-    shut_in_close(STDERR_FILENO + 1, low - 1);
-    shut_in_close(low + 1, high - 1);
-    shut_in_close(high + 1, INT_MAX);
-}
-
 // Never returns, and leaves the parent's streams and exit handlers alone.
 static void be_child(const ChildWork *work, int pipe, pid_t parent)
 {
     Error err = {0};
-    if (work->shut_in) keep_only(pipe, work->kept);
+    if (work->shut_in) {
+        // Closes what else is open: a child that was misled has nothing to write to but the pipe
+        // and, for the words of a crash, standard error. work->kept stays, too.
+        int nothing = open("/dev/null", O_RDWR), kept = work->kept;
+        int low = kept < 1 || pipe < kept ? pipe : kept, high = kept > pipe ? kept : pipe;
+        if (nothing >= 0) {
+            dup2(nothing, STDIN_FILENO);
+            dup2(nothing, STDOUT_FILENO);
+        }
+        shut_in_close(STDERR_FILENO + 1, low - 1);
+        shut_in_close(low + 1, high - 1);
+        shut_in_close(high + 1, INT_MAX);
+    }
     FILE *reply = fdopen(pipe, "wb");
     if (!work->stop) {
         signal(SIGTERM, SIG_DFL);

@@ -6,8 +6,8 @@
 #include "base/decimal_point.h"
 #include "base/memory.h"
 #include "base/system.h"
-#include "base/thread.h"
 
+#include <signal.h>
 #include <stdatomic.h>
 
 // Address space for one thread more: its stack, what malloc sets aside for it, and the buffer of
@@ -30,6 +30,17 @@ typedef struct Helper {
     pthread_t thread;
     MemoryCounters counted;   // of the thread, at its end
 } Helper;
+
+// A thread begins with its maker's mask.
+int thread_start(void *(*run)(void *self), void *self, pthread_t *thread)
+{
+    sigset_t all, before;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    int cause = pthread_create(thread, NULL, run, self);
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    return cause;
+}
 
 int32_t parallel_workers(void)
 {

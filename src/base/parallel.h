@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 
+#include <pthread.h>
 #include <stdint.h>
 
 enum {
@@ -14,6 +15,10 @@ enum {
     PARALLEL_OPERATIONS =
         20000000   // some ms: with less, threads (20 us each to begin) save little
 };
+
+// Starts a thread as those below are, for base/worker, too: signals are for the threads of whoever
+// calls. 0, or what pthread_create says.
+int thread_start(void *(*run)(void *self), void *self, pthread_t *thread);
 
 // Processors of this process, PARALLEL_WORKERS_MAX at most; from within a piece: those left to it.
 int32_t parallel_workers(void);

@@ -5,7 +5,7 @@
 
 #include "base/decimal_point.h"
 #include "base/memory.h"
-#include "base/thread.h"
+#include "base/parallel.h"
 
 #include <string.h>
 

@@ -12,6 +12,12 @@
 
 // --- laws ---------------------------------------------------------------------------------------
 
+const FrictionOperations *const FRICTION_OPERATIONS[] = {
+#define X(symbol, name, operations) [symbol] = &operations,
+    FRICTION_LAWS(X)
+#undef X
+};
+
 static const char *const NAMES[] = {
 #define X(symbol, name, operations) name,
     FRICTION_LAWS(X)
@@ -247,40 +253,12 @@ static const double NEAR = 1e-9;
 // Part of what slip alone would do to a state: so short a step is noise.
 static const double ROUNDING = 1e-14;
 
-INLINED bool is_near(const Elimination *at, int32_t n, const double *state, const double *step)
-{
-    const FrictionNode *node = at->node;
-    for (int32_t k = 0; k < n; k++) {
-        double size = fabs(step[k]), slips = node->reach * at->rates.rate_speed[k] * at->speed;
-        if (size <= NEAR * (fabs(state[k]) + fabs(node->from[k]))) continue;
-        double yields = 1 + node->reach * fabs(at->rates.rate_state[k][k]);
-        if (!(size * yields <= ROUNDING * fabs(slips))) return false;
-    }
-    return true;
-}
-
-// Takes a step of Newton's method, halved while it leaves more than there was. Returns false where
-// none leaves less.
-INLINED bool take_step(Elimination *at, int32_t n, const double *step, double *left, double *state)
-{
-    enum { HALVINGS = 60 };
-    double from[STATES_MAX], before = *left, part = 1;
-    for (int32_t k = 0; k < n; k++) from[k] = state[k];
-    for (int32_t halved = 0; halved < HALVINGS; halved++, part *= 0.5) {
-        for (int32_t k = 0; k < n; k++) state[k] = from[k] - part * step[k];
-        find_off(at, n, state);
-        *left = largest_off(at, n);
-        if (*left < before) return true;
-    }
-    return false;
-}
-
 // Newton's method from `from`.
 INLINED void eliminate(const FrictionNode *node, double speed, int32_t n, double *state)
 {
-    enum { STEPS = 60 };
+    enum { STEPS = 60, HALVINGS = 60 };
     Elimination at;
-    double step[STATES_MAX];
+    double step[STATES_MAX], from[STATES_MAX];
     for (int32_t k = 0; k < n; k++) state[k] = node->from[k];
     if (node->reach == 0) return;
     at.node = node;
@@ -293,11 +271,31 @@ INLINED void eliminate(const FrictionNode *node, double speed, int32_t n, double
     for (int32_t trial = 0; trial < STEPS && left != 0; trial++) {
         for (int32_t k = 0; k < n; k++) step[k] = at.off[k];
         if (!solve_states(&at.rates, node->reach, n, step)) break;
-        if (is_linear || is_near(&at, n, state, step)) {
+
+        // The last step: where g is linear, or it is short.
+        bool is_last = true;
+        for (int32_t k = 0; !is_linear && is_last && k < n; k++) {
+            double size = fabs(step[k]), slips = node->reach * at.rates.rate_speed[k] * speed;
+            double yields = 1 + node->reach * fabs(at.rates.rate_state[k][k]);
+            is_last = size <= NEAR * (fabs(state[k]) + fabs(node->from[k])) ||
+                      size * yields <= ROUNDING * fabs(slips);
+        }
+        if (is_last) {
             for (int32_t k = 0; k < n; k++) state[k] -= step[k];
             return;
         }
-        if (!take_step(&at, n, step, &left, state)) break;
+
+        // Halved while it leaves more than there was.
+        double before = left, part = 1;
+        bool leaves_less = false;
+        for (int32_t k = 0; k < n; k++) from[k] = state[k];
+        for (int32_t halved = 0; !leaves_less && halved < HALVINGS; halved++, part *= 0.5) {
+            for (int32_t k = 0; k < n; k++) state[k] = from[k] - part * step[k];
+            find_off(&at, n, state);
+            left = largest_off(&at, n);
+            leaves_less = left < before;
+        }
+        if (!leaves_less) break;
     }
     for (int32_t k = 0; k < n && left != 0; k++) state[k] = NAN;
 }
@@ -523,44 +521,34 @@ FrictionNode friction_paced(const FrictionNode *node, double pace)
 
 static const double EXPONENT_MAX = 690;   // exp of it is finite
 
-// x of sinh(x) = v/v_s for mu = a asinh(v/v_s): mu/(mu_v v) = x/tanh(x). Newton's method from the
-// right, where it cannot overshoot.
-static double argument_of(double ratio)
-{
-    enum { STEPS = 30 };
-    double x = fmin(ratio, EXPONENT_MAX);
-    for (int32_t k = 0; k < STEPS; k++) {
-        double t = tanh(x), next = x - (x - ratio * t) / (1 - ratio * (1 - t * t));
-        if (!(next < x && next > 0)) break;
-        x = next;
-    }
-    return x;
-}
-
-// v_s; INFINITY: friction is as good as linear.
-static double creep_scale(const FrictionNode *node, double speed)
-{
-    double state[STATES_MAX];
-    FrictionRates rates;
-    friction_state(node, speed, state);
-    if (speed == 0) speed = node->law->critical_velocity;
-    find_mu(node, speed, state, &rates);
-    double ratio = rates.mu / (rates.mu_speed * speed);
-    return ratio > 1 ? speed / sinh(argument_of(ratio)) : INFINITY;
-}
-
 // y = asinh(|v|/v_s) v/|v| answers to a step along v by 1/hypot(v, v_s), across it by |y|/|v|.
 void friction_follow(const FrictionNode *node, int32_t count, const double *velocity,
                      const double *step, double *next)
 {
+    enum { STEPS = 30 };
     double speed = count == 1 ? fabs(velocity[0]) : hypot(velocity[0], velocity[1]);
-    double scale = creep_scale(node, speed), y[2] = {0}, along = 0;
-    double root = hypot(speed, scale), part = asinh(speed / scale);
+    double state[STATES_MAX], y[2] = {0}, along = 0;
+    FrictionRates rates;
     for (int32_t c = 0; c < count; c++) {
         next[c] = velocity[c] + step[c];
         if (speed > 0) along += step[c] * (velocity[c] / speed);
     }
+
+    // v_s, where friction is not as good as linear: sinh(x) = v/v_s for mu = a asinh(v/v_s), so
+    // mu/(mu_v v) = x/tanh(x). Newton's method from the right, where it cannot overshoot.
+    friction_state(node, speed, state);
+    double at = speed == 0 ? node->law->critical_velocity : speed;
+    find_mu(node, at, state, &rates);
+    double ratio = rates.mu / (rates.mu_speed * at), x = fmin(ratio, EXPONENT_MAX);
+    if (!(ratio > 1)) return;
+    for (int32_t k = 0; k < STEPS; k++) {
+        double t = tanh(x), nearer = x - (x - ratio * t) / (1 - ratio * (1 - t * t));
+        if (!(nearer < x && nearer > 0)) break;
+        x = nearer;
+    }
+    double scale = at / sinh(x);
     if (!isfinite(scale)) return;
+    double root = hypot(speed, scale), part = asinh(speed / scale);
     for (int32_t c = 0; c < count; c++) {
         double d = speed > 0 ? velocity[c] / speed : 0;
         double across = speed > 0 ? (step[c] - along * d) * (part / speed) : step[c] / scale;

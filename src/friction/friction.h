@@ -5,6 +5,11 @@
 //   FrictionNode   friction at one node: which law holds there, its factor, the stage under way
 //   Friction       friction of a contact: the nodes, and scales of them all
 //
+// A number such as v_c comes from the map `friction` of a scene (scene/keys). scene/friction_law
+// hands it to friction_make, which completes the law by its table of operations;
+// model/contact_laws gives the law to each contact node (friction_node); contact/ and stepping/ ask
+// a node for mu and its slope, which the table answers (friction/laws).
+//
 // In a stage of an implicit scheme the states are eliminated node by node: they obey
 // state = from + reach g(v, state), and so are functions of v. What the contact problem sees,
 // mu(v, state(v)), is a law of speed alone, of which `from` and `reach` are numbers

@@ -48,11 +48,13 @@ double friction_weakens_most(const FrictionRates *rates, double reach)
     return most;
 }
 
-// theta' of a unit of z: that of a unit of slip, or what the other states make of theirs at s, if
-// that is more.
-static void find_scales(const FrictionRates *rates, double s, double *scale)
+double friction_respond(const FrictionRates *rates, double s, double y, const double *c, double *z)
 {
+    double theta[STATES_MAX], scale[STATES_MAX], falls = 0;
     int32_t n = rates->states;
+
+    // theta' of a unit of z: that of a unit of slip, or what the other states make of theirs at s,
+    // if that is more.
     for (int32_t k = 0; k < n; k++) scale[k] = fabs(rates->rate_speed[k]);
     for (int32_t round = 1; round < n; round++)
         for (int32_t k = 0; k < n; k++)
@@ -62,16 +64,10 @@ static void find_scales(const FrictionRates *rates, double s, double *scale)
                                                   (s + fabs(rates->rate_state[k][k])));
     for (int32_t k = 0; k < n; k++)
         if (scale[k] == 0) scale[k] = 1;
-}
 
-double friction_respond(const FrictionRates *rates, double s, double y, const double *c, double *z)
-{
-    double theta[STATES_MAX], scale[STATES_MAX], falls = 0;
-    find_scales(rates, s, scale);
-    for (int32_t k = 0; k < rates->states; k++)
-        theta[k] = rates->rate_speed[k] * y - scale[k] * c[k] / s;
+    for (int32_t k = 0; k < n; k++) theta[k] = rates->rate_speed[k] * y - scale[k] * c[k] / s;
     if (!friction_solve_states(rates, 1 / s, theta)) return NAN;
-    for (int32_t k = 0; k < rates->states; k++) {
+    for (int32_t k = 0; k < n; k++) {
         if (z) z[k] = theta[k] / scale[k];
         falls -= rates->mu_state[k] * theta[k];
     }
@@ -131,26 +127,25 @@ static double real_part(const FrictionRates *rates, double w, double *stiffness)
     return real;
 }
 
-// The slowest rate of the states by themselves, 1/time; NAN: they do not decay.
-static double slowest_decay(const FrictionRates *rates)
-{
-    double re[STATES_MAX], im[STATES_MAX], slowest = INFINITY;
-    friction_own_rates(rates, re, im);
-    for (int32_t k = 0; k < rates->states; k++) {
-        if (!(re[k] < 0)) return NAN;
-        slowest = fmin(slowest, hypot(re[k], im[k]));
-    }
-    return slowest;
-}
-
 // On a stiff spring slip is stable where the states by themselves are and mu_v >= 0; so this is the
 // largest k with a rate on the imaginary axis, i w. For w to infinity, where with mu_v = 0 there is
 // one, k goes to -mu_theta g_v.
 double friction_critical_stiffness(const FrictionRates *rates)
 {
     enum { DECADES = 12, DECADE = 40, HALVINGS = 60 };
-    double first = 1e-3 * slowest_decay(rates), critical = 0, stiffness;
-    if (rates->mu_speed < 0 || !(first > 0)) return NAN;
+    double re[STATES_MAX], im[STATES_MAX], slowest = INFINITY, critical = 0, stiffness;
+    if (rates->mu_speed < 0) return NAN;
+
+    // The slowest rate of the states by themselves, which must decay.
+    friction_own_rates(rates, re, im);
+    for (int32_t k = 0; k < rates->states; k++) {
+        if (!(re[k] < 0)) return NAN;
+        slowest = fmin(slowest, hypot(re[k], im[k]));
+    }
+    double first = 1e-3 * slowest;
+    if (!(first > 0)) return NAN;
+
+    // Frequencies are gone through upwards, from far below it.
     double low = first, before = real_part(rates, low, &stiffness);
     for (int32_t k = 1; k <= DECADES * DECADE; k++) {
         double high = first * pow(10, (double)k / DECADE);

@@ -20,25 +20,18 @@ static double look_speed(const FrictionSource *source, int32_t k)
     return k == 0 ? 0 : source->end * pow(10, (double)(k - DECADES * DECADE) / DECADE);
 }
 
-// "velocity 0.1, theta 2".
-static void write_place(const FrictionSource *source, const FrictionNode *node, double speed,
-                        char *words, size_t size)
-{
-    int used = snprintf(words, size, "velocity %g", speed);
-    for (int32_t k = 0; k < node->law->states && used > 0 && (size_t)used < size; k++)
-        used += snprintf(words + used, size - (size_t)used, ", %s %g",
-                         k < source->state_count ? source->state[k].name : "state", node->from[k]);
-}
-
 // Finds mu and the rates at node->from, and refuses values that no law may have.
 static bool look_at(const FrictionSource *source, const FrictionNode *node, double speed,
                     FrictionRates *rates, const char **key, Error *err)
 {
-    char place[300];
+    char place[300];   // "velocity 0.1, theta 2"
     double finite = 0;
     const FrictionOperations *operations = friction_operations(node->law);
     friction_rates(node, speed, node->from, rates);
-    write_place(source, node, speed, place, sizeof place);
+    int used = snprintf(place, sizeof place, "velocity %g", speed);
+    for (int32_t k = 0; k < node->law->states && used > 0 && (size_t)used < sizeof place; k++)
+        used += snprintf(place + used, sizeof place - (size_t)used, ", %s %g",
+                         k < source->state_count ? source->state[k].name : "state", node->from[k]);
     for (int32_t k = 0; k < node->law->states; k++) {
         if (!isfinite(rates->rate[k]))
             return REFUSE_AT(
@@ -243,71 +236,57 @@ static bool find_start(const FrictionSource *source, FrictionNode *node, const c
     return true;
 }
 
-// Looks at the law at the start and in steady slip at all speeds: steady gets mu of steady slip,
-// NaN where none is found, *lost the most that mu loses in a unit of slip by its states.
-static bool look_along(const FrictionSource *source, FrictionNode *node, FrictionLaw *law,
-                       double *steady, double *lost, const char **key, Error *err)
-{
-    FrictionRates rates;
-    *lost = 0;
-    for (int32_t k = 0; k <= DECADES * DECADE; k++) {
-        double speed = look_speed(source, k);
-        memcpy(node->from, law->start, sizeof node->from);
-        TRY(look_at(source, node, speed, &rates, key, err));
-        law->steepest = fmax(law->steepest, -rates.mu_speed);
-        double now = 0;
-        for (int32_t j = 0; j < law->states; j++)
-            now += fabs(rates.mu_state[j] * rates.rate_speed[j]);
-        *lost = fmax(*lost, now);
-        steady[k] = k == 0 ? NAN : rates.mu;
-        if (law->states == 0 || k == 0) continue;
-        steady[k] = NAN;
-        if (!friction_find_steady(node, speed)) continue;
-        TRY(look_at(source, node, speed, &rates, key, err));
-        steady[k] = rates.mu;
-        law->steepest = fmax(law->steepest, -rates.mu_speed);
-    }
-cleanup:
-    memcpy(node->from, law->start, sizeof node->from);
-    return error_is_clean(err);
-}
-
-static void set_scales(const FrictionSource *source, const FrictionNode *node, const double *steady,
-                       double lost, FrictionLaw *law)
-{
-    FrictionRates rates;
-    double lowest = INFINITY, highest = 0;
-    friction_rates(node, 0, law->start, &rates);
-    double rests = rates.mu, rises = rates.mu_speed;
-    friction_rates(node, source->rod_velocity > 0 ? source->rod_velocity : source->end, law->start,
-                   &rates);
-    law->creeps = law->strengthens = rests <= NO_FRICTION * rates.mu && rises > 0;
-    law->mu_reference = rates.mu;
-    for (int32_t k = 1; k <= DECADES * DECADE; k++) {
-        lowest = fmin(lowest, steady[k]);   // fmin and fmax pass a NaN over
-        highest = fmax(highest, steady[k]);
-    }
-    if (!(law->mu_static > 0)) law->mu_static = law->creeps ? highest : rests;
-    if (!(law->mu_kinetic > 0)) law->mu_kinetic = fmin(lowest, law->mu_static);
-    double drop = law->mu_static - law->mu_kinetic;
-    int32_t last = DECADES * DECADE;
-    while (last > 1 && !(steady[last - 1] - law->mu_kinetic > LEFT * drop)) last--;
-    if (!(law->critical_velocity > 0)) law->critical_velocity = look_speed(source, last);
-    if (!(law->slip_distance > 0)) law->slip_distance = lost > 0 ? 1 / lost * drop : 0;
-}
-
 bool friction_start(const FrictionSource *source, FrictionLaw *law, const char **key, Error *err)
 {
-    double steady[DECADES * DECADE + 1], lost;
+    enum { LAST = DECADES * DECADE };
+    double steady[LAST + 1];   // mu of steady slip at the speeds looked at; NaN: none is found
+    double lost = 0, lowest = INFINITY, highest = 0;
     FrictionRates rates;
     law->pressure = source->pressure;
     FrictionNode node = friction_node(law, 1);
     TRY(find_start(source, &node, key, err));
     memcpy(law->start, node.from, sizeof law->start);
     TRY(look_at(source, &node, source->rod_velocity, &rates, key, err));
-    TRY(look_along(source, &node, law, steady, &lost, key, err));
+
+    // In the states of the start and in steady slip at all speeds. lost: the most that mu loses in
+    // a unit of slip by its states.
+    for (int32_t k = 0; k <= LAST; k++) {
+        double speed = look_speed(source, k), now = 0;
+        memcpy(node.from, law->start, sizeof node.from);
+        TRY(look_at(source, &node, speed, &rates, key, err));
+        law->steepest = fmax(law->steepest, -rates.mu_speed);
+        for (int32_t j = 0; j < law->states; j++)
+            now += fabs(rates.mu_state[j] * rates.rate_speed[j]);
+        lost = fmax(lost, now);
+        steady[k] = k == 0 ? NAN : rates.mu;
+        if (law->states == 0 || k == 0) continue;
+        steady[k] = NAN;
+        if (!friction_find_steady(&node, speed)) continue;
+        TRY(look_at(source, &node, speed, &rates, key, err));
+        steady[k] = rates.mu;
+        law->steepest = fmax(law->steepest, -rates.mu_speed);
+    }
+    memcpy(node.from, law->start, sizeof node.from);
     TRY(check_continuous(source, &node, key, err));
-    set_scales(source, &node, steady, lost, law);
+
+    // The scales.
+    friction_rates(&node, 0, law->start, &rates);
+    double rests = rates.mu, rises = rates.mu_speed;
+    friction_rates(&node, source->rod_velocity > 0 ? source->rod_velocity : source->end, law->start,
+                   &rates);
+    law->creeps = law->strengthens = rests <= NO_FRICTION * rates.mu && rises > 0;
+    law->mu_reference = rates.mu;
+    for (int32_t k = 1; k <= LAST; k++) {
+        lowest = fmin(lowest, steady[k]);   // fmin and fmax pass a NaN over
+        highest = fmax(highest, steady[k]);
+    }
+    if (!(law->mu_static > 0)) law->mu_static = law->creeps ? highest : rests;
+    if (!(law->mu_kinetic > 0)) law->mu_kinetic = fmin(lowest, law->mu_static);
+    double drop = law->mu_static - law->mu_kinetic;
+    int32_t last = LAST;
+    while (last > 1 && !(steady[last - 1] - law->mu_kinetic > LEFT * drop)) last--;
+    if (!(law->critical_velocity > 0)) law->critical_velocity = look_speed(source, last);
+    if (!(law->slip_distance > 0)) law->slip_distance = lost > 0 ? 1 / lost * drop : 0;
 cleanup:
     return error_is_clean(err);
 }

@@ -16,25 +16,12 @@
 // The symbols of a plug-in and where their addresses go; those of laws with states come last.
 enum { SPEED_ALONE = 2, SYMBOLS = 5, SECONDS_MAX = 20 };
 
-static bool find_symbols(void *handle, const char *path, FrictionPlugin *plugin, Error *err)
+// The loader looks for a name without a slash among the system's libraries.
+static bool load(const char *path, FrictionPlugin *plugin, Error *err)
 {
     static const char *const names[SYMBOLS] = {"coefficient", "slope", "states", "start", "rates"};
     void *places[SYMBOLS] = {&plugin->coefficient, &plugin->slope, &plugin->states, &plugin->start,
                              &plugin->rates};
-    bool remembers = dlsym(handle, "amontons_friction_rates") != NULL;
-    for (int32_t k = remembers ? SPEED_ALONE : 0; k < (remembers ? SYMBOLS : SPEED_ALONE); k++) {
-        char name[64];
-        snprintf(name, sizeof name, "amontons_friction_%s", names[k]);
-        void *address = dlsym(handle, name);
-        if (!address) return REFUSE(err, "%s has no function %s (amontons_friction.h)", path, name);
-        memcpy(places[k], &address, sizeof address);   // POSIX: object to function pointer
-    }
-    return true;
-}
-
-// The loader looks for a name without a slash among the system's libraries.
-static bool load(const char *path, FrictionPlugin *plugin, Error *err)
-{
     char name[PATH_MAX];
     int (*interface)(void) = NULL;
     snprintf(name, sizeof name, "%s%s", strchr(path, '/') ? "" : "./", path);
@@ -48,7 +35,14 @@ static bool load(const char *path, FrictionPlugin *plugin, Error *err)
     if (interface() < 1 || interface() > AMONTONS_FRICTION_INTERFACE)
         return REFUSE(err, "%s was built for version %d of amontons_friction.h, not 1 to %d", path,
                       interface(), AMONTONS_FRICTION_INTERFACE);
-    return find_symbols(handle, path, plugin, err);
+    bool remembers = dlsym(handle, "amontons_friction_rates") != NULL;
+    for (int32_t k = remembers ? SPEED_ALONE : 0; k < (remembers ? SYMBOLS : SPEED_ALONE); k++) {
+        snprintf(name, sizeof name, "amontons_friction_%s", names[k]);
+        void *address = dlsym(handle, name);
+        if (!address) return REFUSE(err, "%s has no function %s (amontons_friction.h)", path, name);
+        memcpy(places[k], &address, sizeof address);   // POSIX: object to function pointer
+    }
+    return true;
 }
 
 static bool try_load(void *path, FILE *reply, Error *err)
@@ -56,21 +50,6 @@ static bool try_load(void *path, FILE *reply, Error *err)
     FrictionPlugin plugin;
     (void)reply;
     return load(path, &plugin, err);
-}
-
-// A plug-in that was cut short ends the process that loads it, and so may one that is whole: a
-// process of its own tries it first, where there may be one.
-static bool open_plugin(const char *path, FrictionPlugin *plugin, Error *err)
-{
-    ChildWork work = {.path = path,
-                      .reader = "the system's loader",
-                      .seconds = SECONDS_MAX,
-                      .advice = "it does not come to an end",
-                      .read = try_load,
-                      .context = (void *)path};
-    if (!open_check(path, err)) return false;   // the loader would wait for a pipe
-    if (child_is_wanted() && !child_do(&work, err)) return false;
-    return load(path, plugin, err);
 }
 
 static bool make(const FrictionSource *source, FrictionLaw *law, const char **key, Error *err)
@@ -91,7 +70,18 @@ static bool make(const FrictionSource *source, FrictionLaw *law, const char **ke
                          "%s is a program that would be run: give --trust (in Python trust=True) "
                          "if you know where it comes from",
                          source->file);
-    if (!ERROR_AT(key, "file", open_plugin(source->file, plugin, err))) return false;
+
+    // One that was cut short ends the process that loads it, and so may one that is whole: a
+    // process of its own tries it first, where there may be one. The loader would wait for a pipe.
+    ChildWork work = {.path = source->file,
+                      .reader = "the system's loader",
+                      .seconds = SECONDS_MAX,
+                      .advice = "it does not come to an end",
+                      .read = try_load,
+                      .context = (void *)source->file};
+    bool opened = open_check(source->file, err) && (!child_is_wanted() || child_do(&work, err)) &&
+                  load(source->file, plugin, err);
+    if (!ERROR_AT(key, "file", opened)) return false;
     if (!plugin->rates) return true;
     law->remembers = law->feels_pressure = true;
     law->states = plugin->states(given);

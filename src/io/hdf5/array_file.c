@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // All is handed on to the module amontons_hdf5.so, which is opened with the first file: HDF5 takes
-// 6 ms to load, as much as a short run's steps. The functions of the module come in one table
-// (array_file_module.h), so that one symbol is looked up and the compiler checks their signatures.
+// 6 ms to load, as much as a short run's steps. The functions of the module come in one table, so
+// that one symbol is looked up and the compiler checks their signatures.
 #include "io/hdf5/array_file.h"
 
 #include "base/module.h"
-#include "io/hdf5/array_file_module.h"
 
 #include <stddef.h>
 

@@ -6,13 +6,12 @@
 // (io/hdf5/array_parts); the end joins them. HDF5's own way, SWMR, allows no new arrays or
 // attributes while writing, takes twice the time, marks a killed writer's file so that ordinary
 // readers refuse it, and has HDF5 write to a disk that may be full, on which it crashes.
-#include "io/hdf5/array_file_module.h"
+#include "io/hdf5/array_file.h"
 
 #include "base/memory.h"
 #include "base/transfer.h"
 #include "io/files/file_lock.h"
 #include "io/files/part_file.h"
-#include "io/hdf5/array_attribute.h"
 #include "io/hdf5/array_parts.h"
 
 #include <errno.h>
@@ -84,55 +83,20 @@ static bool begin_part(ArrayFile *file, hid_t from, Error *err)
     return true;
 }
 
-// The bytes become a part of their own.
-static bool put_aside(ArrayFile *file, const void *bytes, int64_t size, Error *err)
+// Two turns where the file has become too large.
+static bool hdf5_flush(ArrayFile *file, Error *err)
 {
     char name[PATH_MAX + 24];
-    PartFile aside = {0};
-    snprintf(name, sizeof name, "%s.%d", file->part.part, (int)file->parts.count + 1);
-    TRY(part_file_replace(&aside, name, true, err));
-    TRY(part_file_write(&aside, bytes, size, err));
-    TRY(part_file_commit(&aside, err));
-    TRY(begin_part(file, file->id, err));
-cleanup:
-    part_file_discard(&aside);
-    return error_is_clean(err);
-}
-
-// `next` becomes the last part. What was a part without a number gets one first: a kill between the
-// two leaves that one alone (FIRST_PART).
-static bool take_next(ArrayFile *file, PartFile *next, Error *err)
-{
-    char aside[PATH_MAX + 24];
     const char *last = file->part.part;
-    bool moved = file->parts.unnamed;
-    snprintf(aside, sizeof aside, "%s.%d", last, (int)file->parts.count);
-    if (moved && rename(last, aside) != 0)
-        return FAULT(err, ERROR_FILE, "cannot rename %s to %s: %s", last, aside, strerror(errno));
-    file->parts.unnamed = false;
-    if (part_file_take_next(&file->part, next, err)) return true;
-    if (moved) file->parts.unnamed = rename(aside, last) == 0;
-    return false;
-}
-
-static bool put_bytes(ArrayFile *file, const void *bytes, int64_t size, Error *err)
-{
-    PartFile next = {0};
-    TRY(part_file_begin_next(&file->part, &next, err));
-    TRY(part_file_write(&next, bytes, size, err));
-    TRY(take_next(file, &next, err));
-cleanup:
-    part_file_discard(&next);
-    return error_is_clean(err);
-}
-
-// Somebody may have removed or cut the last part, which is written again; earlier ones are lost.
-static bool look_after_parts(ArrayFile *file, Error *err)
-{
-    char name[PATH_MAX + 24];
     struct stat status;
-    if (!file_is_named(file->part.part, file->part.descriptor) ||
-        fstat(file->part.descriptor, &status) != 0 || status.st_size != file->flushed)
+    PartFile next = {0};
+    void *bytes = NULL;
+    if (!file->writing) return true;
+
+    // Somebody may have removed or cut the last part, which is written again; earlier ones are
+    // lost.
+    if (!file_is_named(last, file->part.descriptor) || fstat(file->part.descriptor, &status) != 0 ||
+        status.st_size != file->flushed)
         file->changed = true;
     for (int32_t number = 1; number <= file->parts.count; number++) {
         array_part_name(&file->parts, number, name);
@@ -140,31 +104,44 @@ static bool look_after_parts(ArrayFile *file, Error *err)
             return FAULT(err, ERROR_FILE,
                          "%s is gone, and with it the rows of the history that it held", name);
     }
-    return true;
-}
-
-// Two turns where the file has become too large.
-static bool hdf5_flush(ArrayFile *file, Error *err)
-{
-    if (!file->writing) return true;
-    if (!look_after_parts(file, err)) return false;
     if (!file->changed) return true;
     if (!may_change(file, err) || !hand_over_all(file, err)) return false;
     while (file->changed) {
         int64_t size = 0;
-        void *bytes = hdf5_memory_bytes(file->id, file->part.part, &size, err);
+        bytes = hdf5_memory_bytes(file->id, last, &size, err);
         if (!bytes) {
             file->broken = err->code == ERROR_LIBRARY;
             return false;
         }
-        bool aside = size > PART_BYTES;
-        bool done = aside ? put_aside(file, bytes, size, err) : put_bytes(file, bytes, size, err);
+        if (size > PART_BYTES) {
+            // The bytes become a part of their own.
+            snprintf(name, sizeof name, "%s.%d", last, (int)file->parts.count + 1);
+            TRY(part_file_put(name, true, bytes, size, err));
+            TRY(begin_part(file, file->id, err));
+        } else {
+            // They become the last part. What was a part without a number gets one first: a kill
+            // between the two leaves that one alone (FIRST_PART).
+            TRY(part_file_begin_next(&file->part, &next, err));
+            TRY(part_file_write(&next, bytes, size, err));
+            bool moved = file->parts.unnamed;
+            snprintf(name, sizeof name, "%s.%d", last, (int)file->parts.count);
+            if (moved && rename(last, name) != 0)
+                FAIL(err, ERROR_FILE, "cannot rename %s to %s: %s", last, name, strerror(errno));
+            file->parts.unnamed = false;
+            if (!part_file_take_next(&file->part, &next, err)) {
+                if (moved) file->parts.unnamed = rename(name, last) == 0;
+                goto cleanup;
+            }
+            file->changed = false;
+        }
         H5free_memory(bytes);
-        if (!done) return false;
+        bytes = NULL;
         file->flushed = size;
-        file->changed = aside;
     }
-    return true;
+cleanup:
+    part_file_discard(&next);
+    if (bytes) H5free_memory(bytes);
+    return error_is_clean(err);
 }
 
 // --- opening and closing ------------------------------------------------------------------------
@@ -207,87 +184,72 @@ cleanup:
     return NULL;
 }
 
-// The file that is there is read into the memory.
-static bool load(ArrayFile *file, int64_t size, Error *err)
-{
-    char *bytes = memory_bytes(size, err);
-    if (!bytes) return false;
-    if (transfer_read(file->part.descriptor, bytes, size, 0) != size)
-        error_set(err, ERROR_FILE, __FILE__, __LINE__, "cannot read %s: %s", file->part.part,
-                  strerror(errno ? errno : EIO));
-    else
-        file->id = hdf5_memory_open(file->part.part, bytes, size, err);
-    memory_free(bytes);
-    return file->id > 0 && array_parts_count(file->id, file->part.part, &file->parts.count, err);
-}
-
-// A file of any length, as the end joins them, stays where it is and becomes a part.
-static bool follow(ArrayFile *file, Error *err)
-{
-    hid_t before = hdf5_disk_open(file->part.part, err);
-    if (before < 0) return false;
-    bool done = array_parts_count(before, file->part.part, &file->parts.count, err) &&
-                begin_part(file, before, err);
-    file->parts.unnamed = done;
-    H5Fclose(before);
-    return done;
-}
-
-// A file that was killed while it became a part is what it was.
-static void take_back_first_part(const char *path)
-{
-    char first[PATH_MAX + 24], part[PATH_MAX + 24];
-    snprintf(part, sizeof part, "%.*s.part", PATH_MAX, path);
-    snprintf(first, sizeof first, "%.*s" FIRST_PART, PATH_MAX, path);
-    if (access(path, F_OK) != 0 && access(part, F_OK) != 0) rename(first, part);
-}
-
 // Nothing is written before the first flush; a finished file is called .part again.
 static ArrayFile *hdf5_reopen(const char *path, Error *err)
 {
+    char first[PATH_MAX + 24], part[PATH_MAX + 24], *bytes = NULL;
+    hid_t before = -1;
     struct stat status;
     ArrayFile *file = new_file(err);
     if (!file) return NULL;
     file->writing = true;
     file->series_capacity = FIRST_SERIES;
     TRY((file->series = NEW_ARRAY(SeriesWriter, file->series_capacity, err)));
-    take_back_first_part(path);
+
+    // A file that was killed while it became a part is what it was.
+    snprintf(part, sizeof part, "%.*s.part", PATH_MAX, path);
+    snprintf(first, sizeof first, "%.*s" FIRST_PART, PATH_MAX, path);
+    if (access(path, F_OK) != 0 && access(part, F_OK) != 0) rename(first, part);
     TRY(part_file_reopen(&file->part, path, err));
+    const char *last = file->part.part;
     snprintf(file->path, sizeof file->path, "%s", path);
-    file->parts = (ArrayParts){.path = file->part.part};
+    file->parts = (ArrayParts){.path = last};
     if (fstat(file->part.descriptor, &status) != 0)
-        FAIL(err, ERROR_FILE, "cannot read %s: %s", file->part.part, strerror(errno));
+        FAIL(err, ERROR_FILE, "cannot read %s: %s", last, strerror(errno));
     file->flushed = status.st_size;
-    TRY(status.st_size > PART_BYTES ? follow(file, err) : load(file, status.st_size, err));
+    if (status.st_size > PART_BYTES) {
+        // A file of any length, as the end joins them, stays where it is and becomes a part.
+        TRY((before = hdf5_disk_open(last, err)) >= 0);
+        TRY(array_parts_count(before, last, &file->parts.count, err));
+        TRY(begin_part(file, before, err));
+        file->parts.unnamed = true;
+        H5Fclose(before);
+    } else {
+        // A short one is read into the memory.
+        TRY(bytes = memory_bytes(status.st_size, err));
+        if (transfer_read(file->part.descriptor, bytes, status.st_size, 0) != status.st_size)
+            FAIL(err, ERROR_FILE, "cannot read %s: %s", last, strerror(errno ? errno : EIO));
+        TRY((file->id = hdf5_memory_open(last, bytes, status.st_size, err)) > 0);
+        TRY(array_parts_count(file->id, last, &file->parts.count, err));
+        memory_free(bytes);
+    }
     file->parts.last = file->id;
     return file;
 cleanup:
+    if (before >= 0) H5Fclose(before);
+    memory_free(bytes);
     destroy(file);
     return NULL;
 }
 
-// `path` or, where only that stands, `path`.part or FIRST_PART; into file->path.
-static bool choose_existing(ArrayFile *file, const char *path, Error *err)
+// Opens `path` or, where only that stands, `path`.part or FIRST_PART.
+static ArrayFile *hdf5_open(const char *path, Error *err)
 {
     static const char *const ends[] = {"", ".part", FIRST_PART};
     char part[PATH_MAX + 8];
-    if (!part_file_name(path, part))
-        return FAULT(err, ERROR_FILE, "the name of the file to read is empty or too long: \"%s\"",
-                     path);
     int cause = 0;
-    for (size_t k = 0; k < sizeof ends / sizeof ends[0]; k++) {
-        snprintf(file->path, sizeof file->path, "%s%s", path, ends[k]);
-        if (access(file->path, F_OK) == 0) return true;
-        if (k == 0) cause = errno;
-    }
-    return FAULT(err, ERROR_FILE, "cannot read %s (nor %s.part): %s", path, path, strerror(cause));
-}
-
-static ArrayFile *hdf5_open(const char *path, Error *err)
-{
+    bool found = false;
     ArrayFile *file = new_file(err);
     if (!file) return NULL;
-    TRY(choose_existing(file, path, err));
+    if (!part_file_name(path, part))
+        FAIL(err, ERROR_FILE, "the name of the file to read is empty or too long: \"%s\"", path);
+    for (size_t k = 0; !found && k < sizeof ends / sizeof ends[0]; k++) {
+        snprintf(file->path, sizeof file->path, "%s%s", path, ends[k]);
+        found = access(file->path, F_OK) == 0;
+        if (k == 0) cause = errno;
+    }
+    if (!found)
+        FAIL(err, ERROR_FILE, "cannot read %s (nor %s.part): %s", path, path, strerror(cause));
     TRY((file->id = hdf5_disk_open(file->path, err)) > 0);
     file->parts = (ArrayParts){.path = file->path, .last = file->id};
     TRY(array_parts_count(file->id, file->path, &file->parts.count, err));
@@ -315,23 +277,18 @@ cleanup:
     return error_is_clean(err);
 }
 
-static void remove_parts(const ArrayFile *file)
-{
-    char name[PATH_MAX + 24];
-    for (int32_t number = file->parts.count; number > 0; number--) {
-        array_part_name(&file->parts, number, name);
-        unlink(name);
-    }
-}
-
 // Where one of these fails the name is not given.
 static bool hdf5_close(ArrayFile *file, Error *err)
 {
+    char name[PATH_MAX + 24];
     if (!file->writing) goto cleanup;
     TRY(hdf5_flush(file, err));
     TRY(file->parts.count == 0 || join_parts(file, err));
     TRY(part_file_commit(&file->part, err));
-    remove_parts(file);
+    for (int32_t number = file->parts.count; number > 0; number--) {
+        array_part_name(&file->parts, number, name);
+        unlink(name);
+    }
 cleanup:
     destroy(file);
     return error_is_clean(err);
@@ -395,12 +352,6 @@ static SeriesWriter *find_series(const ArrayFile *file, const char *name)
     return NULL;
 }
 
-static bool grow_series_list(ArrayFile *file, Error *err)
-{
-    return memory_grow(&file->series, file->series_count, &file->series_capacity,
-                       sizeof(SeriesWriter), err);
-}
-
 // Unit and description are attributes of the dataset: a reader finds them beside the numbers.
 static bool hdf5_add_vectors(ArrayFile *file, const ArraySeries *series, int32_t components,
                              Error *err)
@@ -409,7 +360,8 @@ static bool hdf5_add_vectors(ArrayFile *file, const ArraySeries *series, int32_t
     TRY(may_change(file, err));
     if (find_series(file, series->name))
         FAIL(err, ERROR_LIBRARY, "%s holds %s already", file->path, series->name);
-    TRY(grow_series_list(file, err));
+    TRY(memory_grow(&file->series, file->series_count, &file->series_capacity, sizeof *file->series,
+                    err));
     TRY(series_create(&added, file->id, series, components, err));
     herr_t status = attribute_write_text(added.dataset, "unit", series->unit);
     if (status >= 0)
@@ -440,7 +392,8 @@ static bool hdf5_cut(ArrayFile *file, const char *name, int64_t rows, Error *err
     SeriesWriter opened = {0}, *series = find_series(file, name);
     TRY(may_change(file, err));
     if (!series) {
-        TRY(grow_series_list(file, err));
+        TRY(memory_grow(&file->series, file->series_count, &file->series_capacity,
+                        sizeof *file->series, err));
         TRY(series_open(&opened, file->id, name, err));
         series = &file->series[file->series_count++];
         *series = opened;

@@ -2,7 +2,6 @@
 #include "io/hdf5/array_parts.h"
 
 #include "base/memory.h"
-#include "io/hdf5/array_attribute.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -52,11 +51,15 @@ static herr_t transfer_rows(hid_t dataset, hid_t type, int64_t from, int64_t cou
     return status;
 }
 
-// An array in one of the parts, opened.
+// Goes through the parts that an array lies in, the last one first (next_piece).
 typedef struct Piece {
+    const ArrayParts *parts;
+    const char *name;   // of the array
+    int32_t number;   // of this part, beyond parts->count: the last; 0: none was asked for
     hid_t file, dataset;   // 0: not opened. file: only where it is an earlier part
     char path[PATH_MAX + 24];
     int64_t first, rows;   // which rows of the whole array it has
+    int64_t whole, begin;   // rows of the whole array; the first one of the parts gone through
     int32_t width;
 } Piece;
 
@@ -64,20 +67,28 @@ static void close_piece(Piece *piece)
 {
     if (piece->dataset > 0) H5Dclose(piece->dataset);
     if (piece->file > 0) H5Fclose(piece->file);
-    *piece = (Piece){0};
+    piece->dataset = piece->file = 0;
 }
 
-// number: of the part; beyond parts->count: the last. *piece is closed by the caller, also after a
-// failure.
-static bool open_piece(const ArrayParts *parts, int32_t number, const char *name, Piece *piece,
-                       Error *err)
+// Opens the array in the next part. False: there is no more of it, or an error. *piece is closed by
+// the caller in any case.
+static bool next_piece(Piece *piece, Error *err)
 {
     char cause[HDF5_CAUSE_SIZE], why[SHAPE_WHY_SIZE];
-    int32_t components;
-    bool last = number > parts->count;
-    *piece = (Piece){0};
+    const ArrayParts *parts = piece->parts;
+    const char *name = piece->name;
+    int64_t rows;
+    int32_t width, components;
+    bool last = piece->number == 0;
+    close_piece(piece);
+    if (!last && piece->begin == 0) return false;
+    piece->number = last ? parts->count + 1 : piece->number - 1;
+    if (piece->number == 0)
+        return FAULT(err, ERROR_FILE, "%s: the first rows of %s are missing", parts->path, name);
+
+    // The part, and the array in it.
     if (last) snprintf(piece->path, sizeof piece->path, "%s", parts->path);
-    if (!last) array_part_name(parts, number, piece->path);
+    if (!last) array_part_name(parts, piece->number, piece->path);
     if (!last && (piece->file = hdf5_disk_open(piece->path, err)) < 0) return false;
     hid_t file = last ? parts->last : piece->file;
     if (H5Lexists(file, name, H5P_DEFAULT) <= 0)
@@ -86,96 +97,52 @@ static bool open_piece(const ArrayParts *parts, int32_t number, const char *name
     if (piece->dataset < 0)
         return FAULT(err, ERROR_FILE, "%s: %s is no array: %s", piece->path, name,
                      hdf5_cause(cause));
-    if (!series_shape(piece->dataset, &piece->rows, &piece->width, &components, why))
+    if (!series_shape(piece->dataset, &rows, &width, &components, why))
         return FAULT(err, ERROR_FILE, "%s: %s %s", piece->path, name, why);
     piece->first = series_first_row(piece->dataset);
     if (piece->first < 0 || (piece->first > 0 && parts->count == 0) ||
-        piece->first > INT64_MAX - piece->rows)
+        piece->first > INT64_MAX - rows)
         return FAULT(err, ERROR_FILE, "%s: %s begins with a row that cannot be", piece->path, name);
-    return true;
-}
 
-// Rows of the piece that count, where the next one begins with row `end`: at least those from its
-// first one on.
-static bool check_piece(Piece *piece, int64_t end, int32_t width, const char *name, Error *err)
-{
-    int64_t used = end > piece->first ? end - piece->first : 0;
-    if (used > piece->rows || (used > 0 && piece->width != width))
+    // Its rows count up to the first one of the part behind it, and it must have them.
+    if (last) {
+        piece->whole = piece->begin = piece->first + rows;
+        piece->width = width;
+    }
+    piece->rows = piece->begin > piece->first ? piece->begin - piece->first : 0;
+    if (piece->rows > rows || (piece->rows > 0 && piece->width != width))
         return FAULT(err, ERROR_FILE,
                      "%s: rows of %s are missing: it is not the part that was "
                      "written",
                      piece->path, name);
-    piece->rows = used;
-    return true;
-}
-
-// Calls take(piece, rows of the whole array, ...) for each piece of the array that counts, the last
-// one first.
-typedef bool (*TakePiece)(const Piece *piece, int64_t rows, void *context, Error *err);
-
-static bool each_piece(const ArrayParts *parts, const char *name, TakePiece take, void *context,
-                       Error *err)
-{
-    Piece piece = {0};
-    int64_t rows = 0, end = 0;   // rows of the whole; where the next piece begins
-    int32_t width = 0, number = parts->count + 1;
-    do {
-        close_piece(&piece);
-        TRY(open_piece(parts, number, name, &piece, err));
-        if (number > parts->count) {
-            rows = end = piece.first + piece.rows;
-            width = piece.width;
-        }
-        TRY(check_piece(&piece, end, width, name, err));
-        TRY(take(&piece, rows, context, err));
-        if (piece.first < end) end = piece.first;
-    } while (end > 0 && --number > 0);
-    if (end > 0) FAIL(err, ERROR_FILE, "%s: the first rows of %s are missing", parts->path, name);
-cleanup:
-    close_piece(&piece);
-    return error_is_clean(err);
-}
-
-// --- reading an array ---------------------------------------------------------------------------
-
-typedef struct Reading {
-    const char *name;
-    double *values;   // [rows * width]; NULL: not allocated yet
-    int64_t rows;
-    int32_t width;
-} Reading;
-
-static bool read_piece(const Piece *piece, int64_t rows, void *context, Error *err)
-{
-    Reading *reading = context;
-    char cause[HDF5_CAUSE_SIZE];
-    int64_t most = INT64_MAX / (int64_t)sizeof(double);
-    if (!reading->values) {
-        reading->rows = rows;
-        reading->width = piece->width;
-        if (rows > most / (piece->width > 0 ? piece->width : 1))
-            return FAULT(err, ERROR_FILE, "%s: %s is too large to be true", piece->path,
-                         reading->name);
-        reading->values = memory_bytes(rows * piece->width * (int64_t)sizeof(double), err);
-        if (!reading->values) return false;
-    }
-    if (piece->rows > 0 &&
-        transfer_rows(piece->dataset, H5T_NATIVE_DOUBLE, 0, piece->rows,
-                      reading->values + piece->first * reading->width, false) < 0)
-        return FAULT(err, ERROR_FILE, "%s: cannot read %s: %s", piece->path, reading->name,
-                     hdf5_cause(cause));
+    if (piece->first < piece->begin) piece->begin = piece->first;
     return true;
 }
 
 bool array_parts_read(const ArrayParts *parts, const char *name, double **values, int64_t *rows,
                       int32_t *width, Error *err)
 {
-    Reading reading = {.name = name};
-    bool done = each_piece(parts, name, read_piece, &reading, err);
-    if (!done) memory_free(reading.values);   // half read
-    *values = done ? reading.values : NULL;
-    *rows = done ? reading.rows : 0;
-    *width = done ? reading.width : 0;
+    char cause[HDF5_CAUSE_SIZE];
+    Piece piece = {.parts = parts, .name = name};
+    int64_t most = INT64_MAX / (int64_t)sizeof(double);
+    double *read = NULL;
+    while (next_piece(&piece, err)) {
+        if (!read) {
+            if (piece.whole > most / (piece.width > 0 ? piece.width : 1))
+                FAIL(err, ERROR_FILE, "%s: %s is too large to be true", piece.path, name);
+            TRY(read = memory_bytes(piece.whole * piece.width * (int64_t)sizeof(double), err));
+        }
+        if (piece.rows > 0 && transfer_rows(piece.dataset, H5T_NATIVE_DOUBLE, 0, piece.rows,
+                                            read + piece.first * piece.width, false) < 0)
+            FAIL(err, ERROR_FILE, "%s: cannot read %s: %s", piece.path, name, hdf5_cause(cause));
+    }
+cleanup:
+    close_piece(&piece);
+    if (!error_is_clean(err)) memory_free(read);   // half read
+    bool done = error_is_clean(err);
+    *values = done ? read : NULL;
+    *rows = done ? piece.whole : 0;
+    *width = done ? piece.width : 0;
     return done;
 }
 
@@ -186,25 +153,6 @@ typedef struct Beginning {
     bool goes_on;
     const char *path;
 } Beginning;
-
-// Type, chunks and filters as they are, no rows.
-static hid_t create_like(hid_t dataset, const char *name, hid_t file)
-{
-    hsize_t shape[H5S_MAX_RANK], shape_max[H5S_MAX_RANK];
-    hid_t type = H5Dget_type(dataset), given = H5Dget_space(dataset);
-    hid_t creation = H5Dget_create_plist(dataset), links = H5Pcreate(H5P_LINK_CREATE);
-    int rank = H5Sget_simple_extent_dims(given, shape, shape_max);
-    shape[0] = 0;
-    hid_t space = rank < 1 ? -1 : H5Screate_simple(rank, shape, shape_max);
-    H5Pset_create_intermediate_group(links, 1);
-    hid_t made = space < 0 ? -1 : H5Dcreate2(file, name, type, space, links, creation, H5P_DEFAULT);
-    if (space >= 0) H5Sclose(space);
-    H5Pclose(links);
-    H5Pclose(creation);
-    H5Sclose(given);
-    H5Tclose(type);
-    return made;
-}
 
 static bool begin_array(hid_t dataset, const char *name, void *context, Error *err)
 {
@@ -217,7 +165,23 @@ static bool begin_array(hid_t dataset, const char *name, void *context, Error *e
     if (first < 0 || first > INT64_MAX - rows)
         return FAULT(err, ERROR_FILE, "%s: %s begins with a row that cannot be", beginning->path,
                      name);
-    hid_t made = create_like(dataset, name, beginning->to);
+
+    // Type, chunks and filters as they are, no rows.
+    hsize_t shape[H5S_MAX_RANK], shape_max[H5S_MAX_RANK];
+    hid_t type = H5Dget_type(dataset), given = H5Dget_space(dataset);
+    hid_t creation = H5Dget_create_plist(dataset), links = H5Pcreate(H5P_LINK_CREATE);
+    int rank = H5Sget_simple_extent_dims(given, shape, shape_max);
+    shape[0] = 0;
+    hid_t space = rank < 1 ? -1 : H5Screate_simple(rank, shape, shape_max);
+    H5Pset_create_intermediate_group(links, 1);
+    hid_t made =
+        space < 0 ? -1 : H5Dcreate2(beginning->to, name, type, space, links, creation, H5P_DEFAULT);
+    if (space >= 0) H5Sclose(space);
+    H5Pclose(links);
+    H5Pclose(creation);
+    H5Sclose(given);
+    H5Tclose(type);
+
     herr_t status = made < 0 ? -1 : attribute_copy_all(dataset, made, SERIES_FIRST_ROW);
     if (status >= 0 && beginning->goes_on)
         status = attribute_write_number(made, SERIES_FIRST_ROW, (double)(first + rows));
@@ -241,51 +205,53 @@ bool array_parts_begin(hid_t from, hid_t to, bool goes_on, const char *path, Err
 
 typedef struct Joining {
     const ArrayParts *parts;
-    hid_t whole, to;   // the file, and the array in it
-    const char *name;
+    hid_t whole;   // the file
 } Joining;
 
-// The rows of one piece, some at a time, to their place in the whole array, which gets its length
-// with the first one.
-static bool copy_piece(const Piece *piece, int64_t whole, void *context, Error *err)
-{
-    const Joining *joining = context;
-    char cause[HDF5_CAUSE_SIZE];
-    hsize_t shape[H5S_MAX_RANK];
-    hid_t space = H5Dget_space(joining->to), type = H5Dget_type(piece->dataset);
-    H5Sget_simple_extent_dims(space, shape, NULL);
-    H5Sclose(space);
-    int64_t row_bytes = (int64_t)H5Tget_size(type) * piece->width, rows = piece->rows;
-    int64_t most = row_bytes > 0 && row_bytes < BLOCK_BYTES ? BLOCK_BYTES / row_bytes : 1;
-    char *block = memory_array(rows < most ? rows : most, (size_t)row_bytes, err);
-    if (block && shape[0] != (hsize_t)whole) {
-        shape[0] = (hsize_t)whole;
-        hdf5_wrote(H5Dset_extent(joining->to, shape), joining->parts->path, joining->name, err);
-    }
-    for (int64_t done = 0; error_is_clean(err) && done < rows; done += most) {
-        int64_t count = rows - done < most ? rows - done : most;
-        if (transfer_rows(piece->dataset, type, done, count, block, false) < 0)
-            error_set(err, ERROR_FILE, __FILE__, __LINE__, "%s: cannot read %s: %s", piece->path,
-                      joining->name, hdf5_cause(cause));
-        else
-            hdf5_wrote(transfer_rows(joining->to, type, piece->first + done, count, block, true),
-                       joining->parts->path, joining->name, err);
-    }
-    memory_free(block);
-    H5Tclose(type);
-    return error_is_clean(err);
-}
-
+// Copies the rows of each part to their place in the whole array, some at a time.
 static bool join_array(hid_t last, const char *name, void *context, Error *err)
 {
-    Joining *joining = context;
+    const Joining *joining = context;
+    const char *path = joining->parts->path;
+    char cause[HDF5_CAUSE_SIZE], *block = NULL;
+    hid_t type = -1, to = H5Dopen2(joining->whole, name, H5P_DEFAULT);
+    Piece piece = {.parts = joining->parts, .name = name};
     (void)last;
-    joining->name = name;
-    joining->to = H5Dopen2(joining->whole, name, H5P_DEFAULT);
-    if (!hdf5_wrote(joining->to < 0 ? -1 : 0, joining->parts->path, name, err)) return false;
-    bool done = each_piece(joining->parts, name, copy_piece, joining, err);
-    H5Dclose(joining->to);
-    return done;
+    TRY(hdf5_wrote(to < 0 ? -1 : 0, path, name, err));
+    while (next_piece(&piece, err)) {
+        type = H5Dget_type(piece.dataset);
+        int64_t row_bytes = (int64_t)H5Tget_size(type) * piece.width, rows = piece.rows;
+        int64_t most = row_bytes > 0 && row_bytes < BLOCK_BYTES ? BLOCK_BYTES / row_bytes : 1;
+        TRY(block = memory_array(rows < most ? rows : most, (size_t)row_bytes, err));
+
+        // The whole array gets its length with the first piece.
+        hsize_t shape[H5S_MAX_RANK];
+        hid_t space = H5Dget_space(to);
+        H5Sget_simple_extent_dims(space, shape, NULL);
+        H5Sclose(space);
+        if (shape[0] != (hsize_t)piece.whole) {
+            shape[0] = (hsize_t)piece.whole;
+            TRY(hdf5_wrote(H5Dset_extent(to, shape), path, name, err));
+        }
+        for (int64_t done = 0; done < rows; done += most) {
+            int64_t count = rows - done < most ? rows - done : most;
+            if (transfer_rows(piece.dataset, type, done, count, block, false) < 0)
+                FAIL(err, ERROR_FILE, "%s: cannot read %s: %s", piece.path, name,
+                     hdf5_cause(cause));
+            TRY(hdf5_wrote(transfer_rows(to, type, piece.first + done, count, block, true), path,
+                           name, err));
+        }
+        memory_free(block);
+        H5Tclose(type);
+        block = NULL;
+        type = -1;
+    }
+cleanup:
+    close_piece(&piece);
+    memory_free(block);
+    if (type >= 0) H5Tclose(type);
+    if (to >= 0) H5Dclose(to);
+    return error_is_clean(err);
 }
 
 bool array_parts_join(const ArrayParts *parts, hid_t whole, Error *err)

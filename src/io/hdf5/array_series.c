@@ -4,7 +4,6 @@
 #include "io/hdf5/array_series.h"
 
 #include "base/memory.h"
-#include "io/hdf5/array_attribute.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -49,33 +48,6 @@ static void shape_of(const SeriesWriter *writer, hsize_t rows, hsize_t shape[ARR
     shape[2] = (hsize_t)writer->components;
 }
 
-// An empty, extendable dataset. The id, or a negative number.
-static hid_t create_dataset(const SeriesWriter *writer, hid_t id)
-{
-    hsize_t shape[ARRAY_RANK_MAX], shape_max[ARRAY_RANK_MAX], chunk[ARRAY_RANK_MAX];
-    shape_of(writer, 0, shape);
-    shape_of(writer, H5S_UNLIMITED, shape_max);
-    shape_of(writer, (hsize_t)writer->chunk_rows, chunk);
-    size_t chunk_bytes = (size_t)(writer->chunk_rows * writer->width) * type_row(writer->type).size;
-    hid_t space = H5Screate_simple(rank_of(writer), shape, shape_max);
-    hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
-    hid_t links = H5Pcreate(H5P_LINK_CREATE);
-    hid_t cache = H5Pcreate(H5P_DATASET_ACCESS);
-    bool ready = H5Pset_chunk(creation, rank_of(writer), chunk) >= 0 &&
-                 H5Pset_shuffle(creation) >= 0 && H5Pset_deflate(creation, DEFLATE_LEVEL) >= 0 &&
-                 H5Pset_create_intermediate_group(links, 1) >= 0 &&
-                 // Only the last chunk is ever touched again; a full one leaves memory first (1.0).
-                 H5Pset_chunk_cache(cache, CACHE_SLOTS, chunk_bytes, 1.0) >= 0;
-    hid_t dataset = !ready ? -1
-                           : H5Dcreate2(id, writer->name, type_row(writer->type).stored, space,
-                                        links, creation, cache);
-    H5Pclose(cache);
-    H5Pclose(links);
-    H5Pclose(creation);
-    H5Sclose(space);
-    return dataset;
-}
-
 static int64_t chunk_rows(ArrayType type, int32_t width)
 {
     int64_t rows = CHUNK_BYTES / ((int64_t)type_row(type).size * width);
@@ -96,19 +68,33 @@ bool series_create(SeriesWriter *writer, hid_t id, const ArraySeries *series, in
     if (!(writer->buffer =
               memory_array(writer->chunk_rows * writer->width, type_row(writer->type).size, err)))
         return false;
-    writer->dataset = create_dataset(writer, id);
+
+    // An empty, extendable dataset.
+    hsize_t shape[ARRAY_RANK_MAX], shape_max[ARRAY_RANK_MAX], chunk[ARRAY_RANK_MAX];
+    shape_of(writer, 0, shape);
+    shape_of(writer, H5S_UNLIMITED, shape_max);
+    shape_of(writer, (hsize_t)writer->chunk_rows, chunk);
+    size_t chunk_bytes = (size_t)(writer->chunk_rows * writer->width) * type_row(writer->type).size;
+    hid_t space = H5Screate_simple(rank_of(writer), shape, shape_max);
+    hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
+    hid_t links = H5Pcreate(H5P_LINK_CREATE);
+    hid_t cache = H5Pcreate(H5P_DATASET_ACCESS);
+    bool ready = H5Pset_chunk(creation, rank_of(writer), chunk) >= 0 &&
+                 H5Pset_shuffle(creation) >= 0 && H5Pset_deflate(creation, DEFLATE_LEVEL) >= 0 &&
+                 H5Pset_create_intermediate_group(links, 1) >= 0 &&
+                 // Only the last chunk is ever touched again; a full one leaves memory first (1.0).
+                 H5Pset_chunk_cache(cache, CACHE_SLOTS, chunk_bytes, 1.0) >= 0;
+    writer->dataset = !ready ? -1
+                             : H5Dcreate2(id, writer->name, type_row(writer->type).stored, space,
+                                          links, creation, cache);
+    H5Pclose(cache);
+    H5Pclose(links);
+    H5Pclose(creation);
+    H5Sclose(space);
     if (writer->dataset < 0)
         return FAULT(err, ERROR_LIBRARY, "HDF5 cannot make %s: %s", writer->name,
                      hdf5_cause(cause));
     return true;
-}
-
-// Finds our type of what is stored; false: we have no such type.
-static bool find_type(hid_t stored, ArrayType *type)
-{
-    for (*type = ARRAY_FLOAT64; *type <= ARRAY_INT32; ++*type)
-        if (H5Tequal(stored, type_row(*type).stored) > 0) return true;
-    return false;
 }
 
 // The numbers come from a file, which may be damaged: bytes of all values must fit into 64 bits.
@@ -133,19 +119,6 @@ bool series_shape(hid_t dataset, int64_t *rows, int32_t *width, int32_t *compone
     return known;
 }
 
-// Type, width and rows of the dataset; its chunks are those that series_create would give it.
-static bool read_layout(SeriesWriter *writer)
-{
-    char why[SHAPE_WHY_SIZE];
-    hid_t type = H5Dget_type(writer->dataset);
-    bool known = find_type(type, &writer->type);
-    H5Tclose(type);
-    return known &&
-           series_shape(writer->dataset, &writer->row_count, &writer->width, &writer->components,
-                        why) &&
-           writer->width > 0;
-}
-
 int64_t series_first_row(hid_t dataset)
 {
     double first = 0;
@@ -166,14 +139,27 @@ static hid_t open_dataset(hid_t id, const char *name)
 
 bool series_open(SeriesWriter *writer, hid_t id, const char *name, Error *err)
 {
-    char cause[HDF5_CAUSE_SIZE];
+    char cause[HDF5_CAUSE_SIZE], why[SHAPE_WHY_SIZE];
     *writer = (SeriesWriter){0};
     if (!(writer->name = memory_text(name, err))) return false;
     writer->dataset = open_dataset(id, name);
     if (writer->dataset < 0)
         return FAULT(err, ERROR_FILE, "the file has no %s: %s", name, hdf5_cause(cause));
     writer->first = series_first_row(writer->dataset);
-    if (!read_layout(writer) || writer->first < 0)
+
+    // Our type of what is stored. The chunks are those that series_create would give it.
+    hid_t type = H5Dget_type(writer->dataset);
+    bool known = false;
+    for (ArrayType one = ARRAY_FLOAT64; !known && one <= ARRAY_INT32; one++) {
+        writer->type = one;
+        known = H5Tequal(type, type_row(one).stored) > 0;
+    }
+    H5Tclose(type);
+    known = known &&
+            series_shape(writer->dataset, &writer->row_count, &writer->width, &writer->components,
+                         why) &&
+            writer->width > 0;
+    if (!known || writer->first < 0)
         return FAULT(err, ERROR_FILE, "%s is not as it was written", name);
     writer->chunk_rows = chunk_rows(writer->type, writer->width);
     writer->buffer =
@@ -250,28 +236,6 @@ static double nearest(double value, double low, double high)
     return value < low ? low : value > high ? high : rint(value);
 }
 
-// buffer[first ... first + count) = values, in the stored type.
-static void convert(SeriesWriter *writer, int64_t first, const double *values, int64_t count)
-{
-    switch (writer->type) {
-    case ARRAY_FLOAT64:
-        memcpy((double *)writer->buffer + first, values, (size_t)count * sizeof(double));
-        break;
-    case ARRAY_FLOAT32:
-        for (int64_t k = 0; k < count; k++) ((float *)writer->buffer)[first + k] = (float)values[k];
-        break;
-    case ARRAY_UINT8:
-        for (int64_t k = 0; k < count; k++)
-            ((uint8_t *)writer->buffer)[first + k] = (uint8_t)nearest(values[k], 0, UINT8_MAX);
-        break;
-    case ARRAY_INT32:
-        for (int64_t k = 0; k < count; k++)
-            ((int32_t *)writer->buffer)[first + k] =
-                (int32_t)nearest(values[k], INT32_MIN, INT32_MAX);
-        break;
-    }
-}
-
 // In whole chunks: one that is not full would be compressed again with every row.
 bool series_append(SeriesWriter *writer, const char *path, const double *values, int64_t rows,
                    Error *err)
@@ -280,7 +244,27 @@ bool series_append(SeriesWriter *writer, const char *path, const double *values,
         int64_t into_chunk = writer->row_count % writer->chunk_rows + writer->buffered;
         int64_t room = writer->chunk_rows - into_chunk;
         int64_t taken = rows < room ? rows : room;
-        convert(writer, writer->buffered * writer->width, values, taken * writer->width);
+
+        // buffer[first ... first + count) = values, in the stored type.
+        int64_t first = writer->buffered * writer->width, count = taken * writer->width;
+        switch (writer->type) {
+        case ARRAY_FLOAT64:
+            memcpy((double *)writer->buffer + first, values, (size_t)count * sizeof(double));
+            break;
+        case ARRAY_FLOAT32:
+            for (int64_t k = 0; k < count; k++)
+                ((float *)writer->buffer)[first + k] = (float)values[k];
+            break;
+        case ARRAY_UINT8:
+            for (int64_t k = 0; k < count; k++)
+                ((uint8_t *)writer->buffer)[first + k] = (uint8_t)nearest(values[k], 0, UINT8_MAX);
+            break;
+        case ARRAY_INT32:
+            for (int64_t k = 0; k < count; k++)
+                ((int32_t *)writer->buffer)[first + k] =
+                    (int32_t)nearest(values[k], INT32_MIN, INT32_MAX);
+            break;
+        }
         writer->buffered += taken;
         values += taken * writer->width;
         rows -= taken;

@@ -10,7 +10,7 @@
 #ifndef AMONTONS_IO_HDF5_ARRAY_SERIES_H
 #define AMONTONS_IO_HDF5_ARRAY_SERIES_H
 
-#include "io/hdf5/array_types.h"
+#include "io/hdf5/array_file.h"
 #include "io/hdf5/hdf5_library.h"
 
 typedef struct SeriesWriter {

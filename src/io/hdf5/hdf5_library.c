@@ -5,6 +5,7 @@
 #include "io/files/open_file.h"
 
 #include <stdio.h>
+#include <string.h>
 #include <sys/stat.h>
 
 enum { GROWTH = 1 << 20 };   // bytes by which a file in memory grows
@@ -39,6 +40,99 @@ static void start(void)
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
 }
 
+// --- attributes --------------------------------------------------------------------------------
+
+// stored, given: types in the file and of `value`.
+static herr_t write_one(hid_t object, const char *name, hid_t stored, hid_t given,
+                        const void *value)
+{
+    if (H5Aexists(object, name) > 0) H5Adelete(object, name);
+    hid_t space = H5Screate(H5S_SCALAR);
+    hid_t attribute = H5Acreate2(object, name, stored, space, H5P_DEFAULT, H5P_DEFAULT);
+    herr_t status = attribute < 0 ? -1 : H5Awrite(attribute, given, value);
+    if (attribute >= 0) H5Aclose(attribute);
+    H5Sclose(space);
+    return status;
+}
+
+herr_t attribute_write_number(hid_t object, const char *name, double value)
+{
+    return write_one(object, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &value);
+}
+
+herr_t attribute_write_text(hid_t object, const char *name, const char *value)
+{
+    hid_t type = H5Tcopy(H5T_C_S1);
+    H5Tset_size(type, H5T_VARIABLE);
+    H5Tset_cset(type, H5T_CSET_UTF8);
+    herr_t status = write_one(object, name, type, type, &value);
+    H5Tclose(type);
+    return status;
+}
+
+herr_t attribute_read_number(hid_t object, const char *name, double *value)
+{
+    hid_t attribute = H5Aopen(object, name, H5P_DEFAULT);
+    if (attribute < 0) return -1;
+    hid_t space = H5Aget_space(attribute);
+    bool is_one = H5Sget_simple_extent_npoints(space) == 1;
+    herr_t status = is_one ? H5Aread(attribute, H5T_NATIVE_DOUBLE, value) : -1;
+    H5Sclose(space);
+    H5Aclose(attribute);
+    return status;
+}
+
+// HDF5 allocates the text.
+herr_t attribute_read_text(hid_t object, const char *name, char *value, int32_t size)
+{
+    char *stored = NULL;
+    hid_t attribute = H5Aopen(object, name, H5P_DEFAULT);
+    if (attribute < 0) return -1;
+    hid_t type = H5Aget_type(attribute);
+    herr_t status = H5Tis_variable_str(type) > 0 ? H5Aread(attribute, type, &stored) : -1;
+    if (status >= 0 && stored)
+        snprintf(value, (size_t)size, "%s", stored);
+    else
+        status = -1;
+    if (stored) H5free_memory(stored);
+    H5Tclose(type);
+    H5Aclose(attribute);
+    return status;
+}
+
+typedef struct Copy {
+    hid_t to;
+    const char *left_out;
+} Copy;
+
+static herr_t copy_one(hid_t from, const char *name, const H5A_info_t *info, void *self)
+{
+    const Copy *copy = self;
+    char *text = NULL;
+    double number = 0;
+    (void)info;
+    if (strcmp(name, copy->left_out) == 0) return 0;
+    hid_t attribute = H5Aopen(from, name, H5P_DEFAULT);
+    if (attribute < 0) return -1;
+    hid_t type = H5Aget_type(attribute);
+    bool is_text = H5Tis_variable_str(type) > 0;
+    herr_t status = is_text ? H5Aread(attribute, type, &text)
+                            : attribute_read_number(from, name, &number);
+    if (status >= 0)
+        status = is_text ? attribute_write_text(copy->to, name, text ? text : "")
+                         : attribute_write_number(copy->to, name, number);
+    if (text) H5free_memory(text);
+    H5Tclose(type);
+    H5Aclose(attribute);
+    return status;
+}
+
+herr_t attribute_copy_all(hid_t from, hid_t to, const char *left_out)
+{
+    Copy copy = {to, left_out};
+    return H5Aiterate2(from, H5_INDEX_NAME, H5_ITER_NATIVE, NULL, copy_one, &copy);
+}
+
 // --- what a file may hold -----------------------------------------------------------------------
 
 #if H5_VERSION_GE(1, 12, 0)
@@ -55,21 +149,6 @@ typedef struct Visitor {
     void *context;
     Error *err;
 } Visitor;
-
-// Data that lie in the file itself: no external files, and no parts of other datasets.
-static bool check_storage(hid_t dataset, const char *name, const char *path, Error *err)
-{
-    hid_t creation = H5Dget_create_plist(dataset);
-    H5D_layout_t layout = H5Pget_layout(creation);
-    bool here = layout == H5D_COMPACT || layout == H5D_CONTIGUOUS || layout == H5D_CHUNKED;
-    bool outside = H5Pget_external_count(creation) != 0;
-    H5Pclose(creation);
-    if (here && !outside) return true;
-    return FAULT(err, ERROR_FILE,
-                 "%s: the data of %s lie in another file, which is not read: the file is none that "
-                 "amontons wrote",
-                 path, name);
-}
 
 // HDF5 calls it for each link that leads to an object for the first time. Links by name are not
 // followed.
@@ -88,7 +167,18 @@ static herr_t visit_link(hid_t file, const char *name, const LinkInfo *link, voi
     hid_t object = H5Oopen(file, name, H5P_DEFAULT);
     H5I_type_t type = H5Iget_type(object);
     if (type == H5I_DATASET) {
-        if (check_storage(object, name, visitor->path, err) && visitor->visit)
+        // Its data lie in the file itself: no external files, and no parts of other datasets.
+        hid_t creation = H5Dget_create_plist(object);
+        H5D_layout_t layout = H5Pget_layout(creation);
+        bool here = layout == H5D_COMPACT || layout == H5D_CONTIGUOUS || layout == H5D_CHUNKED;
+        bool outside = H5Pget_external_count(creation) != 0;
+        H5Pclose(creation);
+        if (!here || outside)
+            error_set(err, ERROR_FILE, __FILE__, __LINE__,
+                      "%s: the data of %s lie in another file, which is not read: the file is none "
+                      "that amontons wrote",
+                      visitor->path, name);
+        else if (visitor->visit)
             visitor->visit(object, name, visitor->context, err);
     } else if (type != H5I_GROUP) {
         error_set(err, ERROR_FILE, __FILE__, __LINE__, "%s: %s is neither array nor group: %s",
@@ -192,16 +282,6 @@ static hid_t disk_properties(void)
     return access;
 }
 
-// A file that the host program has open, as h5py in the same process, is opened with the properties
-// that it has there, or not at all.
-static hid_t open_disk(const char *path)
-{
-    hid_t access = disk_properties(), file = H5Fopen(path, H5F_ACC_RDONLY, access);
-    if (file < 0) file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
-    close_properties(access);
-    return file;
-}
-
 hid_t hdf5_disk_open(const char *path, Error *err)
 {
     struct stat status;
@@ -214,7 +294,12 @@ hid_t hdf5_disk_open(const char *path, Error *err)
         return -1;
     }
     start();
-    return check_opened(open_disk(path), path, err);
+    // A file that the host program has open, as h5py in the same process, is opened with the
+    // properties that it has there, or not at all.
+    hid_t access = disk_properties(), file = H5Fopen(path, H5F_ACC_RDONLY, access);
+    if (file < 0) file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+    close_properties(access);
+    return check_opened(file, path, err);
 }
 
 hid_t hdf5_disk_create(const char *path, Error *err)

@@ -34,6 +34,17 @@ hid_t hdf5_disk_open(const char *path, Error *err);
 // `path` for writing, anew. A file that HDF5 could not write is never to be closed: see above.
 hid_t hdf5_disk_create(const char *path, Error *err);
 
+// Attributes of an object: single numbers and texts. Negative: HDF5 failed, and its error stack
+// says why. One cannot be changed in place: an old one of this name is removed first.
+herr_t attribute_write_number(hid_t object, const char *name, double value);
+herr_t attribute_write_text(hid_t object, const char *name, const char *value);   // h5py: str
+// A scalar or an array of one, whatever its stored type.
+herr_t attribute_read_number(hid_t object, const char *name, double *value);
+// Cut to `size`. A text of fixed length is none of ours.
+herr_t attribute_read_text(hid_t object, const char *name, char *value, int32_t size);
+// Numbers and texts of one object to another, but that called `left_out`.
+herr_t attribute_copy_all(hid_t from, hid_t to, const char *left_out);
+
 // Calls visit(dataset, name, context, err) for every dataset of `file`, until one returns false.
 typedef bool (*Hdf5Visit)(hid_t dataset, const char *name, void *context, Error *err);
 bool hdf5_visit(hid_t file, const char *path, Hdf5Visit visit, void *context, Error *err);

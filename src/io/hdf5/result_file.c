@@ -98,20 +98,6 @@ static bool history_path(const char *folder, char path[PATH_MAX], Error *err)
 
 // --- writing ------------------------------------------------------------------------------------
 
-// Unit of a row in space. The tables give the units in the plane, where all is per width. An entry
-// is for the row of this name, or for all rows of this unit.
-static const char *unit_in_space(const ResultRow *row)
-{
-    static const char *const units[][2] = {{"force/width", "force"},
-                                           {"energy/width", "energy"},
-                                           {"nodes/weight", "length^2"},
-                                           {"pads/slipping", "length^2"}};
-    for (size_t k = 0; k < sizeof units / sizeof units[0]; k++)
-        if (strcmp(units[k][0], row->unit) == 0 || strcmp(units[k][0], row->name) == 0)
-            return units[k][1];
-    return row->unit;
-}
-
 // Number of components of a row. Quantities with a direction on the contact are vectors, and so are
 // several states.
 static int32_t row_components(const ResultRow *row, const ResultHead *head)
@@ -132,7 +118,17 @@ static bool add_row(ArrayFile *file, const ResultRow *row, int32_t width, const 
 {
     char words[200];
     bool space = head->tangents > 1, states = row == &series_rows[SERIES_STATE];
-    const char *unit = space ? unit_in_space(row) : row->unit;
+
+    // The tables give the units in the plane, where all is per width. In space an entry is for the
+    // row of this name, or for all rows of this unit.
+    static const char *const units[][2] = {{"force/width", "force"},
+                                           {"energy/width", "energy"},
+                                           {"nodes/weight", "length^2"},
+                                           {"pads/slipping", "length^2"}};
+    const char *unit = row->unit;
+    for (size_t k = 0; space && k < sizeof units / sizeof units[0]; k++)
+        if (strcmp(units[k][0], row->unit) == 0 || strcmp(units[k][0], row->name) == 0)
+            unit = units[k][1];
     if (states && head->state_unit) unit = head->state_unit;
     int32_t components = row_components(row, head);
     bool probes = row->columns == COLUMNS_PROBES;
@@ -145,59 +141,34 @@ static bool add_row(ArrayFile *file, const ResultRow *row, int32_t width, const 
 
 static const ResultHead flat = {.tangents = 1};   // of arrays without directions
 
-// Texts, and the numbers known by now.
-static bool write_attributes(ArrayFile *file, const ResultHead *head, Error *err)
-{
-    if (!array_file_set_text(file, "title", head->title, err)) return false;
-    if (!array_file_set_text(file, "units", head->units, err)) return false;
-    if (!array_file_set_text(file, "version", head->version, err)) return false;
-    if (head->pads && !array_file_set_text(file, "pads", head->pads, err)) return false;
-    if (head->state_names && *head->state_names &&
-        !array_file_set_text(file, "states", head->state_names, err))
-        return false;
-    if (head->state_unit && head->states > 0 &&
-        !array_file_set_text(file, "state_unit", head->state_unit, err))
-        return false;
-    if (head->probes > 0 && !array_file_set_text(file, "probes", head->probe_names, err))
-        return false;
-    if (head->tangents > 1 &&
-        !array_file_set_number(file, number_rows[NUMBER_FORMAT].name, FORMAT_VECTORS, err))
-        return false;
-    for (int32_t k = 0; k < RESULT_NUMBERS_COUNT; k++)
-        if (k != NUMBER_FORMAT && !isnan(head->numbers[k]) &&
-            !array_file_set_number(file, number_rows[k].name, head->numbers[k], err))
-            return false;
-    return true;
-}
-
-// Numbers in a row: one for each contact node or pad, or one.
-static int32_t series_width(const ResultHead *head, ResultSeries series)
-{
-    double last = 0;   // pads are numbered from 0
-    switch (series_rows[series].columns) {
-    case COLUMNS_NODES:
-        return head->contact_count * row_components(&series_rows[series], head);
-    case COLUMNS_PADS:
-        for (int32_t i = 0; i < head->contact_count; i++)
-            if (head->nodes[NODES_PAD][i] > last) last = head->nodes[NODES_PAD][i];
-        return (int32_t)last + 1;
-    case COLUMNS_PROBES:
-        return head->probes * row_components(&series_rows[series], head);
-    default:
-        return 1;
-    }
-}
-
 // Nodes are written now; series are made, empty, and grow as the run goes on.
 ArrayFile *result_file_create(const char *folder, const ResultHead *head, Error *err)
 {
     char path[PATH_MAX];
     ArrayFile *file = NULL;
+    double last_pad = 0;   // pads are numbered from 0
     if (head->contact_count < 1)
         FAIL(err, ERROR_INPUT, "a result needs contact nodes, not %d of them", head->contact_count);
     TRY(history_path(folder, path, err));
     TRY((file = array_file_create(path, err)));
-    TRY(write_attributes(file, head, err));
+
+    // Attributes: texts, and the numbers known by now.
+    TRY(array_file_set_text(file, "title", head->title, err));
+    TRY(array_file_set_text(file, "units", head->units, err));
+    TRY(array_file_set_text(file, "version", head->version, err));
+    if (head->pads) TRY(array_file_set_text(file, "pads", head->pads, err));
+    if (head->state_names && *head->state_names)
+        TRY(array_file_set_text(file, "states", head->state_names, err));
+    if (head->state_unit && head->states > 0)
+        TRY(array_file_set_text(file, "state_unit", head->state_unit, err));
+    if (head->probes > 0) TRY(array_file_set_text(file, "probes", head->probe_names, err));
+    if (head->tangents > 1)
+        TRY(array_file_set_number(file, number_rows[NUMBER_FORMAT].name, FORMAT_VECTORS, err));
+    for (int32_t k = 0; k < RESULT_NUMBERS_COUNT; k++)
+        if (k != NUMBER_FORMAT && !isnan(head->numbers[k]))
+            TRY(array_file_set_number(file, number_rows[k].name, head->numbers[k], err));
+
+    // Fixed arrays.
     for (int32_t k = 0; k < RESULT_NODES_COUNT; k++) {
         if (!head->nodes[k]) continue;
         TRY(add_row(file, &nodes_rows[k], 1, head, err));
@@ -214,9 +185,19 @@ ArrayFile *result_file_create(const char *folder, const ResultHead *head, Error 
         TRY(add_row(file, row, head->tangents > 1 ? 3 : 2, &flat, err));
         TRY(array_file_append(file, row->name, head->probe_places, head->probes, err));
     }
+
+    // Series, empty: in a row stand numbers of each contact node, pad or probe, or one.
+    for (int32_t i = 0; i < head->contact_count; i++)
+        last_pad = fmax(last_pad, head->nodes[NODES_PAD][i]);
     for (int32_t k = 0; k < RESULT_SERIES_COUNT; k++) {
-        if (!result_series_written(head, (ResultSeries)k)) continue;
-        TRY(add_row(file, &series_rows[k], series_width(head, (ResultSeries)k), head, err));
+        const ResultRow *row = &series_rows[k];
+        int32_t width = row->columns == COLUMNS_NODES    ? head->contact_count
+                        : row->columns == COLUMNS_PADS   ? (int32_t)last_pad + 1
+                        : row->columns == COLUMNS_PROBES ? head->probes
+                                                         : 1;
+        if (row->columns == COLUMNS_NODES || row->columns == COLUMNS_PROBES)
+            width *= row_components(row, head);
+        if (result_series_written(head, (ResultSeries)k)) TRY(add_row(file, row, width, head, err));
     }
     TRY(array_file_flush(file, err));   // from here on a killed run leaves a readable history
     return file;
@@ -343,39 +324,30 @@ bool result_file_has_series(ArrayFile *file, ResultSeries series)
     return array_file_has(file, series_rows[series].name);
 }
 
-bool result_file_remembers(ArrayFile *file)
-{
-    return result_file_has_series(file, SERIES_STATE);
-}
-
-// Points of faces: contact nodes, behind them corners; -1: none.
-static bool check_points(ArrayFile *file, const double *points, int64_t count, Error *err)
-{
-    double *nodes = NULL, *corners = NULL;
-    int32_t node_count = 0, corner_count = 0, two = 0;
-    TRY(result_file_read_nodes(file, NODES_X, &nodes, &node_count, err));
-    TRY(result_file_read_faces(file, FACES_CORNERS, &corners, &corner_count, &two, err));
-    TRY(check_whole(faces_rows[FACES_NODES].name, points, count, -1,
-                    (double)node_count + corner_count - 1, err));
-cleanup:
-    memory_free_all(nodes, corners);
-    return error_is_clean(err);
-}
-
 bool result_file_read_faces(ArrayFile *file, ResultFaces faces, double **values, int32_t *rows,
                             int32_t *width, Error *err)
 {
+    const char *name = faces_rows[faces].name;
+    double *nodes = NULL, *corners = NULL;
+    int32_t node_count = 0, corner_count = 0, two = 0;
     int64_t count = 0;
     *rows = *width = 0;
     *values = NULL;
-    if (!array_file_has(file, faces_rows[faces].name)) return true;
-    if (!array_file_read(file, faces_rows[faces].name, values, &count, width, err)) return false;
-    bool good = check_numbers(faces_rows[faces].name, *values, count * *width, err);
-    if (good && count > INT32_MAX)
-        good = FAULT(err, ERROR_FILE, "%s is too long", faces_rows[faces].name);
-    if (good && faces == FACES_NODES) good = check_points(file, *values, count * *width, err);
+    if (!array_file_has(file, name)) return true;
+    if (!array_file_read(file, name, values, &count, width, err)) return false;
+    TRY(check_numbers(name, *values, count * *width, err));
+    if (count > INT32_MAX) FAIL(err, ERROR_FILE, "%s is too long", name);
+    if (faces == FACES_NODES) {
+        // Points of faces: contact nodes, behind them corners; -1: none.
+        TRY(result_file_read_nodes(file, NODES_X, &nodes, &node_count, err));
+        TRY(result_file_read_faces(file, FACES_CORNERS, &corners, &corner_count, &two, err));
+        TRY(check_whole(name, *values, count * *width, -1, (double)node_count + corner_count - 1,
+                        err));
+    }
+cleanup:
     *rows = (int32_t)count;
-    return keep(good, values);
+    memory_free_all(nodes, corners);
+    return keep(error_is_clean(err), values);
 }
 
 // length: who reads several takes the shortest.

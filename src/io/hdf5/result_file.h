@@ -60,7 +60,6 @@ bool result_file_read_nodes(ArrayFile *file, ResultNodes nodes, double **values,
 bool result_file_has_nodes(ArrayFile *file, ResultNodes nodes);   // y and line: in space
 bool result_file_has_faces(ArrayFile *file);
 bool result_file_has_series(ArrayFile *file, ResultSeries series);   // older ones may lack some
-bool result_file_remembers(ArrayFile *file);   // SERIES_STATE is there
 // *values [rows * width]; an array that is absent has no rows.
 bool result_file_read_faces(ArrayFile *file, ResultFaces faces, double **values, int32_t *rows,
                             int32_t *width, Error *err);

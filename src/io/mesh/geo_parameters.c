@@ -63,27 +63,6 @@ static size_t word_length(const char *at)
     return length;
 }
 
-// True when the value that begins at `at` is a string: "a", {"a", ...}, Str(...), StrCat(...).
-static bool is_text_value(const char *at)
-{
-    at = skip_blank(at);
-    if (*at == '{') at = skip_blank(at + 1);
-    return *at == '"' || strncmp(at, "Str", 3) == 0;
-}
-
-// A name of more than GROUP_NAME_SIZE - 1 bytes is cut: a MeshParameter has no room for it.
-static bool add_parameter(GeoParameters *known, const char *name, size_t length, bool is_text,
-                          Error *err)
-{
-    if (!memory_resize(&known->items, known->count, known->count + 1, sizeof *known->items, err))
-        return false;
-    GeoParameter *item = &known->items[known->count++];
-    if (length >= sizeof item->name) length = sizeof item->name - 1;
-    memcpy(item->name, name, length);
-    item->is_text = is_text;
-    return true;
-}
-
 // Reads the list whose opening bracket is at **at; leaves *at behind the closing one.
 static bool read_list(const char **at, GeoParameters *known, Error *err)
 {
@@ -96,8 +75,16 @@ static bool read_list(const char **at, GeoParameters *known, Error *err)
         if (expect_name && depth == 1 && length > 0) {
             const char *name = now;
             now = skip_blank(now + length);
-            bool is_text = *now == '=' && is_text_value(now + 1);
-            if (!add_parameter(known, name, length, is_text, err)) return false;
+            if (!memory_resize(&known->items, known->count, known->count + 1, sizeof *known->items,
+                               err))
+                return false;
+            // A name that is longer is cut: a MeshParameter has no room for it.
+            GeoParameter *item = &known->items[known->count++];
+            memcpy(item->name, name, length < sizeof item->name ? length : sizeof item->name - 1);
+            // Its value is a string: "a", {"a", ...}, Str(...), StrCat(...).
+            const char *value = *now == '=' ? skip_blank(now + 1) : "";
+            if (*value == '{') value = skip_blank(value + 1);
+            item->is_text = *value == '"' || strncmp(value, "Str", 3) == 0;
             expect_name = false;
         } else if (length > 0) {
             now += length;
@@ -124,19 +111,7 @@ void geo_included_path(const char *path, const char *name, int length, char incl
         snprintf(included, GEO_PATH_SIZE, "%s/%.*s", dirname(folder), length, name);
 }
 
-// Calls scan_include, which calls it: as deep as includes are nested.
-static bool scan_file(const char *path, int32_t depth, GeoParameters *known, Error *err);
-
-// Follows `Include "name"`; the name is relative to the file that includes it.
-static bool scan_include(const char *path, const char *quoted, int32_t depth, GeoParameters *known,
-                         Error *err)
-{
-    char other[GEO_PATH_SIZE];
-    geo_included_path(path, quoted + 1, (int)strcspn(quoted + 1, "\""), other);
-    if (!scan_file(other, depth + 1, known, err)) error_context(err, "included by %s", path);
-    return error_is_clean(err);
-}
-
+// Calls itself for each `Include "name"`; the name is relative to the file that includes it.
 static bool scan_file(const char *path, int32_t depth, GeoParameters *known, Error *err)
 {
     char *text = NULL;
@@ -156,7 +131,12 @@ static bool scan_file(const char *path, int32_t depth, GeoParameters *known, Err
             at = next;
         } else if (length == strlen("Include") && strncmp(at, "Include", length) == 0 &&
                    *next == '"') {
-            TRY(scan_include(path, next, depth, known, err));
+            char other[GEO_PATH_SIZE];
+            geo_included_path(path, next + 1, (int)strcspn(next + 1, "\""), other);
+            if (!scan_file(other, depth + 1, known, err)) {
+                error_context(err, "included by %s", path);
+                goto cleanup;
+            }
             at = skip_opaque(next);
         } else if (length > 0) {
             at += length;
@@ -174,14 +154,6 @@ bool geo_parameters_read(const char *path, GeoParameters *known, Error *err)
 {
     *known = (GeoParameters){0};
     return scan_file(path, 0, known, err);
-}
-
-// By name; NULL: unknown.
-static const GeoParameter *find_parameter(const GeoParameters *known, const char *name)
-{
-    for (int32_t k = 0; k < known->count; k++)
-        if (strcmp(known->items[k].name, name) == 0) return &known->items[k];
-    return NULL;
 }
 
 // Always fails: lists the names there are, and the one that was probably meant.
@@ -210,7 +182,9 @@ bool geo_parameters_check(const GeoParameters *known, const char *path, const Me
                           int32_t given_count, Error *err)
 {
     for (int32_t k = 0; k < given_count; k++) {
-        const GeoParameter *item = find_parameter(known, given[k].name);
+        const GeoParameter *item = NULL;   // by its name
+        for (int32_t i = 0; !item && i < known->count; i++)
+            if (strcmp(known->items[i].name, given[k].name) == 0) item = &known->items[i];
         bool is_text = given[k].text[0] != '\0';
         if (!item) return fail_unknown(known, path, given[k].name, err);
         if (item->is_text && !is_text)

@@ -171,13 +171,6 @@ static bool is_listed(const char *words, const char *text, int32_t length)
     return false;
 }
 
-static const char *why_refused(const char *text, int32_t length)
-{
-    for (size_t k = 0; k < sizeof REFUSED / sizeof REFUSED[0]; k++)
-        if (is_listed(REFUSED[k].words, text, length)) return REFUSED[k].why;
-    return NULL;
-}
-
 // --- tokens --------------------------------------------------------------------------------------
 
 typedef enum TokenKind { TOKEN_WORD, TOKEN_NUMBER, TOKEN_STRING, TOKEN_SIGN, TOKEN_END } TokenKind;
@@ -265,14 +258,21 @@ void geo_script_place(const GeoScript *script, int32_t line, const char **path, 
     *file_line = place->file_line + line - place->line;
 }
 
+// The file, and its line, that byte `at` of raw comes from.
+static void find_place(const Reading *reading, int32_t at, const char **path, int32_t *file_line)
+{
+    int32_t line = 1;
+    for (int32_t i = 0; i < at; i++) line += reading->raw[i] == '\n';
+    geo_script_place(reading->script, line, path, file_line);
+}
+
 // Always fails, at token k.
 static bool refuse_at(const Reading *reading, int32_t k, const char *why, Error *err)
 {
     const Token *token = &reading->tokens[k];
     const char *path;
-    int32_t line = 1, file_line;
-    for (int32_t i = 0; i < token->at; i++) line += reading->raw[i] == '\n';
-    geo_script_place(reading->script, line, &path, &file_line);
+    int32_t file_line;
+    find_place(reading, token->at, &path, &file_line);
     int shown = token->length < WORD_SIZE ? token->length : WORD_SIZE;
     return REFUSE(
         err,
@@ -575,67 +575,36 @@ static int32_t behind_statement(const Reading *reading, int32_t k, bool block)
     return -1;
 }
 
-// True where a statement may begin at token k.
-static bool is_beginning(const Reading *reading, int32_t k)
-{
-    if (k == 0) return true;
-    const Token *before = &reading->tokens[k - 1];
-    const char *at = reading->raw + before->at;
-    if (before->kind == TOKEN_SIGN) return strchr(";})", *at) != NULL;
-    if (before->kind != TOKEN_WORD)
-        return before->kind == TOKEN_STRING && token_is(reading, k - 2, "Macro");
-    return is_listed("Else EndIf EndFor Return Recursive", at, before->length) ||
-           token_is(reading, k - 2, "Macro") || token_is(reading, k - 2, "Function");
-}
-
-// `Field[1] = Box`, `Field[1].VIn = 3`, `Background Field = 1`.
-static bool check_field(const Reading *reading, int32_t k, Error *err)
-{
-    if (is_assignment(reading, k + 1) || !is_open(reading, k + 1)) return true;
-    int32_t behind = behind_bracket(reading, k + 1);
-    if (!token_is(reading, behind, "=")) return true;
-    if (token_kind(reading, behind + 1) == TOKEN_WORD &&
-        is_listed(FIELD_KINDS, reading->raw + reading->tokens[behind + 1].at,
-                  reading->tokens[behind + 1].length))
-        return true;
-    if (behind + 1 >= reading->token_count) return true;
-    return refuse_at(reading, behind + 1, "is no kind of field that is allowed", err);
-}
-
-// A file that gmsh reads itself; `other` has room for its path.
-static bool check_shape(const Reading *reading, int32_t k, const char *other, Error *err)
-{
-    char options[GEO_PATH_SIZE + 8], begin[16] = "";
-    const char *dot = strrchr(other, '.');
-    if (strpbrk(other, "\"\n%\\"))
-        return refuse_at(reading, k, "has a quote or percent in its path", err);
-    if (access(other, F_OK) == 0 && !is_regular(other))
-        return refuse_at(reading, k, "is no file", err);
-    snprintf(options, sizeof options, "%s.opt", other);
-    if (access(options, F_OK) == 0)
-        return refuse_at(reading, k, "has options beside it (.opt), which gmsh would read", err);
-    if (!dot || strcmp(dot, ".msh") != 0 || access(other, F_OK) != 0) return true;
-    int file = is_regular(other) ? open(other, O_RDONLY | O_CLOEXEC) : -1;
-    ssize_t count = file < 0 ? 0 : read(file, begin, sizeof begin - 1);
-    if (file >= 0) close(file);
-    if (count > 0 && strncmp(begin, "$MeshFormat", strlen("$MeshFormat")) == 0) return true;
-    return refuse_at(reading, k, "is no mesh", err);
-}
-
 // `Merge "part.step";` with the path that it means in this file; the name alone would be looked for
 // beside the text that gmsh reads. *from is behind it then.
 static bool merge(Reading *reading, int32_t k, int32_t *from, Error *err)
 {
-    char other[GEO_PATH_SIZE], words[GEO_PATH_SIZE + 8], real[PATH_MAX];
+    char other[GEO_PATH_SIZE], words[GEO_PATH_SIZE + 8], real[PATH_MAX], begin[16] = "";
     const Token *name = &reading->tokens[k + 1];
     const char *path;
-    int32_t line = 1, file_line;
+    int32_t file_line;
     if (token_kind(reading, k + 1) != TOKEN_STRING || !token_is(reading, k + 2, ";"))
         return refuse_at(reading, k, "opens a file whose name is not written out", err);
-    for (int32_t i = 0; i < name->at; i++) line += reading->raw[i] == '\n';
-    geo_script_place(reading->script, line, &path, &file_line);
+    find_place(reading, name->at, &path, &file_line);
     geo_included_path(path, reading->raw + name->at + 1, name->length - 2, other);
-    if (!check_shape(reading, k + 1, other, err)) return false;
+
+    // The file is one that gmsh reads itself: it holds no statements, and has none beside it.
+    const char *dot = strrchr(other, '.');
+    bool is_there = access(other, F_OK) == 0;
+    if (strpbrk(other, "\"\n%\\"))
+        return refuse_at(reading, k + 1, "has a quote or percent in its path", err);
+    if (is_there && !is_regular(other)) return refuse_at(reading, k + 1, "is no file", err);
+    snprintf(words, sizeof words, "%s.opt", other);
+    if (access(words, F_OK) == 0)
+        return refuse_at(reading, k + 1, "has options beside it (.opt), which gmsh would read",
+                         err);
+    if (is_there && dot && strcmp(dot, ".msh") == 0) {
+        int file = open(other, O_RDONLY | O_CLOEXEC);
+        ssize_t count = file < 0 ? 0 : read(file, begin, sizeof begin - 1);
+        if (file >= 0) close(file);
+        if (count <= 0 || strncmp(begin, "$MeshFormat", strlen("$MeshFormat")) != 0)
+            return refuse_at(reading, k + 1, "is no mesh", err);
+    }
     if (!realpath(other, real)) snprintf(real, sizeof real, "%.4000s", other);
     snprintf(words, sizeof words, "\"%s\"", real);
     return copy_to(reading, from, name->at, false, err) && say(reading, words, err) &&
@@ -647,11 +616,10 @@ static bool shape(Reading *reading, int32_t k, int32_t *from, Error *err)
 {
     char folder[PATH_MAX] = "", *slash;
     const char *path;
-    int32_t line = 1, file_line, end = behind_bracket(reading, k + 1);
+    int32_t file_line, end = behind_bracket(reading, k + 1);
     if (!token_is(reading, k + 1, "(") || end - k < 4 || !is_close(reading, end - 1))
         return refuse_at(reading, k, "is not followed by (a name)", err);
-    for (int32_t i = 0; i < reading->tokens[k].at; i++) line += reading->raw[i] == '\n';
-    geo_script_place(reading->script, line, &path, &file_line);
+    find_place(reading, reading->tokens[k].at, &path, &file_line);
     if (!realpath(path, folder) || strpbrk(folder, "\"\n%\\"))
         return refuse_at(reading, k, "stands in a file with a quote or percent in its path", err);
     if ((slash = strrchr(folder, '/'))) *slash = 0;
@@ -679,20 +647,6 @@ static bool shape(Reading *reading, int32_t k, int32_t *from, Error *err)
     return true;
 }
 
-// A name that the script gives a value must not be used as a command.
-static bool check_own(const Reading *reading, int32_t k, Error *err)
-{
-    const Token *token = &reading->tokens[k];
-    TokenKind next = token_kind(reading, k + 1);
-    if (holds_skip_word(reading->raw + token->at, token->length))
-        return refuse_at(reading, k, "has a word in it that ends what gmsh skips", err);
-    if (next == TOKEN_SIGN || next == TOKEN_END || token_is(reading, k + 1, "In") ||
-        token_is(reading, k + 1, "Using"))
-        return true;
-    if (token_is(reading, k - 1, "Macro") || token_is(reading, k - 1, "Function")) return true;
-    return refuse_at(reading, k, "is no command of gmsh's that is allowed", err);
-}
-
 // Statements that are left out begin at k; the token behind them, or k: none does. -1: an error.
 static int32_t left_out(const Reading *reading, int32_t k, Error *err)
 {
@@ -713,7 +667,21 @@ static int32_t left_out(const Reading *reading, int32_t k, Error *err)
         is_listed(PLUGINS, reading->raw + reading->tokens[k + 2].at, reading->tokens[k + 2].length))
         return k;
     if (!for_screen && !is_plugin && !word_is_in(&reading->left_out, text, token->length)) return k;
-    if (is_beginning(reading, k)) {
+
+    // Where a statement may begin.
+    bool begins = k == 0;
+    if (k > 0) {
+        const Token *before = &reading->tokens[k - 1];
+        const char *at = reading->raw + before->at;
+        if (before->kind == TOKEN_SIGN)
+            begins = strchr(";})", *at) != NULL;
+        else if (before->kind == TOKEN_WORD)
+            begins = is_listed("Else EndIf EndFor Return Recursive", at, before->length) ||
+                     token_is(reading, k - 2, "Macro") || token_is(reading, k - 2, "Function");
+        else
+            begins = before->kind == TOKEN_STRING && token_is(reading, k - 2, "Macro");
+    }
+    if (begins) {
         int32_t behind = behind_statement(reading, k, token_is(reading, k, "Color"));
         if (behind < 0) refuse_at(reading, k, "begins a statement that has no end", err);
         return behind;
@@ -729,19 +697,40 @@ static bool check_word(Reading *reading, int32_t k, Error *err)
     const Token *token = &reading->tokens[k];
     const char *text = reading->raw + token->at;
     bool is_member = token_is(reading, k - 1, ".");
-    const char *why = why_refused(text, token->length);
     // Its own name, which cannot be given: left_out.
     if (is_member && token_is(reading, k, "FileName") && token_is(reading, k - 2, "General"))
         return true;
-    if (why) return refuse_at(reading, k, why, err);
+    for (size_t i = 0; i < sizeof REFUSED / sizeof REFUSED[0]; i++)
+        if (is_listed(REFUSED[i].words, text, token->length))
+            return refuse_at(reading, k, REFUSED[i].why, err);
     if (token_is(reading, k, "Include"))
         return refuse_at(reading, k, "includes a file whose name is not written out", err);
-    if (token_is(reading, k, "Field") && !is_member) return check_field(reading, k, err);
-    if (is_member || word_is_in(&reading->own, text, token->length)) {
-        if (!is_member && word_is_in(&reading->allowed, text, token->length)) return true;
-        return check_own(reading, k, err);
+
+    // `Field[1] = Box`, `Field[1].VIn = 3`, `Background Field = 1`.
+    if (token_is(reading, k, "Field") && !is_member) {
+        if (is_assignment(reading, k + 1) || !is_open(reading, k + 1)) return true;
+        int32_t behind = behind_bracket(reading, k + 1);
+        if (!token_is(reading, behind, "=") || behind + 1 >= reading->token_count) return true;
+        const Token *kind = &reading->tokens[behind + 1];
+        if (kind->kind == TOKEN_WORD &&
+            is_listed(FIELD_KINDS, reading->raw + kind->at, kind->length))
+            return true;
+        return refuse_at(reading, behind + 1, "is no kind of field that is allowed", err);
     }
-    if (word_is_in(&reading->allowed, text, token->length)) return true;
+
+    // A name that the script gives a value must not be used as a command.
+    bool is_allowed = word_is_in(&reading->allowed, text, token->length);
+    if (is_allowed && !is_member) return true;
+    if (is_member || word_is_in(&reading->own, text, token->length)) {
+        TokenKind next = token_kind(reading, k + 1);
+        if (holds_skip_word(text, token->length))
+            return refuse_at(reading, k, "has a word in it that ends what gmsh skips", err);
+        if (next == TOKEN_SIGN || next == TOKEN_END || token_is(reading, k + 1, "In") ||
+            token_is(reading, k + 1, "Using") || token_is(reading, k - 1, "Macro") ||
+            token_is(reading, k - 1, "Function"))
+            return true;
+        return refuse_at(reading, k, "is no command of gmsh's that is allowed", err);
+    }
     // A kind of field, behind Field[1] =.
     if (is_listed("General PostProcessing Solver Print", text, token->length)) return true;
     if (token_is(reading, k - 1, "=") && is_listed(FIELD_KINDS, text, token->length)) return true;

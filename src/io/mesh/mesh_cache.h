@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Meshes that were read before, kept on disk: the second run of a mesh loads no gmsh, which takes a
-// tenth of a second whatever the mesh. Called by io/mesh/mesh_read.
+// tenth of a second whatever the mesh. Called by io/mesh/mesh_read; the hashes by study/sweep, too.
 //
 //     CACHE/<key>.mesh     (io/cache/cache_folder says where CACHE is)
 #ifndef AMONTONS_IO_MESH_MESH_CACHE_H
@@ -12,8 +12,17 @@
 
 #include <stdbool.h>
 
-// The key of what `path` and `parameters` make; empty where that is not known before meshing (a
-// .geo that draws on more than its own text: io/mesh/mesh_source).
+// The bytes of `path` and the values of `parameters` into *hash. *whole: the mesh is made of these
+// alone; a .geo may include and merge other files, ask for variables of the environment, look into
+// folders, run commands. ERROR_INPUT: it cannot be read.
+bool mesh_source_hash(const char *path, const MeshParameter *parameters, int32_t parameter_count,
+                      Hash *hash, bool *whole, Error *err);
+
+// Hashes the mesh that was made: nodes, elements, groups.
+void mesh_file_hash(const MeshFile *mesh, Hash *hash);
+
+// The key of what `path` and `parameters` make; empty where that is not known before meshing (not
+// whole).
 bool mesh_cache_key(const char *path, const MeshParameter *parameters, int32_t parameter_count,
                     char key[HASH_TEXT_SIZE], Error *err);
 

@@ -78,17 +78,6 @@ const char *mesh_format_advice(const char *path)
 
 // --- groups -------------------------------------------------------------------------------------
 
-// "'body' (surface), 'contact' (curve)" or "none".
-static void list_groups(const MeshFile *mesh, char list[LIST_SIZE])
-{
-    static const char *const words[] = {"point", "curve", "surface", "volume"};
-    size_t length = 0;
-    snprintf(list, LIST_SIZE, "none");
-    for (int32_t k = 0; k < mesh->group_count && length < LIST_SIZE; k++)
-        length += (size_t)snprintf(list + length, LIST_SIZE - length, "%s'%s' (%s)", k ? ", " : "",
-                                   mesh->groups[k].name, words[mesh->groups[k].dimension & 3]);
-}
-
 // The group of this name and dimension (-1: of any); NULL: none. gmsh counts groups by dimension,
 // so those of different dimension may have the same name.
 static const MeshGroup *find_group(const MeshFile *mesh, const char *name, int32_t dimension)
@@ -107,9 +96,14 @@ const MeshGroup *mesh_file_group(const MeshFile *mesh, const char *path, const c
     static const char *const words[] = {"point", "curve", "surface", "volume"};
     const MeshGroup *group = find_group(mesh, name, dimension);
     const char **names = NULL;
-    char list[LIST_SIZE], hint[GROUP_NAME_SIZE + 32] = "";
+    char list[LIST_SIZE] = "none", hint[GROUP_NAME_SIZE + 32] = "";
+    size_t length = 0;
     if (group) return group;
-    list_groups(mesh, list);
+
+    // "'body' (surface), 'contact' (curve)".
+    for (int32_t k = 0; k < mesh->group_count && length < LIST_SIZE; k++)
+        length += (size_t)snprintf(list + length, LIST_SIZE - length, "%s'%s' (%s)", k ? ", " : "",
+                                   mesh->groups[k].name, words[mesh->groups[k].dimension & 3]);
     if ((group = find_group(mesh, name, -1)))
         FAIL(err, ERROR_INPUT, "%s: group '%s' is a %s, wanted is a %s; the groups are: %s", path,
              name, words[group->dimension & 3], words[dimension & 3], list);

@@ -31,40 +31,32 @@ static const char *first_error(char **log, size_t count)
     return NULL;
 }
 
-// Two `Physical Curve("top")` in a .geo: gmsh says "Physical curve 4 already exists", without the
-// name. Finds that name; false when the error is another one.
-static bool find_repeated_name(const char *error, char name[GROUP_NAME_SIZE])
-{
-    static const char *const words[] = {"point", "curve", "surface", "volume"};
-    char word[16];
-    int number = 0, status = 0;
-    char *found = NULL;
-    if (sscanf(error, "Physical %15s %d already exists", word, &number) != 2) return false;
-    for (int dimension = 0; dimension <= 3; dimension++)
-        if (strcmp(word, words[dimension]) == 0)
-            gmshModelGetPhysicalName(dimension, number, &found, &status);
-    snprintf(name, GROUP_NAME_SIZE, "%s", found ? found : "");
-    gmshFree(found);
-    return name[0] != '\0';
-}
-
 // Sets an error from the log's first message: the later ones mostly follow from it.
 static void fail_with_log(const MeshRawRequest *request, const char *doing, Error *err)
 {
-    char **log = NULL, name[GROUP_NAME_SIZE];
+    static const char *const words[] = {"point", "curve", "surface", "volume"};
+    char **log = NULL, word[16], *name = NULL;
     size_t count = 0;
-    int status = 0;
+    int status = 0, number = 0;
     gmshLoggerGet(&log, &count, &status);
     const char *error = first_error(log, count);
-    if (error && find_repeated_name(error, name))
+
+    // Two `Physical Curve("top")` in a .geo: gmsh says "Physical curve 4 already exists", without
+    // the name.
+    bool repeats = error && sscanf(error, "Physical %15s %d already exists", word, &number) == 2;
+    for (int dimension = 0; repeats && dimension <= 3; dimension++)
+        if (strcmp(word, words[dimension]) == 0)
+            gmshModelGetPhysicalName(dimension, number, &name, &status);
+    if (name && name[0])
         error_set(err, ERROR_INPUT, __FILE__, __LINE__,
-                  "%s: the physical name '%s' is used twice (give all its curves in one group)",
-                  request->path, name);
+                  "%s: the physical name '%.*s' is used twice (give all its curves in one group)",
+                  request->path, GROUP_NAME_SIZE - 1, name);
     else
         error_set(err, ERROR_INPUT, __FILE__, __LINE__, "%s: gmsh failed while %s: %s",
                   request->path, doing, error ? error : "it does not say why");
     for (size_t k = 0; k < count; k++) gmshFree(log[k]);
     gmshFree(log);
+    gmshFree(name);
 }
 
 // True when gmsh logged an error, even where the call itself claimed success.
@@ -86,53 +78,46 @@ static bool gmsh_complained(void)
 #define INITIALIZE gmshInitialize
 #endif
 
-// A script in memory that sets the parameters, all in its first line, and is or includes the .geo:
-// DefineConstant does not change what has a value. (gmsh would keep -setnumber for every later
-// session of the process.)
-static bool write_script(const MeshRawRequest *request, int script, Error *err)
-{
-    char path[PATH_MAX];
-    for (int32_t k = 0; k < request->parameter_count; k++) {
-        const MeshParameter *parameter = &request->parameters[k];
-        if (parameter->text[0])
-            dprintf(script, "%s = \"%s\"; ", parameter->name, parameter->text);
-        else
-            dprintf(script, "%s = %.17g; ", parameter->name, parameter->value);
-    }
-    if (!request->script) {
-        if (!realpath(request->path, path))
-            return FAULT(err, ERROR_FILE, "%s: %s", request->path, strerror(errno));
-        if (strchr(path, '"'))
-            return REFUSE(err, "%s: gmsh cannot include a file with a quote in its path", path);
-        return dprintf(script, "Include \"%s\";\n", path) > 0 ||
-               FAULT(err, ERROR_FILE, "%s: its parameters cannot be set", request->path);
-    }
-    for (int32_t done = 0; done < request->script_size;) {
-        ssize_t count =
-            write(script, request->script + done, (size_t)(request->script_size - done));
-        if (count <= 0)
-            return FAULT(err, ERROR_FILE, "%s: no memory for its text: %s", request->path,
-                         strerror(errno));
-        done += (int32_t)count;
-    }
-    return true;
-}
-
 // Opens the file, or a script in its place. A file that is not trusted is opened here and named to
 // gmsh by its descriptor: beside such a name there are no options (FILE.opt) that gmsh would run.
 static bool gmsh_open(const MeshRawRequest *request, int *status, Error *err)
 {
-    char name[SCRIPT_NAME_SIZE];
+    char name[SCRIPT_NAME_SIZE], real[PATH_MAX];
     int file = -1;
     const char *path = request->opened_as ? request->opened_as : request->path;
     bool by_path = request->opened_as || (request->trusted && request->parameter_count == 0);
-    if (request->script || request->parameter_count > 0)
+    bool by_script = request->script || request->parameter_count > 0;
+    if (by_script)
         file = memfd_create("geo", MFD_CLOEXEC);
     else if (!by_path)
         file = open(request->path, O_RDONLY | O_CLOEXEC);
     if (!by_path && file < 0)
         FAIL(err, ERROR_FILE, "%s: cannot be opened: %s", request->path, strerror(errno));
-    if (request->script || request->parameter_count > 0) TRY(write_script(request, file, err));
+
+    // The script sets the parameters, all in its first line, and is or includes the .geo:
+    // DefineConstant does not change what has a value. (gmsh would keep -setnumber for every later
+    // session of the process.)
+    for (int32_t k = 0; k < request->parameter_count; k++) {
+        const MeshParameter *parameter = &request->parameters[k];
+        if (parameter->text[0])
+            dprintf(file, "%s = \"%s\"; ", parameter->name, parameter->text);
+        else
+            dprintf(file, "%s = %.17g; ", parameter->name, parameter->value);
+    }
+    if (by_script && !request->script) {
+        if (!realpath(request->path, real))
+            FAIL(err, ERROR_FILE, "%s: %s", request->path, strerror(errno));
+        if (strchr(real, '"'))
+            FAIL(err, ERROR_INPUT, "%s: gmsh cannot include a file with a quote in its path", real);
+        if (dprintf(file, "Include \"%s\";\n", real) <= 0)
+            FAIL(err, ERROR_FILE, "%s: its parameters cannot be set", request->path);
+    }
+    for (int32_t done = 0; request->script && done < request->script_size;) {
+        ssize_t count = write(file, request->script + done, (size_t)(request->script_size - done));
+        if (count <= 0)
+            FAIL(err, ERROR_FILE, "%s: no memory for its text: %s", request->path, strerror(errno));
+        done += (int32_t)count;
+    }
     snprintf(name, sizeof name, "/proc/self/fd/%d", file);
     gmshOpen(by_path ? path : name, status);
 cleanup:
@@ -157,34 +142,27 @@ static bool has_elements(int dimension, int entity)
     return status == 0 && count > 0;
 }
 
-// True where every surface, in space every volume, has elements.
-static bool mesh_is_whole(void)
-{
-    int *pairs = NULL, status = 0, dimension = model_dimension();
-    size_t count = 0;
-    gmshModelGetEntities(&pairs, &count, dimension, &status);
-    bool whole = status == 0 && count > 0;
-    for (size_t k = 0; whole && k + 1 < count; k += 2)
-        whole = has_elements(dimension, pairs[k + 1]);
-    gmshFree(pairs);
-    return whole;
-}
-
 // gmsh has said "Error" and made its mesh nevertheless, as it does where an optimiser is not
 // compiled in: its words become a warning. An error in the script itself, which has a line, is
 // none: what stood there was not done.
 static bool only_warns(MeshRaw *raw)
 {
     char **log = NULL;
-    size_t count = 0;
-    int status = 0;
+    size_t count = 0, entities = 0;
+    int *pairs = NULL, status = 0, dimension = model_dimension();
     gmshLoggerGet(&log, &count, &status);
     const char *first = first_error(log, count);
     bool in_script = false;
     for (size_t k = 0; k < count; k++)
         in_script = in_script || (strncmp(log[k], ERROR_MARK, sizeof ERROR_MARK - 1) == 0 &&
                                   strstr(log[k], "', line "));
-    bool only = first && !in_script && mesh_is_whole();
+
+    // Every surface, in space every volume, has elements.
+    gmshModelGetEntities(&pairs, &entities, dimension, &status);
+    bool only = first && !in_script && status == 0 && entities > 0;
+    for (size_t k = 0; only && k + 1 < entities; k += 2)
+        only = has_elements(dimension, pairs[k + 1]);
+    gmshFree(pairs);
     if (only) snprintf(raw->warning, sizeof raw->warning, "%s", first);
     for (size_t k = 0; k < count; k++) gmshFree(log[k]);
     gmshFree(log);
@@ -276,29 +254,13 @@ cleanup:
     return error_is_clean(err);
 }
 
-// gmsh's name and node count of the block's type.
-static bool name_type(RawBlock *block, Error *err)
-{
-    char *name = NULL;
-    double *local = NULL;
-    size_t local_count = 0;
-    int dimension = 0, order = 0, nodes = 0, primary = 0, status = 0;
-    gmshModelMeshGetElementProperties(block->gmsh_type, &name, &dimension, &order, &nodes, &local,
-                                      &local_count, &primary, &status);
-    if (status) FAIL(err, ERROR_LIBRARY, "gmsh does not know its type %d", block->gmsh_type);
-    snprintf(block->type_name, sizeof block->type_name, "%s", name);
-    block->nodes_per_element = nodes;
-cleanup:
-    gmshFree(name);
-    gmshFree(local);
-    return error_is_clean(err);
-}
-
 // Appends the blocks of one entity.
 static bool fetch_elements(int dimension, int entity, MeshRaw *raw, Error *err)
 {
     int *types = NULL, status = 0;
-    size_t type_count = 0, tag_lists = 0, node_lists = 0;
+    size_t type_count = 0, tag_lists = 0, node_lists = 0, local_count = 0;
+    char *name = NULL;   // gmsh's of a type
+    double *local = NULL;
     size_t **tags = NULL, *tag_counts = NULL, **nodes = NULL, *node_counts = NULL;
     gmshModelMeshGetElements(&types, &type_count, &tags, &tag_counts, &tag_lists, &nodes,
                              &node_counts, &node_lists, dimension, entity, &status);
@@ -309,12 +271,23 @@ static bool fetch_elements(int dimension, int entity, MeshRaw *raw, Error *err)
             goto cleanup;
         RawBlock *block = &raw->blocks[raw->block_count++];
         *block = (RawBlock){.dimension = dimension, .entity = entity, .gmsh_type = types[k]};
-        TRY(name_type(block, err));
+        int type_dimension = 0, order = 0, primary = 0;
+        gmshModelMeshGetElementProperties(types[k], &name, &type_dimension, &order,
+                                          &block->nodes_per_element, &local, &local_count, &primary,
+                                          &status);
+        if (status) FAIL(err, ERROR_LIBRARY, "gmsh does not know its type %d", types[k]);
+        snprintf(block->type_name, sizeof block->type_name, "%s", name);
+        gmshFree(name);
+        gmshFree(local);
+        name = NULL;
+        local = NULL;
         block->count = (int64_t)tag_counts[k];
         TRY(copy_tags(tags[k], tag_counts[k], &block->number, err));
         TRY(copy_tags(nodes[k], node_counts[k], &block->nodes, err));
     }
 cleanup:
+    gmshFree(name);
+    gmshFree(local);
     for (size_t k = 0; k < tag_lists; k++) gmshFree(tags[k]);
     for (size_t k = 0; k < node_lists; k++) gmshFree(nodes[k]);
     gmshFree(types);
@@ -322,19 +295,6 @@ cleanup:
     gmshFree(tag_counts);
     gmshFree(nodes);
     gmshFree(node_counts);
-    return error_is_clean(err);
-}
-
-// One entity after the other, as the groups of an element are those of its entity.
-static bool fetch_all_elements(MeshRaw *raw, Error *err)
-{
-    int *pairs = NULL, status = 0;
-    size_t count = 0;
-    gmshModelGetEntities(&pairs, &count, -1, &status);
-    if (status) FAIL(err, ERROR_LIBRARY, "gmsh gives no entities (status %d)", status);
-    for (size_t k = 0; k + 1 < count; k += 2) TRY(fetch_elements(pairs[k], pairs[k + 1], raw, err));
-cleanup:
-    gmshFree(pairs);
     return error_is_clean(err);
 }
 
@@ -361,21 +321,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Every group of every dimension.
-static bool fetch_groups(const char *path, MeshRaw *raw, Error *err)
-{
-    int *pairs = NULL, status = 0;
-    size_t count = 0;
-    gmshModelGetPhysicalGroups(&pairs, &count, -1, &status);
-    if (status) FAIL(err, ERROR_LIBRARY, "gmsh gives no physical groups (status %d)", status);
-    TRY((raw->groups = NEW_ARRAY(RawGroup, (int64_t)count / 2, err)));
-    for (size_t k = 0; k + 1 < count; k += 2)
-        TRY(fetch_group(path, pairs[k], pairs[k + 1], &raw->groups[raw->group_count++], err));
-cleanup:
-    gmshFree(pairs);
-    return error_is_clean(err);
-}
-
 // gmsh has one session a process.
 static pthread_mutex_t session = PTHREAD_MUTEX_INITIALIZER;
 
@@ -385,6 +330,8 @@ __attribute__((visibility("default"))) bool amontons_gmsh_read(const MeshRawRequ
     char name[] = "gmsh", *argv[] = {name, NULL}, locale[LOCALE_SIZE];
     int status = 0;
     bool begun = false;
+    int *entities = NULL, *groups = NULL;   // [2 * ...] dimension and tag of each
+    size_t entity_numbers = 0, group_numbers = 0;
     double factor = 1, all = 0;
     *raw = (MeshRaw){0};
     pthread_mutex_lock(&session);
@@ -402,8 +349,18 @@ __attribute__((visibility("default"))) bool amontons_gmsh_read(const MeshRawRequ
     TRY(gmsh_load(request, raw, err));
     TRY(gmsh_split(request, raw, err));
     for (int dimension = 0; dimension <= 3; dimension++) TRY(fetch_nodes(dimension, raw, err));
-    TRY(fetch_all_elements(raw, err));
-    TRY(fetch_groups(request->path, raw, err));
+
+    // One entity after the other, as the groups of an element are those of its entity.
+    gmshModelGetEntities(&entities, &entity_numbers, -1, &status);
+    if (status) FAIL(err, ERROR_LIBRARY, "gmsh gives no entities (status %d)", status);
+    for (size_t k = 0; k + 1 < entity_numbers; k += 2)
+        TRY(fetch_elements(entities[k], entities[k + 1], raw, err));
+    gmshModelGetPhysicalGroups(&groups, &group_numbers, -1, &status);
+    if (status) FAIL(err, ERROR_LIBRARY, "gmsh gives no physical groups (status %d)", status);
+    TRY((raw->groups = NEW_ARRAY(RawGroup, (int64_t)group_numbers / 2, err)));
+    for (size_t k = 0; k + 1 < group_numbers; k += 2)
+        TRY(fetch_group(request->path, groups[k], groups[k + 1], &raw->groups[raw->group_count++],
+                        err));
     if (request->generate) {
         // The options that gmsh applies when it writes a mesh, as these numbers are taken from its
         // memory.
@@ -414,6 +371,9 @@ __attribute__((visibility("default"))) bool amontons_gmsh_read(const MeshRawRequ
         raw->all_elements = status == 0 && all != 0;
     }
 cleanup:
+    gmshFree(entities);
+    gmshFree(groups);
+
     // The next session finds no model, no options and no log of this one.
     if (begun) gmshLoggerStop(&status);
     if (begun) gmshFinalize(&status);

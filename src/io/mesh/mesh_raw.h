@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A mesh as gmsh's API delivers it, between the gmsh module (io/mesh/mesh_file_module) and
-// io/mesh/mesh_child, which need not know gmsh's headers; and its conversion to a MeshFile.
+// io/mesh/mesh_read, which need not know gmsh's headers; and its conversion to a MeshFile.
 #ifndef AMONTONS_IO_MESH_MESH_RAW_H
 #define AMONTONS_IO_MESH_MESH_RAW_H
 

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Checks a mesh file before gmsh reads it: gmsh opens a missing file as an empty model, takes junk
-// for a script, and reads a file that was cut off inside its last number.
+// for a script, and reads a file that was cut off inside its last number. Then has gmsh read it in
+// a child process (base/child_process), so that a mesh that crashes it is an error like any other.
 #include "io/mesh/mesh_file.h"
 
 #include "base/memory.h"
-#include "base/text.h"
+#include "base/module.h"
 #include "io/files/text_file.h"
-#include "io/mesh/geo_script.h"
 #include "io/mesh/geo_parameters.h"
-#include "io/mesh/mesh_child.h"
+#include "io/mesh/geo_script.h"
 #include "io/mesh/mesh_cache.h"
+#include "io/mesh/mesh_raw.h"
 #include "io/mesh/msh2_entities.h"
 
 #include <errno.h>
@@ -23,18 +24,12 @@
 
 enum { SPLITS_MAX = 6, MENDED_NAME_SIZE = 40 };   // the latter: "/proc/self/fd/" and an int
 
-// --- before gmsh --------------------------------------------------------------------------------
+// READING_SECONDS, SECONDS_MAX: of processor time, to read the file, which takes a second for 1e6
+// cells, and in all. gmsh makes 900 000 triangles in it. SECONDS_WAITED: by the clock, on a machine
+// that others use, too.
+enum { READING_SECONDS = 20, SECONDS_MAX = 60, SECONDS_WAITED = 600 };
 
-// Checks that the path leads to a file that is not empty, before anybody opens it.
-static bool check_file(const char *path, Error *err)
-{
-    struct stat status;
-    if (stat(path, &status) != 0)
-        return REFUSE(err, "%s: cannot be read: %s", path, strerror(errno));
-    if (!S_ISREG(status.st_mode)) return REFUSE(err, "%s: is not a file", path);
-    if (status.st_size == 0) return REFUSE(err, "%s: is empty", path);
-    return true;
-}
+// --- before gmsh --------------------------------------------------------------------------------
 
 // File in memory that gmsh opens in place of a file that had to be mended.
 typedef struct MendedFile {
@@ -60,40 +55,15 @@ static bool mended_write(const char *path, const char *bytes, int64_t size, Mend
     return true;
 }
 
-// `dim number "name"` on each line: of two groups of one dimension with one name gmsh would give
-// the second no name.
-static bool check_names(const char *path, const char *bytes, Error *err)
-{
-    enum { NAMES_MAX = 1000 };
-    const char *begin = strstr(bytes, "$PhysicalNames"), *end = strstr(bytes, "$EndPhysicalNames");
-    const char *line[NAMES_MAX];   // from its quote
-    int dims[NAMES_MAX], numbers[NAMES_MAX], count = 0;
-    if (!begin || !end) return true;
-    while (count < NAMES_MAX && (begin = strchr(begin, '\n')) && ++begin < end) {
-        const char *quote = strchr(begin, '"');
-        if (sscanf(begin, "%d%*[ \t]%d", &dims[count], &numbers[count]) != 2 || !quote ||
-            quote > end)
-            continue;
-        size_t length = strcspn(quote + 1, "\"\n") + 2;
-        for (int k = 0; k < count; k++)
-            if (dims[k] == dims[count] && numbers[k] != numbers[count] &&
-                strncmp(line[k], quote, length) == 0)
-                return REFUSE(err,
-                              "%s: the physical name '%.*s' is used twice: by groups %d and %d of "
-                              "dimension %d",
-                              path, (int)length - 2, quote + 1, numbers[k], numbers[count],
-                              dims[k]);
-        line[count++] = quote;
-    }
-    return true;
-}
-
 // A .msh begins as one, else gmsh would run it as a script, whatever its name ends with; it says
 // its version, and has the mark that ends the elements, without which it was cut off. A byte order
 // mark before it, and numbers of entities that do not tell groups apart, are mended.
 static bool check_msh(const char *path, MendedFile *mended, Error *err)
 {
+    enum { NAMES_MAX = 1000 };
     static const char begin[] = "$MeshFormat", comments[] = "$Comments", end[] = "$EndElements";
+    const char *names[NAMES_MAX];   // from its quote
+    int dims[NAMES_MAX], numbers[NAMES_MAX], count = 0;
     struct stat status;
     char *bytes = NULL, *told_apart = NULL;
     int32_t size = 0;
@@ -115,7 +85,26 @@ static bool check_msh(const char *path, MendedFile *mended, Error *err)
     if (!memmem(bytes, (size_t)size, end, strlen(end)))
         FAIL(err, ERROR_INPUT, "%s: is truncated, or was never meshed: it has no $EndElements",
              path);
-    TRY(check_names(path, bytes, err));
+
+    // Between these marks `dim number "name"` on each line: of two groups of one dimension with one
+    // name gmsh would give the second no name.
+    const char *first = strstr(bytes, "$PhysicalNames"), *last = strstr(bytes, "$EndPhysicalNames");
+    while (first && last && count < NAMES_MAX && (first = strchr(first, '\n')) && ++first < last) {
+        const char *quote = strchr(first, '"');
+        if (sscanf(first, "%d%*[ \t]%d", &dims[count], &numbers[count]) != 2 || !quote ||
+            quote > last)
+            continue;
+        size_t length = strcspn(quote + 1, "\"\n") + 2;
+        for (int k = 0; k < count; k++)
+            if (dims[k] == dims[count] && numbers[k] != numbers[count] &&
+                strncmp(names[k], quote, length) == 0)
+                FAIL(err, ERROR_INPUT,
+                     "%s: the physical name '%.*s' is used twice: by groups %d and %d of "
+                     "dimension %d",
+                     path, (int)length - 2, quote + 1, numbers[k], numbers[count], dims[k]);
+        names[count++] = quote;
+    }
+
     bool marked = stat(path, &status) != 0 ||
                   status.st_size != size;   // text_file_read left it out
     if (version < 3) TRY(msh2_tell_entities_apart(bytes, size, &told_apart, &made, err));
@@ -128,58 +117,101 @@ cleanup:
     return error_is_clean(err);
 }
 
-// A request with parameters of our own choice: an array, since `refine` may leave the list.
-typedef struct Parameters {
-    MeshParameter *list;   // [count]; owned
-    int32_t count;
-} Parameters;
-
-static bool is_refine(const MeshParameter *parameter)
-{
-    return strcmp(parameter->name, "refine") == 0 && !parameter->text[0];
-}
-
-// Takes `refine` out of the list: nothing that reads the file knows it, so its cells are split.
-// ERROR_INPUT: not a power of two.
-static bool take_refine(const char *path, Parameters *given, int32_t *splits, Error *err)
+// Takes `refine` out of the list, which may get shorter: nothing that reads the file knows it, so
+// its cells are split. ERROR_INPUT: not a power of two.
+static bool take_refine(const char *path, MeshParameter *list, int32_t *count, int32_t *splits,
+                        Error *err)
 {
     int32_t kept = 0;
     *splits = 0;
-    for (int32_t k = 0; k < given->count; k++) {
-        if (!is_refine(&given->list[k])) {
-            given->list[kept++] = given->list[k];
+    for (int32_t k = 0; k < *count; k++) {
+        if (strcmp(list[k].name, "refine") != 0 || list[k].text[0]) {
+            list[kept++] = list[k];
             continue;
         }
         int exponent = 0;
-        double part = frexp(given->list[k].value, &exponent);
+        double part = frexp(list[k].value, &exponent);
         *splits = exponent - 1;
         if (part != 0.5 || *splits < 0 || *splits > SPLITS_MAX)
             return REFUSE(
                 err,
                 "%s: refine = %g; its cells are split in halves along each edge, so it can be 1, "
                 "2, 4, ... %d%s",
-                path, given->list[k].value, 1 << SPLITS_MAX,
+                path, list[k].value, 1 << SPLITS_MAX,
                 mesh_file_format(path) == MESH_SCRIPT
                     ? " (unless the .geo has a parameter `refine`)"
                     : "");
     }
-    given->count = kept;
+    *count = kept;
     return true;
 }
 
-// gmsh would ignore a parameter that the script does not take.
-static bool check_geo(const char *path, Parameters *given, int32_t *splits, Error *err)
+// --- gmsh in a child process --------------------------------------------------------------------
+
+// The reply is the mesh as the cache keeps it.
+typedef struct MeshReading {
+    const MeshRawRequest *request;
+    MeshFile *mesh;
+} MeshReading;
+
+static void begin_meshing(void)
 {
-    GeoParameters known = {0};
-    bool refines = false;
-    TRY(geo_parameters_read(path, &known, err));
-    for (int32_t k = 0; k < known.count; k++)
-        refines = refines || strcmp(known.items[k].name, "refine") == 0;
-    if (!refines) TRY(take_refine(path, given, splits, err));
-    TRY(geo_parameters_check(&known, path, given->list, given->count, err));
-cleanup:
-    geo_parameters_destroy(&known);
-    return error_is_clean(err);
+    child_allow(SECONDS_MAX);
+}
+
+// An empty array may be NULL, which fwrite must not be given.
+static bool append(void *context, const void *bytes, int64_t size)
+{
+    return size == 0 || fwrite(bytes, 1, (size_t)size, context) == (size_t)size;
+}
+
+// reply: NULL in the process that asks.
+static bool read_by_gmsh(void *context, FILE *reply, Error *err)
+{
+    const MeshReading *reading = context;
+    MeshRaw raw = {0};
+    MeshRawRequest request = *reading->request;
+    if (reply) request.opened = begin_meshing;
+    // Text that a trusted file prints must not come before our answer.
+    if (reply && request.trusted) dup2(STDERR_FILENO, STDOUT_FILENO);
+    MeshRawReader read = (MeshRawReader)module_function("gmsh", "amontons_gmsh_read", err);
+    bool done = read && read(&request, &raw, err);
+    done = done && mesh_raw_convert(&raw, request.path, reading->mesh, err);
+    if (done) memcpy(reading->mesh->warning, raw.warning, sizeof raw.warning);
+    mesh_raw_destroy(&raw);
+    Archive archive = archive_send(append, reply);
+    if (done && reply) mesh_archive(reading->mesh, &archive);   // a failure shows at its end
+    return done;
+}
+
+// The mesh, in this process where no child is wanted. The module is opened in this process, once
+// for all meshes: to load it takes a tenth of a second, to hand it on to a child some milliseconds.
+// watch: may end it; NULL: nobody. In this process nothing ends gmsh.
+static bool read_in_child(const MeshRawRequest *request, const ChildWatch *watch, MeshFile *mesh,
+                          Error *err)
+{
+    MeshReading reading = {request, mesh};
+    ChildReply reply = {0};
+    ChildWork work = {.path = request->path,
+                      .reader = "gmsh",
+                      .seconds = READING_SECONDS,
+                      .seconds_waited = SECONDS_WAITED,
+                      .shut_in = !request->trusted,
+                      .kept = request->descriptor,
+                      .advice = "where it is not endless: coarser cells, or mesh it by gmsh itself "
+                                "and name the .msh",
+                      .watch = watch,
+                      .read = read_by_gmsh,
+                      .context = &reading};
+    if (!child_is_wanted()) return read_by_gmsh(&reading, NULL, err);
+    bool done = module_function("gmsh", "amontons_gmsh_read", err) &&
+                child_read(&work, &reply, err);
+    Archive archive = archive_read(reply.bytes, reply.size);
+    archive.err = err;
+    if (done) mesh_archive(mesh, &archive);
+    done = done && archive_check(&archive, true, err);
+    child_destroy(&reply);
+    return done;
 }
 
 // gmsh names a script that it was given as text by a descriptor, and the line of that text.
@@ -210,42 +242,59 @@ bool mesh_file_read(const char *path, const MeshParameter *parameters, int32_t p
                     bool trusted, const ChildWatch *watch, MeshFile *mesh, Error *err)
 {
     char key[HASH_TEXT_SIZE];
-    bool found = false;
+    bool found = false, refines = false;
     GeoScript script = {0};
+    GeoParameters known = {0};
     MeshFormat format = mesh_file_format(path);
     MeshRawRequest request = {.path = path, .generate = format == MESH_SCRIPT, .trusted = trusted};
     MendedFile mended = {.descriptor = -1};
-    Parameters given = {.count = parameter_count};
+    MeshParameter *given = NULL;   // [count] without `refine` where the file does not know it
+    int32_t count = parameter_count;
+    struct stat status;
     *mesh = (MeshFile){0};
     if (format == MESH_NO_FORMAT)
         FAIL(err, ERROR_INPUT, "%s: a mesh is a .msh or a .geo file%s", path,
              mesh_format_advice(path));
-    TRY((given.list = NEW_ARRAY(MeshParameter, parameter_count, err)));
-    if (parameter_count > 0)
-        memcpy(given.list, parameters, (size_t)parameter_count * sizeof *parameters);
-    TRY(check_file(path, err));
-    if (request.generate && !trusted) {
-        TRY(geo_script_read(path, &script, err));
-        request.script = script.text;
-        request.script_size = script.size;
+    TRY((given = NEW_ARRAY(MeshParameter, count, err)));
+    if (count > 0) memcpy(given, parameters, (size_t)count * sizeof *parameters);
+
+    // The path leads to a file that is not empty, before anybody opens it.
+    if (stat(path, &status) != 0)
+        FAIL(err, ERROR_INPUT, "%s: cannot be read: %s", path, strerror(errno));
+    if (!S_ISREG(status.st_mode)) FAIL(err, ERROR_INPUT, "%s: is not a file", path);
+    if (status.st_size == 0) FAIL(err, ERROR_INPUT, "%s: is empty", path);
+
+    if (request.generate) {
+        if (!trusted) {
+            TRY(geo_script_read(path, &script, err));
+            request.script = script.text;
+            request.script_size = script.size;
+        }
+        // gmsh would ignore a parameter that the script does not take.
+        TRY(geo_parameters_read(path, &known, err));
+        for (int32_t k = 0; k < known.count; k++)
+            refines = refines || strcmp(known.items[k].name, "refine") == 0;
+        if (!refines) TRY(take_refine(path, given, &count, &request.splits, err));
+        TRY(geo_parameters_check(&known, path, given, count, err));
+    } else {
+        TRY(check_msh(path, &mended, err));
+        TRY(take_refine(path, given, &count, &request.splits, err));
+        if (count > 0)
+            FAIL(err, ERROR_INPUT,
+                 "%s: parameters ('%s') need a .geo; a .msh is meshed already, and knows `refine` "
+                 "alone",
+                 path, given[0].name);
     }
-    if (request.generate)
-        TRY(check_geo(path, &given, &request.splits, err));
-    else
-        TRY(check_msh(path, &mended, err) && take_refine(path, &given, &request.splits, err));
-    if (!request.generate && given.count > 0)
-        FAIL(
-            err, ERROR_INPUT,
-            "%s: parameters ('%s') need a .geo; a .msh is meshed already, and knows `refine` alone",
-            path, given.list[0].name);
     if (mended.descriptor >= 0) request.opened_as = mended.name;
     request.descriptor = mended.descriptor;
-    request.parameters = given.list;
-    request.parameter_count = given.count;
+    request.parameters = given;
+    request.parameter_count = count;
+
+    // From the cache, else by gmsh.
     TRY(mesh_cache_key(path, parameters, parameter_count, key, err));
     TRY(mesh_cache_load(key, mesh, &found, err));
     if (!found) {
-        if (!mesh_child_read(&request, watch, mesh, err)) {
+        if (!read_in_child(&request, watch, mesh, err)) {
             name_the_file(path, &script, err);
             goto cleanup;
         }
@@ -254,7 +303,8 @@ bool mesh_file_read(const char *path, const MeshParameter *parameters, int32_t p
     mesh->origin = found ? MESH_OF_CACHE : key[0] ? MESH_OF_GMSH : MESH_OF_OTHER_FILES;
 cleanup:
     if (mended.descriptor >= 0) close(mended.descriptor);
-    memory_free(given.list);
+    memory_free(given);
+    geo_parameters_destroy(&known);
     geo_script_destroy(&script);
     return error_is_clean(err);
 }

@@ -113,42 +113,6 @@ static bool read_element(Msh2File *file, int64_t tags, Msh2Element *element, Err
     return true;
 }
 
-static bool type_is_known(int64_t type, int64_t tags)
-{
-    return type > 0 && type < TYPE_COUNT && tags >= 0 && tags <= TAGS_MAX;
-}
-
-static bool read_lines(Msh2File *file, Error *err)
-{
-    for (int64_t k = 0; k < file->count; k++) {
-        int64_t number = 0, type = 0, tags = 0, begin = file->at;
-        if (!read_int(file, &number) || !read_int(file, &type) || !read_int(file, &tags) ||
-            !type_is_known(type, tags))
-            return false;
-        Msh2Element *element = &file->elements[k];
-        *element = (Msh2Element){.type = (int32_t)type, .begin = begin};
-        if (!read_element(file, tags, element, err)) return false;
-        skip_line(file);
-    }
-    return true;
-}
-
-static bool read_blocks(Msh2File *file, Error *err)
-{
-    for (int64_t k = 0; k < file->count;) {
-        int64_t type = 0, count = 0, tags = 0, number = 0;
-        if (!read_int(file, &type) || !read_int(file, &count) || !read_int(file, &tags) ||
-            !type_is_known(type, tags) || tags < 2 || count < 1 || count > file->count - k)
-            return false;
-        for (int64_t i = 0; i < count; i++, k++) {
-            Msh2Element *element = &file->elements[k];
-            *element = (Msh2Element){.type = (int32_t)type, .begin = file->at};
-            if (!read_int(file, &number) || !read_element(file, tags, element, err)) return false;
-        }
-    }
-    return true;
-}
-
 // False: the file is not understood, or an error.
 static bool read_elements(Msh2File *file, Error *err)
 {
@@ -168,7 +132,28 @@ static bool read_elements(Msh2File *file, Error *err)
     file->count = count;
     file->binary = is_binary == 1;
     if (!(file->elements = NEW_ARRAY(Msh2Element, count, err))) return false;
-    return file->binary ? read_blocks(file, err) : read_lines(file, err);
+
+    // Lines: number, type, tag-count, and the rest of one element. Blocks: type, elements,
+    // tag-count, then of each element its number and the rest.
+    for (int64_t k = 0; k < count;) {
+        int64_t number = 0, type = 0, in_block = 1, tags = 0, line = file->at;
+        if (!file->binary && !read_int(file, &number)) return false;
+        if (!read_int(file, &type)) return false;
+        if (file->binary && !read_int(file, &in_block)) return false;
+        if (!read_int(file, &tags)) return false;
+        if (type <= 0 || type >= TYPE_COUNT || tags < (file->binary ? 2 : 0) || tags > TAGS_MAX ||
+            in_block < 1 || in_block > count - k)
+            return false;
+        for (int64_t i = 0; i < in_block; i++, k++) {
+            Msh2Element *element = &file->elements[k];
+            *element =
+                (Msh2Element){.type = (int32_t)type, .begin = file->binary ? file->at : line};
+            if (file->binary && !read_int(file, &number)) return false;
+            if (!read_element(file, tags, element, err)) return false;
+        }
+        if (!file->binary) skip_line(file);
+    }
+    return true;
 }
 
 // --- which belong together ----------------------------------------------------------------------
@@ -186,31 +171,6 @@ static int compare_copies(const void *a, const void *b, void *context)
     return (first->group > second->group) - (first->group < second->group);
 }
 
-static bool is_copy(const Msh2File *file, const Msh2Element *first, const Msh2Element *second)
-{
-    return first->type == second->type &&
-           memcmp(file->nodes + first->first_node, file->nodes + second->first_node,
-                  (size_t)TYPES[first->type].nodes * sizeof *file->nodes) == 0;
-}
-
-// Sets `groups` of every element from all of its copies.
-static void find_groups(Msh2File *file, int64_t *order)
-{
-    system_sort(order, (size_t)file->count, sizeof *order, compare_copies, file);
-    for (int64_t k = 0, end; k < file->count; k = end) {
-        Hash hash = hash_start();
-        const Msh2Element *first = &file->elements[order[k]], *last = NULL;
-        for (end = k; end < file->count && is_copy(file, first, &file->elements[order[end]]);
-             end++) {
-            const Msh2Element *copy = &file->elements[order[end]];
-            if (!last || last->group != copy->group)
-                hash_bytes(&hash, &copy->group, sizeof copy->group);
-            last = copy;
-        }
-        for (int64_t i = k; i < end; i++) file->elements[order[i]].groups = hash.low;
-    }
-}
-
 // By dimension, entity and groups.
 static int compare_entities(const void *a, const void *b, void *context)
 {
@@ -222,74 +182,80 @@ static int compare_entities(const void *a, const void *b, void *context)
     return (first->groups > second->groups) - (first->groups < second->groups);
 }
 
-// Numbers the entities; false: those of the file will do. The first set of groups on an entity
-// keeps its number, each other one gets a new number. 0 is no entity's.
-static bool number_entities(Msh2File *file, int64_t *order)
+bool msh2_tell_entities_apart(const char *bytes, int64_t size, char **mended, int64_t *mended_size,
+                              Error *err)
 {
-    int32_t most[DIMENSIONS] = {0};
+    Msh2File file = {.bytes = bytes, .size = size};
+    int64_t *order = NULL, from = 0, to = 0;
+    int32_t most[DIMENSIONS] = {0};   // the largest entity of each dimension
     bool changed = false;
-    for (int64_t k = 0; k < file->count; k++) {
-        const Msh2Element *element = &file->elements[k];
+    *mended = NULL;
+    if (!read_elements(&file, err)) goto cleanup;
+    TRY(order = NEW_ARRAY(int64_t, file.count, err));
+    for (int64_t k = 0; k < file.count; k++) order[k] = k;
+
+    // The groups of every element, from all of its copies.
+    system_sort(order, (size_t)file.count, sizeof *order, compare_copies, &file);
+    for (int64_t k = 0, end; k < file.count; k = end) {
+        Hash hash = hash_start();
+        const Msh2Element *first = &file.elements[order[k]], *last = NULL;
+        const size_t length = (size_t)TYPES[first->type].nodes * sizeof *file.nodes;
+        for (end = k; end < file.count; end++) {
+            const Msh2Element *copy = &file.elements[order[end]];
+            if (copy->type != first->type ||
+                memcmp(file.nodes + first->first_node, file.nodes + copy->first_node, length) != 0)
+                break;
+            if (!last || last->group != copy->group)
+                hash_bytes(&hash, &copy->group, sizeof copy->group);
+            last = copy;
+        }
+        for (int64_t i = k; i < end; i++) file.elements[order[i]].groups = hash.low;
+    }
+
+    // The entities: the first set of groups on one keeps its number, each other set gets a new
+    // number. 0 is no entity's.
+    for (int64_t k = 0; k < file.count; k++) {
+        const Msh2Element *element = &file.elements[k];
         int32_t dim = dim_of(element);
         if (element->entity > most[dim]) most[dim] = element->entity;
     }
-    system_sort(order, (size_t)file->count, sizeof *order, compare_entities, file);
-    for (int64_t k = 0; k < file->count; k++) {
-        Msh2Element *element = &file->elements[order[k]];
-        const Msh2Element *last = k > 0 ? &file->elements[order[k - 1]] : NULL;
+    system_sort(order, (size_t)file.count, sizeof *order, compare_entities, &file);
+    for (int64_t k = 0; k < file.count; k++) {
+        Msh2Element *element = &file.elements[order[k]];
+        const Msh2Element *last = k > 0 ? &file.elements[order[k - 1]] : NULL;
         bool same = last && dim_of(last) == dim_of(element) && last->entity == element->entity;
         if (same && last->groups == element->groups)
             element->made_entity = last->made_entity;
         else if (same || element->entity == 0) {
-            if (most[dim_of(element)] == INT_MAX) return false;
+            if (most[dim_of(element)] == INT_MAX) goto cleanup;
             element->made_entity = ++most[dim_of(element)];
         } else
             element->made_entity = element->entity;
         changed = changed || element->made_entity != element->entity;
     }
-    return changed;
-}
+    if (!changed) goto cleanup;
 
-// --- writing ------------------------------------------------------------------------------------
-
-// In binary files numbers keep their places; a line is written anew up to its entity.
-static bool write_file(const Msh2File *file, char **mended, int64_t *mended_size, Error *err)
-{
-    int64_t from = 0, to = 0;
-    char *made = memory_bytes(file->size + (file->binary ? 0 : LINE_SIZE * file->count), err);
-    if (!made) return false;
-    for (int64_t k = 0; k < file->count; k++) {
-        const Msh2Element *element = &file->elements[k];
-        int64_t until = file->binary ? element->after_entity : element->begin;
-        memcpy(made + to, file->bytes + from, (size_t)(until - from));
+    // The file. In a binary one numbers keep their places; a line is written anew up to its entity.
+    char *made = memory_bytes(size + (file.binary ? 0 : LINE_SIZE * file.count), err);
+    TRY(made);
+    for (int64_t k = 0; k < file.count; k++) {
+        const Msh2Element *element = &file.elements[k];
+        int64_t until = file.binary ? element->after_entity : element->begin;
+        memcpy(made + to, bytes + from, (size_t)(until - from));
         to += until - from;
         from = until;
-        if (file->binary) {
+        if (file.binary) {
             memcpy(made + to - sizeof(int32_t), &element->made_entity, sizeof(int32_t));
             continue;
         }
         to += snprintf(made + to, LINE_SIZE, "%lld %d %d %d %d",
-                       strtoll(file->bytes + element->begin, NULL, 10), element->type,
+                       strtoll(bytes + element->begin, NULL, 10), element->type,
                        element->tags < 2 ? 2 : element->tags, element->group, element->made_entity);
         from = element->after_entity;
     }
-    memcpy(made + to, file->bytes + from, (size_t)(file->size - from));
+    memcpy(made + to, bytes + from, (size_t)(size - from));
     *mended = made;
-    *mended_size = to + file->size - from;
-    return true;
-}
-
-bool msh2_tell_entities_apart(const char *bytes, int64_t size, char **mended, int64_t *mended_size,
-                              Error *err)
-{
-    Msh2File file = {.bytes = bytes, .size = size};
-    int64_t *order = NULL;
-    *mended = NULL;
-    if (!read_elements(&file, err)) goto cleanup;
-    if (!(order = NEW_ARRAY(int64_t, file.count, err))) goto cleanup;
-    for (int64_t k = 0; k < file.count; k++) order[k] = k;
-    find_groups(&file, order);
-    if (number_entities(&file, order)) write_file(&file, mended, mended_size, err);
+    *mended_size = to + size - from;
 cleanup:
     memory_free_all(order, file.elements, file.nodes);
     return error_is_clean(err);

@@ -229,15 +229,6 @@ static bool read_row(Reading *reading, Error *err)
     return true;
 }
 
-// Are all cells of the first row numbers? Then it is none of names.
-static bool is_bare(const CsvTable *table)
-{
-    double value;
-    for (int32_t k = 0; k < table->columns; k++)
-        if (!is_number(table->cells[k], strlen(table->cells[k]), &value)) return false;
-    return true;
-}
-
 // Names out of the comment [its line, from 1] above the first row, or empty ones, before the rest.
 static bool put_names_before(Reading *reading, char *comment, int32_t line, Error *err)
 {
@@ -271,28 +262,6 @@ static bool put_names_before(Reading *reading, char *comment, int32_t line, Erro
         table->cells[k] = take_cell(separator, &at, &ends);
     }
     table->named = table->named_by_comment = true;
-    return true;
-}
-
-// Points or commas, in all of the file.
-static bool find_decimal_sign(CsvTable *table, Error *err)
-{
-    int32_t first[2] = {-1, -1};   // with a point, with a comma
-    double value;
-    int32_t last = (table->rows + 1) * table->columns;
-    for (int32_t k = table->columns; k < last; k++) {
-        const char *cell = table->cells[k];
-        bool comma = strchr(cell, ',') != NULL;
-        if ((!comma && !strchr(cell, '.')) || !is_number(cell, strlen(cell), &value)) continue;
-        if (first[comma] < 0) first[comma] = k;
-        if (first[0] < 0 || first[1] < 0) continue;
-        int32_t row = k / table->columns - 1, other = first[!comma];
-        return csv_refuse(table, row, k % table->columns, err,
-                          "is `%.30s`, but line %d has `%.30s`: the decimal sign is a point or a "
-                          "comma, in all of the file",
-                          cell, table->line[other / table->columns], table->cells[other]);
-    }
-    table->decimal_comma = first[1] >= 0;
     return true;
 }
 
@@ -369,26 +338,20 @@ static bool take_units(CsvTable *table, Error *err)
     return true;
 }
 
-static bool names_stand_once(const CsvTable *table, Error *err)
-{
-    for (int32_t k = 0; k < table->columns; k++)
-        for (int32_t j = 0; *table->cells[k] && j < k; j++)
-            if (strcmp(table->cells[j], table->cells[k]) == 0)
-                return csv_refuse(table, -1, k, err, "stands twice, in column %d and in column %d",
-                                  j + 1, k + 1);
-    return true;
-}
-
 static bool read_table(const char *path, bool may_be_bare, CsvTable *table, Error *err)
 {
-    int32_t size = 0, comment_line = 0;
-    char *comment = NULL;
+    int32_t size = 0, comment_line = 0, first[2] = {-1, -1};
+    char *comment = NULL;   // the last one before the first row
+    bool is_bare = true;
+    double value;
     Reading reading = {.table = table, .line = 1};
     *table = (CsvTable){.named = true};
     TRY(table->path = memory_text(path, err));
     TRY(text_file_read(path, SIZE_MAX_CSV, &table->text, &size, err));
     if (memchr(table->text, 0, (size_t)size))
         FAIL(err, ERROR_INPUT, "%s is no text in UTF-8: it holds zero bytes", path);
+
+    // The rows, and the comment above them.
     find_separators(table->text, &reading.names_separator, &table->separator);
     reading.at = reading.line_start = table->text;
     while (*reading.at) {
@@ -406,14 +369,36 @@ static bool read_table(const char *path, bool may_be_bare, CsvTable *table, Erro
         TRY(read_row(&reading, err));
     }
     if (reading.count == 0) FAIL(err, ERROR_INPUT, "%s: no table, or one that is cut off", path);
-    if (is_bare(table)) TRY(put_names_before(&reading, comment, comment_line, err));
+
+    // A first row of numbers alone is none of names.
+    for (int32_t k = 0; k < table->columns; k++)
+        is_bare = is_bare && is_number(table->cells[k], strlen(table->cells[k]), &value);
+    if (is_bare) TRY(put_names_before(&reading, comment, comment_line, err));
     if (!table->named && !may_be_bare)
         FAIL(err, ERROR_INPUT, "%s:%d: found numbers; the first row names the columns", path,
              table->line[1]);
     table->rows = reading.count / table->columns - 1;
     TRY(take_units(table, err));
-    TRY(names_stand_once(table, err));
-    TRY(find_decimal_sign(table, err));
+    for (int32_t k = 0; k < table->columns; k++)
+        for (int32_t j = 0; *table->cells[k] && j < k; j++)
+            if (strcmp(table->cells[j], table->cells[k]) == 0)
+                TRY(csv_refuse(table, -1, k, err, "stands twice, in column %d and in column %d",
+                               j + 1, k + 1));
+
+    // The decimal sign. first: the first cells with a point and with a comma.
+    for (int32_t k = table->columns; k < (table->rows + 1) * table->columns; k++) {
+        const char *cell = table->cells[k];
+        bool comma = strchr(cell, ',') != NULL;
+        if ((!comma && !strchr(cell, '.')) || !is_number(cell, strlen(cell), &value)) continue;
+        if (first[comma] < 0) first[comma] = k;
+        int32_t other = first[!comma];
+        if (other >= 0)
+            TRY(csv_refuse(table, k / table->columns - 1, k % table->columns, err,
+                           "is `%.30s`, but line %d has `%.30s`: the decimal sign is a point or a "
+                           "comma, in all of the file",
+                           cell, table->line[other / table->columns], table->cells[other]));
+    }
+    table->decimal_comma = first[1] >= 0;
 cleanup:
     if (!error_is_clean(err)) csv_destroy(table);
     return error_is_clean(err);
@@ -546,11 +531,13 @@ static const struct {
               {"\"", "''"}};
 enum { WORD_LENGTH = 4 };   // from which on a name is a word, in capitals or not
 
-// The text behind the name with which `own` begins; NULL: it begins with another one. Symbols are
-// as they are (V, v), words in capitals or not, with blanks or underscores between them.
-static const char *behind_name(const char *own, const char *name)
+// Column `column` is called `name`, which may have a unit behind it. Symbols are as they are
+// (V, v), words in capitals or not, with blanks or underscores between them.
+static bool is_called(const CsvTable *table, int32_t column, const char *name, CsvUnit *unit)
 {
+    const char *own = csv_name(table, column);
     bool word = strlen(name) >= WORD_LENGTH;
+    *unit = csv_unit_of_row(table, column);
     while (*name) {
         bool between = strchr(" _", *name) && *own && strchr(" _", *own);
         bool letter = word && tolower((unsigned char)*own) == tolower((unsigned char)*name);
@@ -562,19 +549,11 @@ static const char *behind_name(const char *own, const char *name)
         while (k < primes && (strncmp(own, PRIMES[k].written, strlen(PRIMES[k].written)) != 0 ||
                               strncmp(name, PRIMES[k].plain, strlen(PRIMES[k].plain)) != 0))
             k++;
-        if (k == primes) return NULL;
+        if (k == primes) return false;
         own += strlen(PRIMES[k].written);
         name += strlen(PRIMES[k].plain);
     }
-    return own;
-}
-
-// Column `column` is called `name`, which may have a unit behind it.
-static bool is_called(const CsvTable *table, int32_t column, const char *name, CsvUnit *unit)
-{
-    const char *behind = behind_name(csv_name(table, column), name);
-    *unit = csv_unit_of_row(table, column);
-    return behind && (!*behind || csv_take_unit(behind, unit));
+    return !*own || csv_take_unit(own, unit);
 }
 
 static bool find_named(const CsvTable *table, const char *name, int32_t *column, CsvUnit *unit,
@@ -652,29 +631,6 @@ static bool is_named_error(const CsvTable *table, int32_t column, const char *of
     return false;
 }
 
-static bool is_nameless_error(const CsvTable *table, int32_t column, CsvUnit *unit)
-{
-    for (size_t k = 0; k < sizeof ERROR_NAMES / sizeof *ERROR_NAMES; k++)
-        if (is_called(table, column, ERROR_NAMES[k], unit)) return true;
-    return false;
-}
-
-// The error of a quotient, l/L, is that of the numerator, l_error, over the same: without a unit.
-// False where the table has a column of that name by itself.
-static bool find_error_above(const CsvTable *table, const char *quotient, int32_t of,
-                             int32_t *column, CsvUnit *unit)
-{
-    char above[CSV_UNIT_SIZE + 1];
-    snprintf(above, sizeof above, "%.*s", (int)strcspn(quotient, "/"), quotient);
-    if (!strchr(quotient, '/')) return false;
-    for (int32_t k = 0; k < table->columns; k++)
-        if (is_called(table, k, above, unit)) return false;
-    for (*column = 0; *column < table->columns; ++*column)
-        if (*column != of && is_named_error(table, *column, above, unit) && unit->length == 0)
-            return true;
-    return false;
-}
-
 void csv_find_error(const CsvTable *table, int32_t of, int32_t *column, CsvUnit *unit)
 {
     char name[CSV_UNIT_SIZE + 1];
@@ -687,9 +643,22 @@ void csv_find_error(const CsvTable *table, int32_t of, int32_t *column, CsvUnit 
     for (*column = 0; *column < table->columns; ++*column)
         if (*column != of && length < CSV_UNIT_SIZE && is_named_error(table, *column, name, unit))
             return;
-    if (find_error_above(table, name, of, column, unit)) return;
+
+    // The error of a quotient, l/L, is that of the numerator, l_error, over the same: without a
+    // unit. Not where the numerator is a column by itself.
+    char *slash = strchr(name, '/');
+    if (slash) *slash = 0;
+    bool is_column = false;
+    for (int32_t k = 0; slash && k < table->columns; k++)
+        is_column = is_column || is_called(table, k, name, unit);
+    for (*column = 0; slash && !is_column && *column < table->columns; ++*column)
+        if (*column != of && is_named_error(table, *column, name, unit) && unit->length == 0)
+            return;
+
     *column = of + 1;
-    if (*column < table->columns && is_nameless_error(table, *column, unit)) return;
+    for (size_t k = 0; *column < table->columns && k < sizeof ERROR_NAMES / sizeof *ERROR_NAMES;
+         k++)
+        if (is_called(table, *column, ERROR_NAMES[k], unit)) return;
     *column = -1;
     *unit = (CsvUnit){"", 0};
 }

@@ -38,32 +38,18 @@ void html_raw(HtmlWriter *html, const char *markup)
     fputs(markup, html->out.out);
 }
 
-// NULL: the character stands for itself.
-static const char *escape(unsigned char letter)
-{
-    switch (letter) {
-    case '&':
-        return "&amp;";
-    case '<':
-        return "&lt;";
-    case '>':
-        return "&gt;";
-    case '"':
-        return "&quot;";
-    case '\'':
-        return "&#39;";
-    default:
-        return (letter < ' ' && letter != '\n' && letter != '\t') || letter == 127 ? "\uFFFD"
-                                                                                   : NULL;
-    }
-}
-
 void html_text(HtmlWriter *html, const char *text)
 {
+    static const char letters[] = "&<>\"'";
+    static const char *const escapes[] = {"&amp;", "&lt;", "&gt;", "&quot;", "&#39;"};
     while (*text) {
         int32_t length = text_utf8_length(text);
-        const char *escaped = length == 1 ? escape((unsigned char)*text) : NULL;
-        if (length == 0) escaped = "\uFFFD";
+        const char *escaped = NULL, *found = strchr(letters, *text);
+        bool control = (unsigned char)*text < ' ' && *text != '\n' && *text != '\t';
+        if (found)
+            escaped = escapes[found - letters];
+        else if (length == 0 || control || *text == 127)
+            escaped = "\uFFFD";
         fwrite(escaped ? escaped : text, 1, escaped ? strlen(escaped) : (size_t)length,
                html->out.out);
         text += length ? length : 1;

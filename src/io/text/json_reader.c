@@ -41,8 +41,6 @@ static const char *skip_string(const char *at)
     return *at == '"' ? at + 1 : NULL;
 }
 
-static const char *skip_value(const char *at);
-
 // At the value of the next item of an object; *key: its key, in quotes, [*length] with them.
 static const char *enter_item(const char *at, const char **key, int32_t *length)
 {
@@ -176,34 +174,30 @@ bool json_find_number(const char *text, const char *path, double *value)
     return true;
 }
 
-// Returns the character for the escape behind a backslash; *used: the characters of the escape.
-// After \u only hexadecimal digits belong to it: the quote that ends a text may stand where the
-// fourth should.
-static char unescape(const char *at, int32_t *used)
-{
-    static const char from[] = "nrtbf", to[] = "\n\r\t\b\f";
-    const char *known = strchr(from, *at);
-    *used = 1;
-    if (*at && known) return to[known - from];
-    if (*at != 'u') return *at;
-    long code = 0;
-    for (; *used <= 4 && isxdigit((unsigned char)at[*used]); ++*used) {
-        char digit[2] = {at[*used]};
-        code = 16 * code + strtol(digit, NULL, 16);
-    }
-    return code > 0 && code < 0x80 ? (char)code : '?';
-}
-
 // Escapes are undone; a text that does not fit is never cut in the middle of one.
 bool json_find_text(const char *text, const char *path, char *value, int32_t size)
 {
+    static const char from[] = "nrtbf", to[] = "\n\r\t\b\f";
     const char *at = find(text, path);
     if (!at || *at != '"' || !skip_string(at) || size < 1) return false;
     int32_t length = 0;
     for (at++; *at != '"' && length + 1 < size; at++) {
-        int32_t used = 0;
-        value[length++] = *at == '\\' ? unescape(at + 1, &used) : *at;
-        at += used;
+        char letter = *at;
+        if (letter == '\\') {
+            const char *known = strchr(from, *++at);
+            letter = *at && known ? to[known - from] : *at;
+            if (*at == 'u') {
+                // Only hexadecimal digits belong to it: the quote that ends the text may stand
+                // where the fourth should.
+                long code = 0;
+                for (int32_t k = 0; k < 4 && isxdigit((unsigned char)at[1]); k++) {
+                    char digit[2] = {*++at};
+                    code = 16 * code + strtol(digit, NULL, 16);
+                }
+                letter = code > 0 && code < 0x80 ? (char)code : '?';
+            }
+        }
+        value[length++] = letter;
     }
     value[length] = 0;
     return true;

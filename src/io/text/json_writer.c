@@ -55,19 +55,14 @@ static void append_new_line(JsonWriter *json)
     append(json, blanks, (size_t)(INDENT * json->depth));
 }
 
-// In YAML's flow style a word stands without quotes.
-static bool is_bare(const JsonWriter *json, const char *value)
-{
-    static const char bare[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./";
-    return json->in_flow && *value && !value[strspn(value, bare)];
-}
-
 // A JSON string, escaped by RFC 8259, section 7, and DEL. A file name may hold any bytes: those
 // that are not UTF-8, at which a parser would stop, become the replacement character.
 static void append_escaped(JsonWriter *json, const char *value)
 {
-    const char *quote = is_bare(json, value) ? "" : "\"";
-    append_text(json, quote);
+    // In YAML's flow style a word stands without quotes.
+    static const char bare[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./";
+    bool is_bare = json->in_flow && *value && !value[strspn(value, bare)];
+    append_text(json, is_bare ? "" : "\"");
     const unsigned char *next = (const unsigned char *)value;
     while (*next) {
         int32_t length = text_utf8_length((const char *)next);
@@ -86,7 +81,7 @@ static void append_escaped(JsonWriter *json, const char *value)
                escaped[0] ? strlen(escaped) : (size_t)length);
         next += length > 0 ? length : 1;
     }
-    append_text(json, quote);
+    append_text(json, is_bare ? "" : "\"");
 }
 
 // Comma, line and key before a value or before the bracket of a level.

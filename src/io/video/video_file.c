@@ -3,7 +3,6 @@
 #include "io/video/video_file.h"
 
 #include "base/module.h"
-#include "io/video/video_file_module.h"
 
 #include <string.h>
 #include <strings.h>

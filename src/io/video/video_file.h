@@ -8,9 +8,22 @@
 #define AMONTONS_IO_VIDEO_VIDEO_FILE_H
 
 #include "base/error.h"
-#include "io/video/video_def.h"
 
-typedef struct VideoFile VideoFile;
+#include <stdint.h>
+
+// Definition of a film.
+typedef struct VideoDef {
+    const char *path;   // its ending says what it becomes: .mp4, .webm or .gif
+    int32_t width, height;   // pixels, even
+    int32_t rate;   // frames a second; of a GIF a divisor of 100
+    const char *title;   // stored in the file; a GIF has none
+    // A GIF's colours, [256 * 3] red, green, blue; the last one is kept for what does not change.
+    // Others: not asked.
+    const uint8_t *palette;
+    bool overwrite;   // as io/files/part_file has it
+} VideoDef;
+
+typedef struct VideoFile VideoFile;   // begins with a pointer to its module's table
 
 // Whether the name ends as one of the three.
 bool video_file_is_known(const char *path);
@@ -23,5 +36,19 @@ bool video_file_add(VideoFile *file, const uint8_t *pixels, int32_t stride, Erro
 // Writes what the encoder still holds, then gives the file its final name.
 bool video_file_finish(VideoFile *file, Error *err);
 void video_file_destroy(VideoFile *file);   // NULL is fine
+
+// --- the module ---------------------------------------------------------------------------------
+
+// The module amontons_libav.so does these calls by libav, which loads a hundred libraries in 40 ms.
+typedef struct VideoModule {
+    VideoFile *(*create)(const VideoDef *def, Error *err);
+    bool (*add)(VideoFile *film, const uint8_t *pixels, int32_t stride, Error *err);
+    bool (*finish)(VideoFile *film, Error *err);
+    void (*destroy)(VideoFile *film);
+} VideoModule;
+
+// The module's one entry, "amontons_video_module": a table that lasts as long as the program.
+typedef const VideoModule *(*VideoModuleFunction)(void);
+const VideoModule *amontons_video_module(void);
 
 #endif

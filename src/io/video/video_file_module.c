@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // libavformat around one stream of libavcodec. Same frames, same bytes: a fixed number of threads,
 // no date, no name of an encoder. libav prints what it meets; here it is told to be silent.
-#include "io/video/video_file_module.h"
+#include "io/video/video_file.h"
 
 #include "base/memory.h"
 #include "base/transfer.h"
@@ -101,14 +101,6 @@ static bool check(VideoFile *film, int code, const char *what, Error *err)
 
 // --- begin ---------------------------------------------------------------------------------------
 
-static const VideoKind *find_kind(const char *path)
-{
-    const char *dot = strrchr(path, '.');
-    for (size_t k = 0; dot && k < sizeof kinds / sizeof *kinds; ++k)
-        if (strcasecmp(kinds[k].ending, dot) == 0) return &kinds[k];
-    return NULL;
-}
-
 // Colours of video are those of BT.709, which is what players take for granted of HD.
 static bool codec_open(VideoFile *film, const VideoKind *kind, const VideoDef *def, Error *err)
 {
@@ -207,7 +199,10 @@ static VideoFile *film_create(const VideoDef *def, Error *err)
 {
     char url[4200];
     AVDictionary *options = NULL;
-    const VideoKind *kind = find_kind(def->path);
+    const VideoKind *kind = NULL;
+    const char *dot = strrchr(def->path, '.');
+    for (size_t k = 0; dot && !kind && k < sizeof kinds / sizeof *kinds; ++k)
+        if (strcasecmp(kinds[k].ending, dot) == 0) kind = &kinds[k];
     VideoFile *film = NEW_ARRAY(VideoFile, 1, err);
     TRY(film);
     film->module = amontons_video_module();

@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "io/files/own_list.h"
 #include "io/files/text_file.h"
-#include "io/mesh/mesh_source.h"
+#include "io/mesh/mesh_cache.h"
 #include "io/text/json_reader.h"
 #include "io/text/json_writer.h"
 #include "scene/keys.h"

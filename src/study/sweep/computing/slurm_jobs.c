@@ -4,7 +4,7 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "base/place.h"
-#include "base/child_program.h"
+#include "base/process.h"
 #include "base/system.h"
 #include "io/text/text_writer.h"
 
@@ -59,7 +59,7 @@ void slurm_path(const SlurmJobs *jobs, const char *name, char *path, size_t size
 // Runs one of Slurm's commands; its output, without the last line end, in jobs->answer.
 static bool ask(SlurmJobs *jobs, const char *const *words, int *status, Error *err)
 {
-    if (!child_program_run(words, jobs->answer, jobs->answer_size, status, err))
+    if (!process_run(words, jobs->answer, jobs->answer_size, status, err))
         error_context(err,
                       "--slurm needs Slurm's commands (sbatch, squeue, scancel, scontrol) in PATH");
     for (size_t used = strlen(jobs->answer); used && jobs->answer[used - 1] == '\n';)
