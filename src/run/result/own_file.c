@@ -27,8 +27,8 @@ static const char *const FIELDS[] = {"bulk_", ".vtu", "interface_", ".vtp"};
 #define CONTACT_FILE(id, name, ...) FIGURE_FILE(id, "contact-plane-" name, )
 static const char *const FIGURES[] = {PICTURE_FIGURES(FIGURE_FILE) BLOCK_QUANTITIES(FIELD_FILE)
                                           CONTACT_QUANTITIES(CONTACT_FILE)
-                                              FIGURE_FILE(, "panels", ) "accuracy.png",
-                                      "accuracy.json"};
+                                              FIGURE_FILE(, "panels", ) "events.csv",
+                                      "misfit.csv", "accuracy.png", "accuracy.json"};
 
 static bool is_proof(const char *name)
 {
@@ -62,6 +62,7 @@ bool own_file_visit(const char *folder, OwnFileFound found, void *context, Error
         const char *name;
         bool (*is_own)(const char *);
     } rooms[] = {{"", is_proof}, {"/fields", is_field}, {"/figures", is_figure}};
+    // Twice .part: a file that replaces an unfinished one. A journal is one of version 0.2.
     static const char *const endings[] = {".part", ".part", ".journal"};
     char path[PATH_SIZE], bare[NAME_MAX + 1];
     bool whole = true;

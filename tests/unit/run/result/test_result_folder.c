@@ -93,6 +93,8 @@ static const char *const OWN[] = {"run.json",
                                   "figures/force.png",
                                   "figures/force.svg",
                                   "figures/panels.png",
+                                  "figures/events.csv",
+                                  "figures/misfit.csv",
                                   "figures/field-stress_xz.png",
                                   "figures/force.png.part"};
 static const char *const OTHERS[] = {"notes.txt",
