@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Pictures of a result, drawn off-screen from its stored history alone: `amontons render RESULT`
+// Pictures of a result, drawn off-screen from what is stored of it alone: `amontons render RESULT`
 // redraws any of them without solving again; of curves that a file describes; and of a mesh before
 // anything is computed. A module opened on first use (symbols "amontons_render",
 // "amontons_render_plot", "amontons_render_film", "amontons_render_mesh"); knows

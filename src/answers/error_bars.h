@@ -17,8 +17,10 @@
 //              for slip (`undamped`), and those coarser than all on which the same pads slide as
 //              on the last (`other_drops`), have no part in it; where the last nodes of the
 //              contact hold the block they scatter more, and three times what mu rises by
-//              meanwhile (`end_wait`) is added. One level: its own value, nothing known. A bar is
-//              met only where levels differ by a factor of two in cell size (levels_span_left).
+//              meanwhile (`end_wait`) is added. One level: its own value, nothing known. A bar that
+//              is short enough is met where levels differ by a factor of two in cell size
+//              (levels_span_left), or, where pads may slide otherwise on finer meshes, of four
+//              if time allows (levels_confirm_left; run/accuracy, is_met).
 //
 // How often bars hold, and by how much, is measured by validation/benchmark/promise.py.
 #ifndef AMONTONS_ANSWERS_ERROR_BARS_H

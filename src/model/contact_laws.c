@@ -111,7 +111,7 @@ bool model_lay_laws(Model *model, Error *err)
     int32_t count = interface->contact_count, law_of[SCENE_CONTACT_LAWS_MAX];
     bool plane = !interface->y;
     Part part = {0};
-    bool alike = scene->contact_laws.count == 0 && !*scene->own_friction.along;
+    bool alike = scene->contact_laws.count == 0 && !*scene->friction_keys.along;
     if (alike && !scene->friction.remembers) return true;
     if (!scene_blame(scene, "friction.contacts", check_groups(model, err), err)) return false;
     if (!make_laws(model, law_of, err)) return false;
@@ -145,7 +145,7 @@ bool model_lay_laws(Model *model, Error *err)
                           fmin(x + half, all.to),
                           {fmax(y - half, all.y[0]), fmin(y + half, all.y[1])}};
         }
-        bool done = take_mean(part, plane, scene->own_friction.along, &factor, err);
+        bool done = take_mean(part, plane, scene->friction_keys.along, &factor, err);
         if (!scene_blame(scene, "friction.along", done, err)) return false;
         done = k < 0 || take_mean(part, plane, scene->contact_laws.item[k].along, &factor, err);
         if (!scene_blame(scene, "friction.contacts", done, err)) return false;

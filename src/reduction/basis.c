@@ -198,7 +198,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// a [rows * columns] into the upper left corner of a new one, [new_size^2], zero elsewhere.
+// Puts a [size^2] into the upper left corner of a new one, [new_size^2], zero elsewhere.
 static bool grow(double **a, int64_t size, int64_t new_size, Error *err)
 {
     double *grown = NEW_ARRAY(double, new_size *new_size, err);

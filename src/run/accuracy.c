@@ -19,7 +19,7 @@
 #include <math.h>
 
 enum { COARSER_MAX = 3 };   // halvings of the scene's mesh that are tried
-static const double STEP = 1.189207115002721;   // of cell size from level to level: 2^(1/4)
+static const double RATIO = 1.189207115002721;   // of cell size from level to level: 2^(1/4)
 // A run's time goes with this power of the cells along the contact, in the plane and in space. What
 // the levels of a search tell of it says less: times of short runs are noise.
 static const double GROWTH[] = {2, 4};
@@ -48,17 +48,18 @@ static bool add_runs(Accuracy *accuracy, int32_t count, Error *err)
 }
 
 // By what a run takes longer where cells are so many times smaller.
-static double growth_ahead(const Accuracy *accuracy, double step)
+static double growth_ahead(const Accuracy *accuracy, double ratio)
 {
-    return pow(step, GROWTH[accuracy->levels.list[accuracy->levels.count - 1].space]);
+    return pow(ratio, GROWTH[accuracy->levels.list[accuracy->levels.count - 1].space]);
 }
 
 // Wall time that the next level will take, s.
-static double level_seconds(const Accuracy *accuracy, double step)
+static double level_seconds(const Accuracy *accuracy, double ratio)
 {
     const Level *level = &accuracy->levels.list[accuracy->levels.count - 1];
-    double now = level->making + seconds_of_run(level) * (accuracy->step == STEP_SPLIT ? 2 : 1);
-    return now * growth_ahead(accuracy, step);
+    double now = level->making +
+                 seconds_of_run(level) * (accuracy->cell_ratio == RATIO_SPLIT ? 2 : 1);
+    return now * growth_ahead(accuracy, ratio);
 }
 
 static void begin_level(Accuracy *accuracy, double refine)
@@ -76,19 +77,19 @@ static const ErrorBar *asked(const Accuracy *accuracy)
 }
 
 // A bar that is not known, as where slip is not resolved, is NaN, and met by nothing.
-static bool is_short(const Accuracy *accuracy)
+static bool is_short_enough(const Accuracy *accuracy)
 {
     const ErrorBar *answer = asked(accuracy);
     return answer->bar <= accuracy->levels.wanted * answer->value;
 }
 
 // With the run in full on it. Of one mesh alone no error is known: a second is begun in any case.
-static bool has_time_for_level(const Accuracy *accuracy, double step)
+static bool has_time_for_level(const Accuracy *accuracy, double ratio)
 {
     if (accuracy->levels.count == 1) return accuracy_seconds_left(accuracy) > 0;
-    double more = accuracy_full(accuracy, growth_ahead(accuracy, step)) -
+    double more = accuracy_full(accuracy, growth_ahead(accuracy, ratio)) -
                   accuracy_full(accuracy, 1);
-    return level_seconds(accuracy, step) + more <= accuracy_seconds_left(accuracy);
+    return level_seconds(accuracy, ratio) + more <= accuracy_seconds_left(accuracy);
 }
 
 // Ratio of cell sizes to the mesh that puts a bar to the test: the farther one where pads may slide
@@ -97,22 +98,22 @@ static double span_left(const Accuracy *accuracy)
 {
     double left = levels_span_left(&accuracy->levels, accuracy->levels.asked);
     double far = levels_confirm_left(&accuracy->levels);
-    while (far > left && !has_time_for_level(accuracy, fmax(far, accuracy->step)))
-        far /= accuracy->step;
+    while (far > left && !has_time_for_level(accuracy, fmax(far, accuracy->cell_ratio)))
+        far /= accuracy->cell_ratio;
     return fmax(far, left);
 }
 
 // Ratio of cell sizes to the next level. From the third level on it is large enough that slip has
-// enough cells there, as all levels tell, but at most STEP_SPLIT; or it leads to the mesh that
+// enough cells there, as all levels tell, but at most RATIO_SPLIT; or it leads to the mesh that
 // tests a bar which is short enough.
-static double next_step(const Accuracy *accuracy)
+static double next_ratio(const Accuracy *accuracy)
 {
     const Levels *levels = &accuracy->levels;
-    if (levels->count < 2) return accuracy->step;
+    if (levels->count < 2) return accuracy->cell_ratio;
     double lacks = SLIP_CELLS_ENOUGH / levels_cells(levels), span = span_left(accuracy);
-    double step = fmin(fmax(accuracy->step, 1.1 * lacks), STEP_SPLIT);
-    bool far = is_short(accuracy) && span > step && has_time_for_level(accuracy, span);
-    return far ? span : step;
+    double ratio = fmin(fmax(accuracy->cell_ratio, 1.1 * lacks), RATIO_SPLIT);
+    bool far = is_short_enough(accuracy) && span > ratio && has_time_for_level(accuracy, span);
+    return far ? span : ratio;
 }
 
 // Runs on a finer mesh. One whose cells are still too long for slip is passed over, while there is
@@ -124,19 +125,19 @@ static bool add_level(Accuracy *accuracy, double refine, Error *err)
     for (int32_t k = accuracy->levels.count + 1; coarse; k++) {
         bool *may_be = k >= LEVELS_MAX ? NULL : &coarse;
         coarse = false;
-        begin_level(accuracy, refine * next_step(accuracy));
+        begin_level(accuracy, refine * next_ratio(accuracy));
         if (!accuracy_run_member(accuracy, may_be, err) && err->code == ERROR_INPUT &&
-            accuracy->step < STEP_SPLIT) {
+            accuracy->cell_ratio < RATIO_SPLIT) {
             *err = (Error){0};
-            accuracy->step = STEP_SPLIT;
+            accuracy->cell_ratio = RATIO_SPLIT;
             accuracy->levels.count--;
-            begin_level(accuracy, refine * accuracy->step);
+            begin_level(accuracy, refine * accuracy->cell_ratio);
             accuracy_run_member(accuracy, may_be, err);
         }
         if (!error_is_clean(err)) return false;
         refine = accuracy_last_level(accuracy)->refine;
         if (!coarse) break;
-        accuracy->out_of_time = growth_ahead(accuracy, accuracy->step) *
+        accuracy->out_of_time = growth_ahead(accuracy, accuracy->cell_ratio) *
                                     accuracy_last_level(accuracy)->seconds >
                                 accuracy_seconds_left(accuracy);
         accuracy->levels.count--;
@@ -149,7 +150,7 @@ static bool add_level(Accuracy *accuracy, double refine, Error *err)
 
 static bool is_met(const Accuracy *accuracy)
 {
-    return is_short(accuracy) && span_left(accuracy) <= 1;
+    return is_short_enough(accuracy) && span_left(accuracy) <= 1;
 }
 
 static void show_level(const Accuracy *accuracy)
@@ -166,7 +167,7 @@ static void show_level(const Accuracy *accuracy)
                       .known_to = levels_known_to(&accuracy->levels, accuracy->levels.asked),
                       .mesh = answer->parts.mesh,
                       .seconds = level->seconds,
-                      .seconds_next = level_seconds(accuracy, next_step(accuracy))};
+                      .seconds_next = level_seconds(accuracy, next_ratio(accuracy))};
     if (options->on_level) options->on_level(&view, options->context);
 }
 
@@ -212,7 +213,7 @@ static bool find_levels(Accuracy *accuracy, Error *err)
             levels->ended = has_time_for(accuracy, 2) ? NULL : NO_TIME;
         else if (levels->count == LEVELS_MAX)
             levels->ended = "the finest mesh that is tried";
-        else if (!has_time_for_level(accuracy, next_step(accuracy)))
+        else if (!has_time_for_level(accuracy, next_ratio(accuracy)))
             levels->ended = NO_TIME;
         if (levels->ended) break;
         bool added = more_runs ? add_runs(accuracy, 2, err)
@@ -315,7 +316,7 @@ bool amontons_run(const Scene *scene, const RunOptions *options, RunSummary *sum
     if (scene->accuracy.within > 0) accuracy->deadline = accuracy->started + scene->accuracy.within;
     accuracy->levels.wanted = scene->accuracy.mu;
     accuracy->levels.of_hold = scene->accuracy.of == ANSWER_OF_HOLD;
-    accuracy->step = STEP;
+    accuracy->cell_ratio = RATIO;
     if (options->resume)
         FAIL(err, ERROR_INPUT,
              "an error bar (--to, accuracy.mu) is found from several runs, which do not go on from "

@@ -34,7 +34,7 @@ Level *accuracy_last_level(Accuracy *accuracy)
 
 int32_t accuracy_runs_first(const Accuracy *accuracy)
 {
-    return accuracy->levels.count == 1 || accuracy->step == STEP_SPLIT ? 2 : 1;
+    return accuracy->levels.count == 1 || accuracy->cell_ratio == RATIO_SPLIT ? 2 : 1;
 }
 
 double accuracy_full(const Accuracy *accuracy, double times)

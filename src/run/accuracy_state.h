@@ -14,13 +14,13 @@
 
 // Ratio of cell sizes from level to level where cells can only be halved (no .geo with `refine`),
 // and the largest ratio where the last mesh does not resolve slip.
-enum { STEP_SPLIT = 2 };
+enum { RATIO_SPLIT = 2 };
 
 typedef struct Accuracy {
     const Scene *scene;
     const RunOptions *options;
     Levels levels;
-    double step;   // of cell size from level to level
+    double cell_ratio;   // of cells of a level to those of the next
     int32_t members;   // whole runs behind the bar, but for that in full
     double started, deadline;   // wall clock, s; INFINITY: accuracy.within is not given
     double begun;   // wall clock at which the run under way began, s

@@ -29,7 +29,7 @@ bool output_check(const Scene *scene, Error *err)
 // A line for each of `count`: those of the scene's formulas by their names; and their unit.
 static const char *state_names(const Scene *scene, int32_t count, char *names, size_t size)
 {
-    const SceneStates *own = &scene->own_friction.states;
+    const SceneStates *own = &scene->friction_keys.states;
     bool numbered = friction_is_own(&scene->friction) && own->count == 0;
     names[0] = 0;
     for (int32_t k = 0; k < count; k++) {

@@ -214,12 +214,11 @@ bool simulation_create_by(const Scene *scene, const RunOptions *options, double 
                      simulation->model.not_reduced);
     TRY(start_prepare_steps(simulation, err));
     Schedule load = scene_schedule(&scene->load.program);
-    int32_t before = simulation->warnings.count;
-    warnings_of_viscosity(scene, &simulation->model, &simulation->warnings);
-    warnings_of_resolution(&simulation->control.certificate,
-                           simulation->model.scales.load * schedule_largest(&load),
-                           &simulation->warnings);
-    simulation->ill_posed = warning || simulation->warnings.count > before;
+    bool inviscid = warnings_of_viscosity(scene, &simulation->model, &simulation->warnings);
+    bool undamped = warnings_of_resolution(&simulation->control.certificate,
+                                           simulation->model.scales.load * schedule_largest(&load),
+                                           &simulation->warnings);
+    simulation->ill_posed = warning || inviscid || undamped;
     warnings_of_branches(&simulation->model, &simulation->warnings);
     warnings_of_damping(&simulation->model, &simulation->warnings);
     if (simulation->model.interface.dim > 2 && scene->given[scene_key_index("material.plane")])

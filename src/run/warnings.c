@@ -57,17 +57,20 @@ int32_t undamped_nodes(const Certificate *certificate, double load, double *wors
     return count;
 }
 
-void warnings_of_viscosity(const Scene *scene, const Model *model, RunWarnings *warnings)
+bool warnings_of_viscosity(const Scene *scene, const Model *model, RunWarnings *warnings)
 {
-    if (!(friction_law_drop(model_law(model)) > 0) || amontons_scene_warning(scene)) return;
+    if (!(friction_law_drop(model_law(model)) > 0) || amontons_scene_warning(scene)) return false;
+    bool found = false;
     for (int32_t k = 0; k < model->materials.count; k++) {
         if (!model->on_contact[k] || model->materials.list[k].eta1 > 0) continue;
+        found = true;
         warnings_add(warnings,
                      "eta1 is 0 in %s, which touches the floor: with friction that weakens, the "
                      "shortest wave that the mesh can hold grows fastest, so the answer has no "
                      "limit as the mesh gets finer (an ill-posed problem)",
                      k == 0 ? "material" : scene->materials.region[k - 1].group);
     }
+    return found;
 }
 
 // A branch is a spring in a run where its time is so many of the run's: its stress falls by this
@@ -110,7 +113,7 @@ void warnings_of_damping(const Model *model, RunWarnings *warnings)
                  scene_region_name(scene, model->contact_region), damping, rate);
 }
 
-void warnings_of_resolution(const Certificate *certificate, double load, RunWarnings *warnings)
+bool warnings_of_resolution(const Certificate *certificate, double load, RunWarnings *warnings)
 {
     double worst = 0;
     int32_t undamped = undamped_nodes(certificate, load, &worst);
@@ -121,6 +124,7 @@ void warnings_of_resolution(const Certificate *certificate, double load, RunWarn
             "contact nodes, each taken alone; slip turns unstable on less than an element, and "
             "what comes out depends on the mesh; elements %.2g times as long would do",
             undamped, certificate->moving.interface->contact_count, 1 / worst);
+    return undamped > 0;
 }
 
 // Cells on the length over which what is remembered makes slip unstable.

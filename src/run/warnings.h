@@ -21,8 +21,9 @@
 // evenly spread. 0 without damping.
 int32_t undamped_nodes(const Certificate *certificate, double load, double *worst);
 
-// Materials without viscosity on which friction that weakens acts, where others have some.
-void warnings_of_viscosity(const Scene *scene, const Model *model, RunWarnings *warnings);
+// Materials without viscosity on which friction that weakens acts, where others have some. Returns
+// whether there is one.
+bool warnings_of_viscosity(const Scene *scene, const Model *model, RunWarnings *warnings);
 
 // Branches that were made a viscosity, as they relax faster than anything in the mesh moves; those
 // that do not relax in the run.
@@ -31,8 +32,8 @@ void warnings_of_branches(const Model *model, RunWarnings *warnings);
 // In an SI scene: a viscosity that damps every wave of the block, and what would know better.
 void warnings_of_damping(const Model *model, RunWarnings *warnings);
 
-// Says so. Appends to `warnings`.
-void warnings_of_resolution(const Certificate *certificate, double load, RunWarnings *warnings);
+// Undamped nodes. Returns whether there are some.
+bool warnings_of_resolution(const Certificate *certificate, double load, RunWarnings *warnings);
 
 // Where friction remembers, slip turns unstable over G/(p k), k what it loses in a unit of slip at
 // the start (b/D_c of rate and state): contact nodes with cells longer than an eighth of that.

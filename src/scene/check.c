@@ -84,10 +84,10 @@ static bool check_required(const Check *check)
     for (int32_t k = 0; k < count; k++) {
         const SceneKey *key = &keys[k];
         const char *word = friction_word(key);
-        bool of_table = key->offset == offsetof(Scene, own_friction.velocity) ||
-                        key->offset == offsetof(Scene, own_friction.mu);
+        bool of_table = key->offset == offsetof(Scene, friction_keys.velocity) ||
+                        key->offset == offsetof(Scene, friction_keys.mu);
         bool needed = key->must_be_given || (key->given_in_si && scene->units == UNITS_SI);
-        if (of_table && *scene->own_friction.file)
+        if (of_table && *scene->friction_keys.file)
             needed = false;
         else if (word && !key->standard)
             needed = friction_use(&scene->friction, word) == FRICTION_MUST;
@@ -120,7 +120,7 @@ static bool check_friction(const Check *check)
             return blame(check, keys[k].name, "the law `%s` does not read it; leave it out",
                          friction_law_name(&check->scene->friction));
     }
-    if (*check->scene->own_friction.file &&
+    if (*check->scene->friction_keys.file &&
         (is_given(check, "friction.velocity") || is_given(check, "friction.mu")))
         return blame(check, "friction.file", "give either a file or velocity and mu");
     if (friction_is_own(&check->scene->friction)) return true;

@@ -25,7 +25,7 @@ bool friction_data_read(const Scene *scene, FrictionData *data, Error *err)
     static const char WANTED[] = "wanted: v with its unit and mu, as in `v (mm/s), mu, mu_error`";
     CsvTable csv = {0};
     *data = (FrictionData){0};
-    TRY(csv_read_bare(scene->own_friction.file, &csv, err));
+    TRY(csv_read_bare(scene->friction_keys.file, &csv, err));
 
     // Columns of v, mu and its error, and what a 1 in each stands for in the scene's units.
     CsvUnit unit[3] = {{"", 0}, {"", 0}, {"", 0}};
@@ -107,7 +107,7 @@ bool friction_data_points(const Scene *scene, const FrictionData *data, double *
         if (*count == FRICTION_POINTS_MAX - 1)
             FAIL(err, ERROR_INPUT,
                  "%s: more than %d velocities: give means over parts of the range",
-                 scene->own_friction.file, FRICTION_POINTS_MAX - 1);
+                 scene->friction_keys.file, FRICTION_POINTS_MAX - 1);
         velocity[*count] = pair[k].velocity;
         mu[(*count)++] = pair[k].mu;
         alike = 1;

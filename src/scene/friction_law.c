@@ -52,7 +52,7 @@ bool scene_law_waits(const Scene *scene)
 bool scene_friction_law(const Scene *scene, const char *formula, double pressure, FrictionLaw *law,
                         const char **key, Error *err)
 {
-    const SceneOwnFriction *own = &scene->own_friction;
+    const SceneFrictionKeys *own = &scene->friction_keys;
 #define X(number, symbol) law->number = own->number;
     FRICTION_NUMBERS(X)
 #undef X
@@ -114,5 +114,5 @@ bool scene_law_at(const Scene *scene, double pressure, FrictionLaw *law, const c
     *law = scene->friction;
     if (!scene_law_waits(scene)) return true;
     *law = plain;
-    return scene_friction_law(scene, scene->own_friction.formula, pressure, law, key, err);
+    return scene_friction_law(scene, scene->friction_keys.formula, pressure, law, key, err);
 }

@@ -26,7 +26,7 @@ bool scene_hash(const Scene *scene, bool (*counts)(const char *key), Hash *hash,
     const SceneKey *keys = scene_keys(&count);
     char *words = NEW_ARRAY(char, VALUE_SIZE, err);
     TRY(words);
-    TRY(hash_file(scene->own_friction.file, hash, err));
+    TRY(hash_file(scene->friction_keys.file, hash, err));
     TRY(hash_file(scene->contact.profile, hash, err));
     for (int32_t k = 0; k < count; k++) {
         const void *field = (const char *)scene + keys[k].offset;

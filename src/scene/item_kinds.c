@@ -59,7 +59,7 @@ static const ScenePart STATE[] = {OWN(FrictionStateText, rate, &FORMULA, .must =
                                   OWN(FrictionStateText, start, &FORMULA),
                                   {0}};
 const SceneItems scene_state_items = {
-    ITEMS(name, own_friction.states.count, own_friction.states.state),
+    ITEMS(name, friction_keys.states.count, friction_keys.states.state),
     .named = true,
     .noun = "a state",
     .allowed = "a map of at most 8 maps, as in {theta: {rate: 1 - v*theta/D_c, start: 10}}",

@@ -130,61 +130,61 @@ static const SceneKey keys[] = {
            .must_be_given = true),
     NUMBER(friction.critical_velocity, "velocity", RANGE_NOT_NEGATIVE, "0",
            "Slip rate v_c over which friction weakens; needed by the weakening laws."),
-    KEY("friction.velocity", KEY_NUMBERS, own_friction.velocity, "velocity", RANGE_NOT_NEGATIVE,
+    KEY("friction.velocity", KEY_NUMBERS, friction_keys.velocity, "velocity", RANGE_NOT_NEGATIVE,
         NULL, "Law `table`: slip rates, ascending; beyond the last mu stays."),
-    KEY("friction.mu", KEY_NUMBERS, own_friction.mu, "1", RANGE_NOT_NEGATIVE, NULL,
+    KEY("friction.mu", KEY_NUMBERS, friction_keys.mu, "1", RANGE_NOT_NEGATIVE, NULL,
         "Law `table`: the coefficient at each. At rest it is mu_static where the table begins "
         "above "
         "0 and that is given, else the first."),
-    KEY("friction.interpolation", KEY_CHOICE, own_friction.interpolation, "1", RANGE_ANY, NULL,
+    KEY("friction.interpolation", KEY_CHOICE, friction_keys.interpolation, "1", RANGE_ANY, NULL,
         "Law `table`: between points `cubic` (each piece monotone; if not given), `linear`, or "
         "`log`: the same cubics over the logarithm of the slip rate.",
         .choices = interpolation_choices),
-    KEY("friction.formula", KEY_TEXT, own_friction.formula, "1", RANGE_ANY, NULL,
+    KEY("friction.formula", KEY_TEXT, friction_keys.formula, "1", RANGE_ANY, NULL,
         "Law `formula`: mu of the slip rate v >= 0, the pressure p and the states, with + - * / ^, "
         "brackets, sqrt, exp, log, tanh, asinh, abs, round, min, max, points, and numbers of this "
         "map where they are given: mu_static, slip_distance or D_c, ..."),
-    KEY("friction.state", KEY_ITEMS, own_friction.states.count, "1", RANGE_ANY, NULL,
+    KEY("friction.state", KEY_ITEMS, friction_keys.states.count, "1", RANGE_ANY, NULL,
         "Law `formula`: what a contact remembers, each state by the formula of its rate and what "
         "it is at first (if not given, as in steady slip at rod.velocity).",
         .items = &scene_state_items),
-    KEY("friction.file", KEY_TEXT, own_friction.file, "1", RANGE_ANY, NULL,
+    KEY("friction.file", KEY_TEXT, friction_keys.file, "1", RANGE_ANY, NULL,
         "Law `table`: a file with the columns v and mu, in the place of `velocity` and `mu`. Law "
         "`plugin`: a shared object with the functions of amontons_friction.h, which needs --trust. "
         "Relative to the scene's folder."),
-    KEY("friction.parameters", KEY_NUMBERS, own_friction.parameters, "1", RANGE_ANY, NULL,
+    KEY("friction.parameters", KEY_NUMBERS, friction_keys.parameters, "1", RANGE_ANY, NULL,
         "Law `plugin`: at most 16 numbers for it."),
-    KEY("friction.velocity_max", KEY_NUMBER, own_friction.velocity_max, "velocity", RANGE_POSITIVE,
+    KEY("friction.velocity_max", KEY_NUMBER, friction_keys.velocity_max, "velocity", RANGE_POSITIVE,
         NULL,
         "Laws `formula` and `plugin`: slip rate beyond which mu stays, and up to which it is "
         "looked at beforehand; if not given, that of sound, sqrt(E/rho)."),
-    KEY("friction.slip_distance", KEY_NUMBER, own_friction.slip_distance, "length", RANGE_POSITIVE,
+    KEY("friction.slip_distance", KEY_NUMBER, friction_keys.slip_distance, "length", RANGE_POSITIVE,
         NULL, "Laws with memory: slip D_c over which contacts lose what they had."),
-    KEY("friction.healing_time", KEY_NUMBER, own_friction.healing_time, "time", RANGE_POSITIVE,
+    KEY("friction.healing_time", KEY_NUMBER, friction_keys.healing_time, "time", RANGE_POSITIVE,
         NULL,
         "Law `ageing`: theta_0 of 1 + beta ln(1 + theta/theta_0); `slip-weakening`: time t_h in "
         "which strength comes back at rest, but for 1/e."),
-    KEY("friction.healing", KEY_NUMBER, own_friction.healing, "1", RANGE_NOT_NEGATIVE, NULL,
+    KEY("friction.healing", KEY_NUMBER, friction_keys.healing, "1", RANGE_NOT_NEGATIVE, NULL,
         "Law `ageing`: beta, by which part of mu friction grows each time that the age is e times "
         "as much."),
-    KEY("friction.direct_effect", KEY_NUMBER, own_friction.direct_effect, "1", RANGE_POSITIVE, NULL,
-        "Law `rate-and-state`: a, by which mu rises at once when slip is e times as fast."),
-    KEY("friction.evolution_effect", KEY_NUMBER, own_friction.evolution_effect, "1",
+    KEY("friction.direct_effect", KEY_NUMBER, friction_keys.direct_effect, "1", RANGE_POSITIVE,
+        NULL, "Law `rate-and-state`: a, by which mu rises at once when slip is e times as fast."),
+    KEY("friction.evolution_effect", KEY_NUMBER, friction_keys.evolution_effect, "1",
         RANGE_NOT_NEGATIVE, NULL,
         "Law `rate-and-state`: b, by which mu falls again over slip_distance; above a friction "
         "weakens."),
-    KEY("friction.mu_reference", KEY_NUMBER, own_friction.mu_reference, "1", RANGE_POSITIVE, NULL,
+    KEY("friction.mu_reference", KEY_NUMBER, friction_keys.mu_reference, "1", RANGE_POSITIVE, NULL,
         "Law `rate-and-state`: f_0, mu of steady slip at reference_velocity."),
-    KEY("friction.reference_velocity", KEY_NUMBER, own_friction.reference_velocity, "velocity",
+    KEY("friction.reference_velocity", KEY_NUMBER, friction_keys.reference_velocity, "velocity",
         RANGE_POSITIVE, NULL, "Law `rate-and-state`: V_0, for mu_reference."),
-    KEY("friction.evolution", KEY_CHOICE, own_friction.evolution, "1", RANGE_ANY, NULL,
+    KEY("friction.evolution", KEY_CHOICE, friction_keys.evolution, "1", RANGE_ANY, NULL,
         "Law `rate-and-state`: contacts strengthen at rest (`ageing`; if not given) or by slip "
         "alone (`slip`).",
         .choices = evolution_choices),
-    KEY("friction.rest", KEY_NUMBER, own_friction.rest, "time", RANGE_POSITIVE, NULL,
+    KEY("friction.rest", KEY_NUMBER, friction_keys.rest, "time", RANGE_POSITIVE, NULL,
         "Laws with memory: how long the contacts have rested when the rod begins to move; if not "
         "given, they are as in steady slip at rod.velocity."),
-    KEY("friction.along", KEY_TEXT, own_friction.along, "1", RANGE_ANY, NULL,
+    KEY("friction.along", KEY_TEXT, friction_keys.along, "1", RANGE_ANY, NULL,
         "Factor on mu along the contact: a formula of x (and y), as in `points(x, 0.4, 1, 0.45, "
         "0.3, 0.55, 0.3, 0.6, 1)`, a middle that is lubricated."),
     KEY("friction.contacts", KEY_ITEMS, contact_laws.count, "1", RANGE_ANY, NULL,

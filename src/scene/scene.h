@@ -78,7 +78,7 @@ typedef struct Scene {
     } material;
     SceneMaterials materials;   // of single regions
     FrictionLaw friction;   // completed by scene/friction_law
-    SceneOwnFriction own_friction;
+    SceneFrictionKeys friction_keys;
     SceneContactLaws contact_laws;   // friction.contacts
     struct {
         double radius;   // of the substrate's curvature; 0: flat

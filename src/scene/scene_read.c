@@ -415,13 +415,13 @@ static bool finish_reading(Reader *reader, const char *path, Scene *scene, Error
     if (!friction_has_drop(&scene->friction))
         scene->friction.mu_kinetic = scene->friction.mu_static;
     if (!resolve_file(path, "mesh.file", scene->mesh.file, err)) return false;
-    if (!resolve_file(path, "friction.file", scene->own_friction.file, err)) return false;
+    if (!resolve_file(path, "friction.file", scene->friction_keys.file, err)) return false;
     if (!resolve_file(path, "contact.profile", scene->contact.profile, err)) return false;
     if (!resolve_file(path, "output.compare", scene->output.compare, err)) return false;
     done = scene_profile_read(scene, &profile, err);
     scene_profile_destroy(&profile);
     if (!scene_blame(scene, "contact.profile", done, err)) return false;
-    done = scene_friction_law(scene, scene->own_friction.formula, scene_nominal_pressure(scene),
+    done = scene_friction_law(scene, scene->friction_keys.formula, scene_nominal_pressure(scene),
                               &scene->friction, &word, err);
     snprintf(key, sizeof key, "friction.%s", done ? "law" : word);
     return scene_blame(scene, key, done, err) &&

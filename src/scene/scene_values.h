@@ -119,7 +119,7 @@ typedef struct SceneStates {
 } SceneStates;
 
 // Keys of the map `friction` beside the kind of law and its three numbers.
-typedef struct SceneOwnFriction {
+typedef struct SceneFrictionKeys {
     SceneNumbers velocity, mu, parameters;
     SceneInterpolation interpolation;
     char formula[SCENE_TEXT_SIZE];
@@ -132,7 +132,7 @@ typedef struct SceneOwnFriction {
     SceneEvolution evolution;
     double rest;   // of the contacts before the rod moves, time; 0: not given
     char along[SCENE_TEXT_SIZE];   // factor on mu, a formula of x; empty: 1
-} SceneOwnFriction;
+} SceneFrictionKeys;
 
 // Law of one contact curve that differs from the scene's: an item of friction.contacts
 // (scene/contact_laws).

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Chooses a level of dt, tries it, and accepts a step only when
-//   1. both its contact problems were solved,
+//   1. the contact problems of all its stages were solved,
 //   2. the estimated local error is within tolerance,
 //   3. numerics take or give no more energy than a part of what the run's ledger may miss,
 //   4. its end state is certified dissipative, or the step resolves waves (dt <= wave_step) and no
 //      single real rate of growth lies above 1/(gamma dt) (stepping/certificate), or what
 //      oscillates there stays small, as certified or as seen before (stepping/oscillation_record),
 //      and nothing grows without oscillating.
-// Otherwise it goes back to the old state with a shorter one. Used by stepping/relaxation and
-// run/simulation.
+// Otherwise it goes back to the old state with a shorter one. Used by stepping/relaxation,
+// run/simulation and the studies of stability and of the 1D model.
 #ifndef AMONTONS_STEPPING_STEP_CONTROL_H
 #define AMONTONS_STEPPING_STEP_CONTROL_H
 

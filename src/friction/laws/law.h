@@ -166,7 +166,9 @@ typedef struct FrictionOperations {
     bool is_convex;   // mu' never falls
     double spent;   // speed from which on next to nothing of mu(v) is left to fall, in units of v_c
 
-    // Completes the law from what a scene gives. An error gives its key of the map `friction`.
+    // Completes the law from what a scene gives. The state at the start, `rested` or `steady`, is
+    // there by then, and may not use what is completed here. An error gives its key of the map
+    // `friction`.
     bool (*make)(const FrictionSource *source, FrictionLaw *law, const char **key, Error *err);
 
     // A built-in law of speed alone, with mu_S and mu_K times the factor: mu and d mu/d speed.
@@ -185,8 +187,8 @@ typedef struct FrictionOperations {
     bool rate_is_linear;   // g is linear in the state
     // mu alone, where that costs less than with its derivatives.
     double (*mu_alone)(const FrictionLaw *law, double speed, double pressure, const double *state);
-    // A built-in law with one state: the state of contacts that rested for a time, and of steady
-    // slip.
+    // A built-in law has one state where `rested` is not NULL: that of contacts that rested for a
+    // time, and that of steady slip.
     double (*rested)(const FrictionLaw *law, double rest);
     double (*steady)(const FrictionLaw *law, double speed);
     // One's own: the states at the start. NULL: the formulas of the source, else steady slip.

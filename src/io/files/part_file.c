@@ -118,16 +118,6 @@ bool part_file_reopen(PartFile *file, const char *path, Error *err)
     return open_part(file, path, OPEN_THERE, LOCK_WAIT, err);
 }
 
-bool part_file_look(PartFile *file, const char *path, bool finished, Error *err)
-{
-    if (!name_part(file, path, err)) return false;
-    const char *name = finished ? path : file->part;
-    file->descriptor = open_to_read(name, err);
-    if (file->descriptor < 0) return false;
-    file->open = true;
-    return true;
-}
-
 bool part_file_begin_next(const PartFile *file, PartFile *next, Error *err)
 {
     return part_file_replace(next, file->part, true, err);

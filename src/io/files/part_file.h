@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A file being written: as `path`.part, renamed when all of it is on disk, so that a final name
-// never has half a file. Called by all writers of this folder.
+// never has half a file. Called by all that
+// write files.
 //
 //   create -> write ... -> commit     the file has its final name (reopen: to go on with one)
 //                       -> discard    nothing is left
@@ -38,9 +39,6 @@ bool part_file_try(PartFile *file, const char *path, Error *err);
 // Opens what there is of `path` to be gone on with: its .part, or the finished file, which is
 // called .part again until it is committed. ERROR_FILE where there is neither.
 bool part_file_reopen(PartFile *file, const char *path, Error *err);
-// Opens `path`, or `path`.part where that is not finished, for reading, without a lock, whoever
-// writes it; to leave.
-bool part_file_look(PartFile *file, const char *path, bool finished, Error *err);
 // A file that is still being written is replaced as a whole, so that a killed process leaves the
 // old or the new one: `next` is a new `path`.part.part, empty, which takes the place of `path`.part
 // when it has been filled and put on the disk. A `next` that did not take the place is to be

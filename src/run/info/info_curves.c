@@ -123,7 +123,7 @@ static double steady_mu(const FrictionLaw *law, double speed)
 bool info_draw_friction(const Scene *scene, const InfoOptions *options, Error *err)
 {
     const FrictionLaw *law = &scene->friction;
-    const SceneOwnFriction *own = &scene->own_friction;
+    const SceneFrictionKeys *own = &scene->friction_keys;
     FrictionData data = {0};
     double speed[FRICTION_SPEEDS], mu[FRICTION_SPEEDS], least = INFINITY, most = 0;
     double lowest = INFINITY, highest = -INFINITY;

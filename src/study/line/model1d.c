@@ -59,7 +59,7 @@ static bool check_scene(const Scene *scene, Error *err)
                       "needs a weakening friction.law (this one is `%s`) with friction.mu_static "
                       "above friction.mu_kinetic",
                       path, friction_law_name(&scene->friction));
-    if (scene->contact_laws.count > 0 || *scene->own_friction.along)
+    if (scene->contact_laws.count > 0 || *scene->friction_keys.along)
         return REFUSE(
             err, "%s: friction.contacts, friction.along: the 1D model has one law along its line",
             path);

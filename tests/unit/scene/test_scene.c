@@ -210,9 +210,9 @@ TEST(test_one_word_of_an_item)
         "state: {theta: {rate: 1 - v * theta / D_c, start: 10}}}",
         "friction.state.theta.start=7", "materials={pads: {young: 2}}", "materials.pads.eta1=3"};
     Scene scene = read_fig1(overrides, 4);
-    assert_int_equal(scene.own_friction.states.count, 1);
-    assert_string_equal(scene.own_friction.states.state[0].start, "7");
-    assert_string_equal(scene.own_friction.states.state[0].rate, "1 - v * theta / D_c");
+    assert_int_equal(scene.friction_keys.states.count, 1);
+    assert_string_equal(scene.friction_keys.states.state[0].start, "7");
+    assert_string_equal(scene.friction_keys.states.state[0].rate, "1 - v * theta / D_c");
     assert_int_equal(scene.materials.count, 1);
     assert_true(scene.materials.region[0].number[MATERIAL_YOUNG] == 2);
     assert_true(scene.materials.region[0].number[MATERIAL_ETA1] == 3);

@@ -139,8 +139,8 @@ TEST(formulas_in_lists)
         assert_true(branch[0].time == 2 && branch[0].shear == 0.5 && scene->material.eta1 == 0.5);
         assert_true(branch[1].shear == 1 && branch[1].bulk == 0.25);
         assert_true(scene->materials.region[0].relaxation.branch[0].shear == 0.125);
-        assert_true(scene->own_friction.velocity.value[1] == 0.125);
-        assert_true(scene->own_friction.mu.value[0] == 0.5);
+        assert_true(scene->friction_keys.velocity.value[1] == 0.125);
+        assert_true(scene->friction_keys.mu.value[0] == 0.5);
         assert_true(scene->contact_laws.item[0].mu_static == pressure);
         assert_true(scene->rod.program.U.value[1] == 2 * pressure);
         assert_true(scene->rod.program.factor.value[1] == 0.5);
