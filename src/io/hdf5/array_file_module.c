@@ -2,8 +2,8 @@
 // A file that is being written is one in memory. array_file_flush puts its bytes on the disk beside
 // the file that is there, and replaces that by renaming: a kill, a full disk or a power cut leaves
 // the one or the other, each whole, which any program can read. Where the file has grown
-// beyond PART_BYTES it is put aside as a part, which is not written again, and a new one goes on
-// (io/hdf5/array_parts); the end joins them. HDF5's own way, SWMR, allows no new arrays or
+// beyond PIECE_BYTES it is put aside as a piece, which is not written again, and a new one goes on
+// (io/hdf5/array_pieces); the end joins them. HDF5's own way, SWMR, allows no new arrays or
 // attributes while writing, takes twice the time, marks a killed writer's file so that ordinary
 // readers refuse it, and has HDF5 write to a disk that may be full, on which it crashes.
 #include "io/hdf5/array_file.h"
@@ -12,7 +12,7 @@
 #include "base/transfer.h"
 #include "io/files/file_lock.h"
 #include "io/files/part_file.h"
-#include "io/hdf5/array_parts.h"
+#include "io/hdf5/array_pieces.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -20,16 +20,16 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#define FIRST_PART ".part.1"
+#define FIRST_PIECE ".part.1"
 enum { FIRST_SERIES = 16 };   // room for series before the list grows
 // Written at each flush at most; the files of most runs are smaller.
-enum { PART_BYTES = 8 << 20 };
+enum { PIECE_BYTES = 8 << 20 };
 
 struct ArrayFile {
     const ArrayFileModule *module;   // stands first
     char path[PATH_MAX + 8];   // what is read, or what a written file will be called
     hid_t id;   // of the file in memory, or of the one that is read; 0: not open
-    ArrayParts parts;   // of which `id` is the last
+    ArrayPieces pieces;   // of which `id` is the last
     bool writing;   // created here: what follows is in use
     bool changed;   // since the last flush
     int64_t flushed;   // bytes of the last flush
@@ -68,18 +68,18 @@ static bool hand_over_all(ArrayFile *file, Error *err)
 }
 
 // A new file in memory goes on after `from`, and takes the place of file->id.
-static bool begin_part(ArrayFile *file, hid_t from, Error *err)
+static bool put_aside(ArrayFile *file, hid_t from, Error *err)
 {
     const char *path = file->part.part;
     hid_t next = hdf5_memory_create(path, err);
     file->broken = true;   // should it end half done
-    if (next < 0 || !array_parts_begin(from, next, true, path, err)) return false;
+    if (next < 0 || !array_pieces_begin(from, next, true, path, err)) return false;
     for (int32_t s = 0; s < file->series_count; s++)
         if (!series_move(&file->series[s], next, path, err)) return false;
     file->broken = false;
     if (file->id > 0) H5Fclose(file->id);
-    file->id = file->parts.last = next;
-    file->parts.count++;
+    file->id = file->pieces.last = next;
+    file->pieces.count++;
     return true;
 }
 
@@ -93,13 +93,13 @@ static bool hdf5_flush(ArrayFile *file, Error *err)
     void *bytes = NULL;
     if (!file->writing) return true;
 
-    // Somebody may have removed or cut the last part, which is written again; earlier ones are
+    // Somebody may have removed or cut the last piece, which is written again; earlier ones are
     // lost.
     if (!file_is_named(last, file->part.descriptor) || fstat(file->part.descriptor, &status) != 0 ||
         status.st_size != file->flushed)
         file->changed = true;
-    for (int32_t number = 1; number <= file->parts.count; number++) {
-        array_part_name(&file->parts, number, name);
+    for (int32_t number = 1; number <= file->pieces.count; number++) {
+        array_piece_name(&file->pieces, number, name);
         if (lstat(name, &status) != 0 || !S_ISREG(status.st_mode))
             return FAULT(err, ERROR_FILE,
                          "%s is gone, and with it the rows of the history that it held", name);
@@ -113,23 +113,23 @@ static bool hdf5_flush(ArrayFile *file, Error *err)
             file->broken = err->code == ERROR_LIBRARY;
             return false;
         }
-        if (size > PART_BYTES) {
-            // The bytes become a part of their own.
-            snprintf(name, sizeof name, "%s.%d", last, (int)file->parts.count + 1);
+        if (size > PIECE_BYTES) {
+            // The bytes become a piece of their own.
+            snprintf(name, sizeof name, "%s.%d", last, (int)file->pieces.count + 1);
             TRY(part_file_put(name, true, bytes, size, err));
-            TRY(begin_part(file, file->id, err));
+            TRY(put_aside(file, file->id, err));
         } else {
-            // They become the last part. What was a part without a number gets one first: a kill
-            // between the two leaves that one alone (FIRST_PART).
+            // They become the last piece. What was a piece without a number gets one first: a kill
+            // between the two leaves that one alone (FIRST_PIECE).
             TRY(part_file_begin_next(&file->part, &next, err));
             TRY(part_file_write(&next, bytes, size, err));
-            bool moved = file->parts.unnamed;
-            snprintf(name, sizeof name, "%s.%d", last, (int)file->parts.count);
+            bool moved = file->pieces.unnamed;
+            snprintf(name, sizeof name, "%s.%d", last, (int)file->pieces.count);
             if (moved && rename(last, name) != 0)
                 FAIL(err, ERROR_FILE, "cannot rename %s to %s: %s", last, name, strerror(errno));
-            file->parts.unnamed = false;
+            file->pieces.unnamed = false;
             if (!part_file_take_next(&file->part, &next, err)) {
-                if (moved) file->parts.unnamed = rename(name, last) == 0;
+                if (moved) file->pieces.unnamed = rename(name, last) == 0;
                 goto cleanup;
             }
             file->changed = false;
@@ -176,7 +176,7 @@ static ArrayFile *hdf5_create(const char *path, Error *err)
     TRY(part_file_create(&file->part, path, err));
     snprintf(file->path, sizeof file->path, "%s", path);
     TRY((file->id = hdf5_memory_create(file->part.part, err)) > 0);
-    file->parts = (ArrayParts){.path = file->part.part, .last = file->id};
+    file->pieces = (ArrayPieces){.path = file->part.part, .last = file->id};
     return file;
 cleanup:
     part_file_discard(&file->part);
@@ -196,23 +196,23 @@ static ArrayFile *hdf5_reopen(const char *path, Error *err)
     file->series_capacity = FIRST_SERIES;
     TRY((file->series = NEW_ARRAY(SeriesWriter, file->series_capacity, err)));
 
-    // A file that was killed while it became a part is what it was.
+    // A file that was killed while it became a piece is what it was.
     snprintf(part, sizeof part, "%.*s.part", PATH_MAX, path);
-    snprintf(first, sizeof first, "%.*s" FIRST_PART, PATH_MAX, path);
+    snprintf(first, sizeof first, "%.*s" FIRST_PIECE, PATH_MAX, path);
     if (access(path, F_OK) != 0 && access(part, F_OK) != 0) rename(first, part);
     TRY(part_file_reopen(&file->part, path, err));
     const char *last = file->part.part;
     snprintf(file->path, sizeof file->path, "%s", path);
-    file->parts = (ArrayParts){.path = last};
+    file->pieces = (ArrayPieces){.path = last};
     if (fstat(file->part.descriptor, &status) != 0)
         FAIL(err, ERROR_FILE, "cannot read %s: %s", last, strerror(errno));
     file->flushed = status.st_size;
-    if (status.st_size > PART_BYTES) {
-        // A file of any length, as the end joins them, stays where it is and becomes a part.
+    if (status.st_size > PIECE_BYTES) {
+        // A file of any length, as the end joins them, stays where it is and becomes a piece.
         TRY((before = hdf5_disk_open(last, err)) >= 0);
-        TRY(array_parts_count(before, last, &file->parts.count, err));
-        TRY(begin_part(file, before, err));
-        file->parts.unnamed = true;
+        TRY(array_pieces_count(before, last, &file->pieces.count, err));
+        TRY(put_aside(file, before, err));
+        file->pieces.unnamed = true;
         H5Fclose(before);
     } else {
         // A short one is read into the memory.
@@ -220,10 +220,10 @@ static ArrayFile *hdf5_reopen(const char *path, Error *err)
         if (transfer_read(file->part.descriptor, bytes, status.st_size, 0) != status.st_size)
             FAIL(err, ERROR_FILE, "cannot read %s: %s", last, strerror(errno ? errno : EIO));
         TRY((file->id = hdf5_memory_open(last, bytes, status.st_size, err)) > 0);
-        TRY(array_parts_count(file->id, last, &file->parts.count, err));
+        TRY(array_pieces_count(file->id, last, &file->pieces.count, err));
         memory_free(bytes);
     }
-    file->parts.last = file->id;
+    file->pieces.last = file->id;
     return file;
 cleanup:
     if (before >= 0) H5Fclose(before);
@@ -232,10 +232,10 @@ cleanup:
     return NULL;
 }
 
-// Opens `path` or, where only that stands, `path`.part or FIRST_PART.
+// Opens `path` or, where only that stands, `path`.part or FIRST_PIECE.
 static ArrayFile *hdf5_open(const char *path, Error *err)
 {
-    static const char *const ends[] = {"", ".part", FIRST_PART};
+    static const char *const ends[] = {"", ".part", FIRST_PIECE};
     char part[PATH_MAX + 8];
     int cause = 0;
     bool found = false;
@@ -251,22 +251,22 @@ static ArrayFile *hdf5_open(const char *path, Error *err)
     if (!found)
         FAIL(err, ERROR_FILE, "cannot read %s (nor %s.part): %s", path, path, strerror(cause));
     TRY((file->id = hdf5_disk_open(file->path, err)) > 0);
-    file->parts = (ArrayParts){.path = file->path, .last = file->id};
-    TRY(array_parts_count(file->id, file->path, &file->parts.count, err));
+    file->pieces = (ArrayPieces){.path = file->path, .last = file->id};
+    TRY(array_pieces_count(file->id, file->path, &file->pieces.count, err));
     return file;
 cleanup:
     destroy(file);
     return NULL;
 }
 
-// All parts into one file, which takes the place of the last. Where HDF5 cannot write it, it is
+// All pieces into one file, which takes the place of the last. Where HDF5 cannot write it, it is
 // left open (io/hdf5/hdf5_library).
-static bool join_parts(ArrayFile *file, Error *err)
+static bool join_pieces(ArrayFile *file, Error *err)
 {
     PartFile next = {0};
     TRY(part_file_begin_next(&file->part, &next, err));
     hid_t whole = hdf5_disk_create(next.part, err);
-    if (whole < 0 || !array_parts_join(&file->parts, whole, err)) {
+    if (whole < 0 || !array_pieces_join(&file->pieces, whole, err)) {
         error_context(err, "the parts of %s cannot be joined", file->path);
         goto cleanup;
     }
@@ -283,10 +283,10 @@ static bool hdf5_close(ArrayFile *file, Error *err)
     char name[PATH_MAX + 24];
     if (!file->writing) goto cleanup;
     TRY(hdf5_flush(file, err));
-    TRY(file->parts.count == 0 || join_parts(file, err));
+    TRY(file->pieces.count == 0 || join_pieces(file, err));
     TRY(part_file_commit(&file->part, err));
-    for (int32_t number = file->parts.count; number > 0; number--) {
-        array_part_name(&file->parts, number, name);
+    for (int32_t number = file->pieces.count; number > 0; number--) {
+        array_piece_name(&file->pieces, number, name);
         unlink(name);
     }
 cleanup:
@@ -424,7 +424,7 @@ static bool hdf5_read(ArrayFile *file, const char *name, double **values, int64_
     *values = NULL;
     *rows = *width = 0;
     return hand_over_all(file, err) &&
-           array_parts_read(&file->parts, name, values, rows, width, err);
+           array_pieces_read(&file->pieces, name, values, rows, width, err);
 }
 
 // --- the module's one entry ---------------------------------------------------------------------

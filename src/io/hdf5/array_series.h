@@ -19,7 +19,7 @@ typedef struct SeriesWriter {
     int32_t width;   // values a row
     int32_t components;   // of a vector, their last axis; 1: they are numbers
     int64_t chunk_rows;   // rows of a chunk
-    int64_t first;   // rows that lie in earlier parts of the file (io/hdf5/array_parts)
+    int64_t first;   // rows that lie in earlier pieces of the file (io/hdf5/array_pieces)
     int64_t row_count;   // rows after them that HDF5 has
     int64_t buffered;   // rows after them, in `buffer`
     void *buffer;   // [chunk_rows * width] of the stored type; owned

@@ -180,7 +180,7 @@ TEST(test_killed)
 // --- killed at any moment -----------------------------------------------------------------------
 
 // A file of so many rows that is flushed after each `flushed` of them. Noise cannot be compressed:
-// a long file has parts, each of just over 8 MB (PART_BYTES), and a last one.
+// a long file has pieces, each of just over 8 MB (PIECE_BYTES), and a last one.
 typedef struct Course {
     int64_t flushed, rows;
     int32_t width;   // of the noise; 0: none

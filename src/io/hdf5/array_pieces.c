@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "io/hdf5/array_parts.h"
+#include "io/hdf5/array_pieces.h"
 
 #include "base/memory.h"
 
@@ -8,29 +8,29 @@
 
 static const char COUNT[] = "parts";   // the attribute
 
-enum { PARTS_MAX = 1000000 };
+enum { PIECES_MAX = 1000000 };
 enum { BLOCK_BYTES = 1 << 22 };   // of rows that are copied at once
 
-void array_part_name(const ArrayParts *parts, int32_t number, char name[PATH_MAX + 24])
+void array_piece_name(const ArrayPieces *pieces, int32_t number, char name[PATH_MAX + 24])
 {
-    if (parts->unnamed && number == parts->count)
-        snprintf(name, PATH_MAX + 24, "%s", parts->path);
+    if (pieces->unnamed && number == pieces->count)
+        snprintf(name, PATH_MAX + 24, "%s", pieces->path);
     else
-        snprintf(name, PATH_MAX + 24, "%s.%d", parts->path, (int)number);
+        snprintf(name, PATH_MAX + 24, "%s.%d", pieces->path, (int)number);
 }
 
-bool array_parts_count(hid_t last, const char *path, int32_t *count, Error *err)
+bool array_pieces_count(hid_t last, const char *path, int32_t *count, Error *err)
 {
     double number = 0;
     *count = 0;
     if (H5Aexists(last, COUNT) <= 0) return true;
-    if (attribute_read_number(last, COUNT, &number) < 0 || !(number >= 0 && number <= PARTS_MAX))
+    if (attribute_read_number(last, COUNT, &number) < 0 || !(number >= 0 && number <= PIECES_MAX))
         return FAULT(err, ERROR_FILE, "%s: it says not how many parts it has", path);
     *count = (int32_t)number;
     return true;
 }
 
-// --- rows of one part ---------------------------------------------------------------------------
+// --- rows of one piece ---------------------------------------------------------------------------
 
 // Rows [from, from + count) of the dataset, or into it, as values of `type`. The status is HDF5's.
 static herr_t transfer_rows(hid_t dataset, hid_t type, int64_t from, int64_t count, void *values,
@@ -51,46 +51,46 @@ static herr_t transfer_rows(hid_t dataset, hid_t type, int64_t from, int64_t cou
     return status;
 }
 
-// Goes through the parts that an array lies in, the last one first (next_piece).
-typedef struct Piece {
-    const ArrayParts *parts;
+// Goes through the pieces that an array lies in, the last one first (next_piece).
+typedef struct PieceArray {
+    const ArrayPieces *pieces;
     const char *name;   // of the array
-    int32_t number;   // of this part, beyond parts->count: the last; 0: none was asked for
-    hid_t file, dataset;   // 0: not opened. file: only where it is an earlier part
+    int32_t number;   // of this piece, beyond pieces->count: the last; 0: none was asked for
+    hid_t file, dataset;   // 0: not opened. file: only where it is an earlier piece
     char path[PATH_MAX + 24];
     int64_t first, rows;   // which rows of the whole array it has
-    int64_t whole, begin;   // rows of the whole array; the first one of the parts gone through
+    int64_t whole, begin;   // rows of the whole array; the first one of the pieces gone through
     int32_t width;
-} Piece;
+} PieceArray;
 
-static void close_piece(Piece *piece)
+static void close_piece(PieceArray *piece)
 {
     if (piece->dataset > 0) H5Dclose(piece->dataset);
     if (piece->file > 0) H5Fclose(piece->file);
     piece->dataset = piece->file = 0;
 }
 
-// Opens the array in the next part. False: there is no more of it, or an error. *piece is closed by
-// the caller in any case.
-static bool next_piece(Piece *piece, Error *err)
+// Opens the array in the next piece. False: there is no more of it, or an error. The caller closes
+// *piece in any case.
+static bool next_piece(PieceArray *piece, Error *err)
 {
     char cause[HDF5_CAUSE_SIZE], why[SHAPE_WHY_SIZE];
-    const ArrayParts *parts = piece->parts;
+    const ArrayPieces *pieces = piece->pieces;
     const char *name = piece->name;
     int64_t rows;
     int32_t width, components;
     bool last = piece->number == 0;
     close_piece(piece);
     if (!last && piece->begin == 0) return false;
-    piece->number = last ? parts->count + 1 : piece->number - 1;
+    piece->number = last ? pieces->count + 1 : piece->number - 1;
     if (piece->number == 0)
-        return FAULT(err, ERROR_FILE, "%s: the first rows of %s are missing", parts->path, name);
+        return FAULT(err, ERROR_FILE, "%s: the first rows of %s are missing", pieces->path, name);
 
-    // The part, and the array in it.
-    if (last) snprintf(piece->path, sizeof piece->path, "%s", parts->path);
-    if (!last) array_part_name(parts, piece->number, piece->path);
+    // The piece, and the array in it.
+    if (last) snprintf(piece->path, sizeof piece->path, "%s", pieces->path);
+    if (!last) array_piece_name(pieces, piece->number, piece->path);
     if (!last && (piece->file = hdf5_disk_open(piece->path, err)) < 0) return false;
-    hid_t file = last ? parts->last : piece->file;
+    hid_t file = last ? pieces->last : piece->file;
     if (H5Lexists(file, name, H5P_DEFAULT) <= 0)
         return FAULT(err, ERROR_FILE, "%s has no %s", piece->path, name);
     piece->dataset = H5Dopen2(file, name, H5P_DEFAULT);
@@ -100,11 +100,11 @@ static bool next_piece(Piece *piece, Error *err)
     if (!series_shape(piece->dataset, &rows, &width, &components, why))
         return FAULT(err, ERROR_FILE, "%s: %s %s", piece->path, name, why);
     piece->first = series_first_row(piece->dataset);
-    if (piece->first < 0 || (piece->first > 0 && parts->count == 0) ||
+    if (piece->first < 0 || (piece->first > 0 && pieces->count == 0) ||
         piece->first > INT64_MAX - rows)
         return FAULT(err, ERROR_FILE, "%s: %s begins with a row that cannot be", piece->path, name);
 
-    // Its rows count up to the first one of the part behind it, and it must have them.
+    // Its rows count up to the first one of the piece behind it, and it must have them.
     if (last) {
         piece->whole = piece->begin = piece->first + rows;
         piece->width = width;
@@ -119,11 +119,11 @@ static bool next_piece(Piece *piece, Error *err)
     return true;
 }
 
-bool array_parts_read(const ArrayParts *parts, const char *name, double **values, int64_t *rows,
-                      int32_t *width, Error *err)
+bool array_pieces_read(const ArrayPieces *pieces, const char *name, double **values, int64_t *rows,
+                       int32_t *width, Error *err)
 {
     char cause[HDF5_CAUSE_SIZE];
-    Piece piece = {.parts = parts, .name = name};
+    PieceArray piece = {.pieces = pieces, .name = name};
     int64_t most = INT64_MAX / (int64_t)sizeof(double);
     double *read = NULL;
     while (next_piece(&piece, err)) {
@@ -190,32 +190,32 @@ static bool begin_array(hid_t dataset, const char *name, void *context, Error *e
     return done;
 }
 
-bool array_parts_begin(hid_t from, hid_t to, bool goes_on, const char *path, Error *err)
+bool array_pieces_begin(hid_t from, hid_t to, bool goes_on, const char *path, Error *err)
 {
     int32_t count = 0;
     Beginning beginning = {to, goes_on, path};
-    if (!array_parts_count(from, path, &count, err)) return false;
+    if (!array_pieces_count(from, path, &count, err)) return false;
     herr_t status = attribute_copy_all(from, to, COUNT);
     if (status >= 0 && goes_on) status = attribute_write_number(to, COUNT, count + 1);
     if (!hdf5_wrote(status, path, "its attributes", err)) return false;
     return hdf5_visit(from, path, begin_array, &beginning, err);
 }
 
-// --- all parts in one ---------------------------------------------------------------------------
+// --- all pieces in one ---------------------------------------------------------------------------
 
 typedef struct Joining {
-    const ArrayParts *parts;
+    const ArrayPieces *pieces;
     hid_t whole;   // the file
 } Joining;
 
-// Copies the rows of each part to their place in the whole array, some at a time.
+// Copies the rows of each piece to their place in the whole array, some at a time.
 static bool join_array(hid_t last, const char *name, void *context, Error *err)
 {
     const Joining *joining = context;
-    const char *path = joining->parts->path;
+    const char *path = joining->pieces->path;
     char cause[HDF5_CAUSE_SIZE], *block = NULL;
     hid_t type = -1, to = H5Dopen2(joining->whole, name, H5P_DEFAULT);
-    Piece piece = {.parts = joining->parts, .name = name};
+    PieceArray piece = {.pieces = joining->pieces, .name = name};
     (void)last;
     TRY(hdf5_wrote(to < 0 ? -1 : 0, path, name, err));
     while (next_piece(&piece, err)) {
@@ -254,9 +254,9 @@ cleanup:
     return error_is_clean(err);
 }
 
-bool array_parts_join(const ArrayParts *parts, hid_t whole, Error *err)
+bool array_pieces_join(const ArrayPieces *pieces, hid_t whole, Error *err)
 {
-    Joining joining = {.parts = parts, .whole = whole};
-    return array_parts_begin(parts->last, whole, false, parts->path, err) &&
-           hdf5_visit(parts->last, parts->path, join_array, &joining, err);
+    Joining joining = {.pieces = pieces, .whole = whole};
+    return array_pieces_begin(pieces->last, whole, false, pieces->path, err) &&
+           hdf5_visit(pieces->last, pieces->path, join_array, &joining, err);
 }
