@@ -7,7 +7,7 @@
 //
 // A number such as v_c comes from the map `friction` of a scene (scene/keys). scene/friction_law
 // hands it to friction_make, which completes the law by its table of operations;
-// model/contact_laws gives the law to each contact node (friction_node); contact/ and stepping/ ask
+// model/node_laws gives the law to each contact node (friction_node); contact/ and stepping/ ask
 // a node for mu and its slope, which the table answers (friction/laws).
 //
 // In a stage of an implicit scheme the states are eliminated node by node: they obey

@@ -23,14 +23,14 @@ bool scene_check_thickness(const Scene *scene, const Mesh *mesh, Error *err)
                      "in the plane a force needs the block's `thickness`; without it, give "
                      "load.pressure",
                      err);
-    if (scene->rod.stiffness_is_whole)
+    if (scene->rod.stiffness_is_total)
         return blame(scene, "rod.stiffness",
                      "in the plane N/m of the whole machine need the block's `thickness`; without "
                      "it, divide by the thickness by hand (N/m over m: Pa)",
                      err);
     for (int32_t k = 0; k < scene->load.traction_count; k++) {
-        const bool *whole = scene->load.tractions[k].whole;
-        if (whole[0] || whole[1] || whole[2])
+        const bool *is_total = scene->load.tractions[k].is_total;
+        if (is_total[0] || is_total[1] || is_total[2])
             return blame(scene, "load.tractions",
                          "in the plane a force needs the block's `thickness`; without it, divide "
                          "by the area of the group by hand (N over m2: Pa)",
@@ -72,10 +72,10 @@ bool scene_traction(const Scene *scene, const Mesh *mesh, int32_t k, MeshPlace t
     for (int32_t axis = 0; axis < mesh->dim; axis++) {
         int32_t i = axis == mesh->dim - 1 ? 2 : axis;
         double size = 1;
-        if (given->whole[i] &&
+        if (given->is_total[i] &&
             !measure_group(scene, mesh, "load.tractions", given->group, &size, err))
             return false;
-        if (given->whole[i]) size *= scene_whole_force(scene, mesh->dim);
+        if (given->is_total[i]) size *= scene_whole_force(scene, mesh->dim);
         traction[axis] = values[i] / size;
     }
     return true;
@@ -84,7 +84,7 @@ bool scene_traction(const Scene *scene, const Mesh *mesh, int32_t k, MeshPlace t
 double scene_machine_stiffness(const Scene *scene, const Mesh *mesh, double breadth)
 {
     double stiffness = scene->rod.stiffness;
-    return scene->rod.stiffness_is_whole ? stiffness / scene_whole_force(scene, mesh->dim)
+    return scene->rod.stiffness_is_total ? stiffness / scene_whole_force(scene, mesh->dim)
                                          : stiffness * breadth;
 }
 

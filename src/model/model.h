@@ -33,7 +33,7 @@ typedef struct Model {
     double folded_time;
     Friction friction;
     FrictionNode *friction_nodes;   // [contact_count] where they differ, or laws remember
-        // (model/contact_laws); owned
+        // (model/node_laws); owned
     FrictionLaw *laws;   // [contacts of the scene + 1] laws that nodes point to; owned
     Mesh mesh;   // owned, like all that follows
     Bulk bulk;   // its loads; M, C and K where the full mesh is stepped

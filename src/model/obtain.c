@@ -14,7 +14,7 @@
 #include "io/cache/cache_folder.h"
 #include "model/assemble.h"
 #include "model/basis_cache.h"
-#include "model/contact_laws.h"
+#include "model/node_laws.h"
 #include "model/extremes.h"
 #include "model/gaps.h"
 #include "model/memory.h"
@@ -34,7 +34,7 @@ static const double REDUCTION_TOLERANCES[] = {
 // Returns true if the scene asks for the inside of the block, not for the interface alone.
 static bool wants_modes(const Scene *scene)
 {
-    return scene->output.fields || scene->output.whole || scene->output.probes.count > 0;
+    return scene->output.fields || scene->output.whole_block || scene->output.probes.count > 0;
 }
 
 // E, eta, rho L^2 (in space times L) and the size of the load: what the reduced matrices are

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Formulas of a place in the contact, such as friction.along and contact.gap: of x, in space also
-// of y. Used by model/gaps and model/contact_laws.
+// of y. Used by model/gaps and model/node_laws.
 #ifndef AMONTONS_MODEL_PLACE_FORMULA_H
 #define AMONTONS_MODEL_PLACE_FORMULA_H
 

@@ -183,7 +183,7 @@ bool simulation_create_by(const Scene *scene, const RunOptions *options, double 
     simulation->scene = *scene;
     simulation->options = *options;
     simulation->deadline = deadline;
-    simulation->scene.output.whole = options->whole_block;
+    simulation->scene.output.whole_block = options->whole_block;
     simulation->started = simulation->checkpoint_at = clock_seconds();
     TRY(dense_begin(err));
 

@@ -61,12 +61,12 @@ bool scene_contact_laws(const SceneValue *value, Scene *scene, Error *err)
 
         // Numbers that the item does not give are those of the scene; for another formula they are
         // 0, as the numbers of the scene's law do not belong to it.
-        const FrictionLaw *whole = &scene->friction;
+        const FrictionLaw *general = &scene->friction;
         bool formula = *item->formula != 0;
-        if (!item->has_law) item->kind = whole->kind;
-        if (!item->has_static) item->mu_static = formula ? 0 : whole->mu_static;
-        if (!item->has_kinetic) item->mu_kinetic = formula ? 0 : whole->mu_kinetic;
-        if (!item->has_critical) item->critical_velocity = formula ? 0 : whole->critical_velocity;
+        if (!item->has_law) item->kind = general->kind;
+        if (!item->has_static) item->mu_static = formula ? 0 : general->mu_static;
+        if (!item->has_kinetic) item->mu_kinetic = formula ? 0 : general->mu_kinetic;
+        if (!item->has_critical) item->critical_velocity = formula ? 0 : general->critical_velocity;
         if (!scene_contact_law(scene, item, scene_nominal_pressure(scene), &law, &found))
             return yaml_error(value->document, node, err, "friction.contacts: %s: %s", item->group,
                               found.message);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The items of friction.contacts: read by scene/scene_read, made into laws by model/contact_laws.
+// The items of friction.contacts: read by scene/scene_read, made into laws by model/node_laws.
 #ifndef AMONTONS_SCENE_CONTACT_LAWS_H
 #define AMONTONS_SCENE_CONTACT_LAWS_H
 

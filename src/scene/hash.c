@@ -34,8 +34,8 @@ bool scene_hash(const Scene *scene, bool (*counts)(const char *key), Hash *hash,
         hash_text(hash, keys[k].name);
         if (keys[k].type == KEY_NUMBER) {
             hash_number(hash, *(const double *)field);
-            if (keys[k].whole)
-                hash_number(hash, *(const bool *)((const char *)scene + keys[k].is_whole));
+            if (keys[k].total_unit)
+                hash_number(hash, *(const bool *)((const char *)scene + keys[k].is_total));
         } else if (keys[k].type == KEY_PARAMETERS) {
             for (int32_t i = 0; i < scene->mesh.parameter_count; i++) {
                 hash_text(hash, scene->mesh.parameters[i].name);

@@ -3,7 +3,7 @@
 #include "scene/keys.h"
 
 static const SceneKey STRESS = {
-    .type = KEY_NUMBER, .unit = "stress", .must_be_given = true, .whole = "force"};
+    .type = KEY_NUMBER, .unit = "stress", .must_be_given = true, .total_unit = "force"};
 static const SceneKey PLACE = {.type = KEY_NUMBERS, .unit = "length"};
 static const SceneKey FORMULA = {.type = KEY_TEXT};
 static const SceneKey DIRECTION = {
@@ -23,7 +23,8 @@ static const SceneKey DIRECTION = {
     .size = sizeof *((Scene *)0)->items, .name_size = sizeof((Scene *)0)->items->name
 
 #define ALONG(axis, k, ...)                                                                        \
-    OWN(SceneTraction, axis, &STRESS, .whole = offsetof(SceneTraction, whole) + k, __VA_ARGS__)
+    OWN(SceneTraction, axis, &STRESS, .is_total = offsetof(SceneTraction, is_total) + k,           \
+        __VA_ARGS__)
 static const ScenePart TRACTION[] = {
     ALONG(x, 0, .shown = true), ALONG(y, 1, .shown = false), ALONG(z, 2, .shown = true), {0}};
 const SceneItems scene_traction_items = {

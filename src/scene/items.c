@@ -33,7 +33,7 @@ SceneKey scene_part_key(const SceneItems *items, const ScenePart *part, int32_t 
     SceneKey key = part->key ? *part->key : scene_keys(&count)[scene_key_index(like)];
     key.name = name;
     key.offset = items->first + (size_t)k * items->size + part->offset;
-    if (part->whole) key.is_whole = items->first + (size_t)k * items->size + part->whole;
+    if (part->is_total) key.is_total = items->first + (size_t)k * items->size + part->is_total;
     return key;
 }
 
@@ -61,14 +61,14 @@ bool scene_part_has_numbers(const SceneItems *items, const char *word)
     return !part || scene_key_has_numbers(scene_part_key(items, part, 0, "").type);
 }
 
-const char *scene_dimension(const char *name, const char **whole)
+const char *scene_dimension(const char *name, const char **total)
 {
     int32_t count = 0, index = scene_key_index(name);
     const SceneKey *keys = scene_keys(&count);
     const char *part = NULL, *dot = strrchr(name, '.');
-    *whole = NULL;
+    *total = NULL;
     if (index >= 0 && keys[index].type == KEY_NUMBER) {
-        *whole = keys[index].whole;
+        *total = keys[index].total_unit;
         return keys[index].unit;
     }
     if (index >= 0 || (index = scene_key_above(name, &part)) < 0) return NULL;
@@ -85,7 +85,7 @@ const char *scene_dimension(const char *name, const char **whole)
     const ScenePart *found = key->items ? find_part(key->items, dot + 1) : NULL;
     if (of_branch || !found) return of_branch;
     SceneKey own = scene_part_key(key->items, found, 0, "");
-    *whole = own.whole;
+    *total = own.total_unit;
     return own.type == KEY_NUMBER ? own.unit : NULL;
 }
 

@@ -21,9 +21,9 @@ SceneKey scene_part_key(const SceneItems *items, const ScenePart *part, int32_t 
 // Returns false for words that take texts, in which `=` means nothing.
 bool scene_part_has_numbers(const SceneItems *items, const char *word);
 // Dimension of the number that a path names as after --set ("load.pressure", "mesh.set.length",
-// "materials.pads.young", "material.relaxation.0.time"); NULL: it names none. *whole: the other one
-// that it may have (SceneKey.whole), NULL: none.
-const char *scene_dimension(const char *name, const char **whole);
+// "materials.pads.young", "material.relaxation.0.time"); NULL: it names none. *total: the other one
+// that it may have (SceneKey.total_unit), NULL: none.
+const char *scene_dimension(const char *name, const char **total);
 bool scene_part_is_there(const SceneItems *items, const ScenePart *part, const Scene *scene,
                          int32_t k);
 

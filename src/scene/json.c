@@ -39,8 +39,8 @@ void scene_write_value(const SceneKey *key, const Scene *scene, JsonWriter *json
     const SceneRelaxation *relaxation = field;
     switch (key->type) {
     case KEY_NUMBER:
-        if (key->whole && *(const bool *)((const char *)scene + key->is_whole)) {
-            const char *unit = unit_examples(key->whole);
+        if (key->total_unit && *(const bool *)((const char *)scene + key->is_total)) {
+            const char *unit = unit_examples(key->total_unit);
             snprintf(number, sizeof number, "%.17g %.*s", *(const double *)field,
                      (int)strcspn(unit, ","), unit);
             json_text(json, name, number);

@@ -236,7 +236,7 @@ static const SceneKey keys[] = {
            "and the rod; force per width (breadth) of the block over length, or that of the whole "
            "machine with its unit (4e6 N/m), in the plane with `thickness`. If not given, the rod "
            "itself moves with `rod.velocity`.",
-           .whole = "force/length", .is_whole = offsetof(Scene, rod.stiffness_is_whole)),
+           .total_unit = "force/length", .is_total = offsetof(Scene, rod.stiffness_is_total)),
     NUMBER(rod.displacement, "length", RANGE_ANY, "0",
            "How far the rod stands inside the undeformed block; read by `amontons static` only."),
     NUMBER(rod.height, "length", RANGE_NOT_NEGATIVE, "0",

@@ -57,16 +57,16 @@ typedef struct SceneKey {
     bool given_in_si;   // the default suits normalised scenes: with SI it must be given
     const char *hint;   // what else to do with a number of another dimension; NULL: nothing
     // Dimension of the same quantity of the whole block, where `unit` is per width of it; NULL: it
-    // is not taken. `is_whole`: offset of the bool in Scene that says which of them was given.
-    const char *whole;
-    size_t is_whole;
+    // is not taken. `is_total`: offset of the bool in Scene that says which of them was given.
+    const char *total_unit;
+    size_t is_total;
 } SceneKey;
 
 // One word of an item: {group: a, mu_static: 0.5} has mu_static beside its group.
 typedef struct ScenePart {
     const char *word;
     size_t offset;   // in the item
-    size_t whole;   // there: SceneKey.is_whole of a key that has it
+    size_t is_total;   // there: SceneKey.is_total of a key that has it
     size_t given;   // there: a bool, whether it is given; 0: where it is not 0 or empty
     const SceneKey *key;   // type, unit, range, choices; NULL: those of the key `like`.word
     bool must, shown;   // be given; also where it is not

@@ -98,7 +98,7 @@ typedef struct Scene {
         double velocity, displacement;   // V; how far it is moved in `amontons static`
         double stiffness, height, width, breadth;   // of its spring; of the strip; 0: not given
         bool
-            stiffness_is_whole;   // of the whole machine, force/length; else per width of the block
+            stiffness_is_total;   // of the whole machine, force/length; else per width of the block
         SceneRodKind kind;
         SceneRodEnds ends;
         bool whole;   // all of its group, no strip
@@ -143,7 +143,7 @@ typedef struct Scene {
         SceneWindow window;
         SceneProbes probes;   // points inside the bodies
         double film_step;   // no key: between two files of a film, length; 0: by time.until
-        bool whole;   // not a key: the whole mesh is wanted by the caller of the library
+        bool whole_block;   // not a key: the whole mesh is wanted by the caller of the library
         SceneNames figures;   // names of PICTURE_FIGURES
         char cycle[SCENE_TEXT_SIZE];   // that they show; empty: as they choose
         char compare[SCENE_TEXT_SIZE];   // measurements beside them, resolved like mesh.file

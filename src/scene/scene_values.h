@@ -56,7 +56,7 @@ typedef struct SceneProbes {
 typedef struct SceneTraction {
     char group[GROUP_NAME_SIZE];
     double x, y, z;   // stress, or force of the whole group; y: in space only
-    bool whole[3];   // whether x, y and z are forces
+    bool is_total[3];   // whether x, y and z are forces
 } SceneTraction;
 
 // Nodes of a group that do not move along some of the axes; y: in space only.

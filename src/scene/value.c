@@ -55,13 +55,13 @@ static bool set_items(const SceneKey *key, const SceneValue *value, YamlKind kin
 
 // --- numbers ------------------------------------------------------------------------------------
 
-// Applies the unit `suffix` to *number, or says why it does not fit. *whole: it is one of the
-// dimension key->whole.
+// Applies the unit `suffix` to *number, or says why it does not fit. *is_total: it is one of the
+// dimension key->total_unit.
 static bool apply_unit(const SceneKey *key, const SceneValue *value, SceneUnits units,
-                       const char *suffix, double *number, bool *whole, Error *err)
+                       const char *suffix, double *number, bool *is_total, Error *err)
 {
     const char *text = yaml_text(value->document, value->node);
-    *whole = false;
+    *is_total = false;
     if (!*suffix) return true;
     if (strcmp(key->unit, "1") == 0 && strcmp(suffix, "%") == 0) {
         *number /= 100;
@@ -77,8 +77,8 @@ static bool apply_unit(const SceneKey *key, const SceneValue *value, SceneUnits 
                           "%s: found `%.60s`; this number has no unit; allowed: %s", key->name,
                           text, scene_range_words(key->range));
     if (unit_to_si(suffix, key->unit, number)) return true;
-    *whole = key->whole && unit_to_si(suffix, key->whole, number);
-    if (*whole) return true;
+    *is_total = key->total_unit && unit_to_si(suffix, key->total_unit, number);
+    if (*is_total) return true;
 
     // A unit of another dimension: which are allowed, and by what the number has to be divided.
     bool times = false;
@@ -91,8 +91,9 @@ static bool apply_unit(const SceneKey *key, const SceneValue *value, SceneUnits 
                  key->hint ? ")" : "");
     return yaml_error(value->document, value->node, err,
                       "%s: found `%.60s`; `%.30s` is no unit of %s; allowed: %s%s%s%s", key->name,
-                      text, suffix, key->unit, unit_examples(key->unit), key->whole ? ", " : "",
-                      key->whole ? unit_examples(key->whole) : "", advice);
+                      text, suffix, key->unit, unit_examples(key->unit),
+                      key->total_unit ? ", " : "",
+                      key->total_unit ? unit_examples(key->total_unit) : "", advice);
 }
 
 // A formula that has no value yet: what holds it is read again when scene/scene_read has worked it
@@ -104,7 +105,7 @@ static bool is_waiting(const SceneValue *value)
 
 // Range is the caller's to check. ERROR_INPUT for what is not a finite decimal number.
 static bool read_number(const SceneKey *key, const SceneValue *value, SceneUnits units,
-                        double *number, bool *whole, Error *err)
+                        double *number, bool *is_total, Error *err)
 {
     static const char minus[] = "\xE2\x88\x92", dash[] = "\xE2\x80\x93";   // U+2212, U+2013
     const YamlDocument *document = value->document;
@@ -126,7 +127,7 @@ static bool read_number(const SceneKey *key, const SceneValue *value, SceneUnits
     int32_t length = text_number(text, number);
     if (length == 0) return report_wrong(key, value, err);
     const char *suffix = text + length + strspn(text + length, " ");
-    if (!apply_unit(key, value, units, suffix, number, whole, err)) return false;
+    if (!apply_unit(key, value, units, suffix, number, is_total, err)) return false;
     if (!isfinite(*number)) return report_wrong(key, value, err);
     if (!scene_size_holds(*number))
         return yaml_error(document, value->node, err,
@@ -136,12 +137,12 @@ static bool read_number(const SceneKey *key, const SceneValue *value, SceneUnits
 }
 
 static bool read_in_range(const SceneKey *key, const SceneValue *value, SceneUnits units,
-                          double *number, bool *whole, Error *err)
+                          double *number, bool *is_total, Error *err)
 {
     *number = 0;
-    *whole = false;
+    *is_total = false;
     if (is_waiting(value)) return true;
-    if (!read_number(key, value, units, number, whole, err)) return false;
+    if (!read_number(key, value, units, number, is_total, err)) return false;
     return scene_range_holds(key->range, *number) || report_wrong(key, value, err);
 }
 
@@ -149,8 +150,8 @@ static bool add_number(const SceneKey *key, const SceneValue *value, Scene *scen
 {
     SceneNumbers *numbers = field_of(key, scene);
     double number = 0;
-    bool whole = false;
-    if (!read_in_range(key, value, scene->units, &number, &whole, err)) return false;
+    bool is_total = false;
+    if (!read_in_range(key, value, scene->units, &number, &is_total, err)) return false;
     numbers->value[numbers->count++] = number;
     return true;
 }
@@ -329,9 +330,9 @@ static bool set_parameter(const SceneKey *key, const SceneValue *value, Scene *s
                               "%s: at most 32 parameters, with names of 1 to 63 bytes", key->name);
     if (!expect_scalar(key, value, err)) return false;
     double ignored = 0;
-    bool whole = false;
+    bool is_total = false;
     bool number = !yaml_is_quoted(value->document, value->node) && text_number(text, &ignored);
-    bool read = number ? read_number(key, value, scene->units, &made.value, &whole, err)
+    bool read = number ? read_number(key, value, scene->units, &made.value, &is_total, err)
                        : copy_text(key, value, GROUP_NAME_SIZE, made.text, err);
     if (!read) return false;
     memcpy(made.name, name, strlen(name) + 1);
@@ -350,7 +351,7 @@ void scene_value_clear(const SceneKey *key, Scene *scene)
                   : key->type == KEY_ITEMS    ? sizeof(int32_t)   // how many there are
                                               : SCENE_TEXT_SIZE;
     memset(field_of(key, scene), 0, size);
-    if (key->whole) *(bool *)((char *)scene + key->is_whole) = false;
+    if (key->total_unit) *(bool *)((char *)scene + key->is_total) = false;
 }
 
 bool scene_value_set(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err)
@@ -361,11 +362,11 @@ bool scene_value_set(const SceneKey *key, const SceneValue *value, Scene *scene,
     switch (key->type) {
     case KEY_NUMBER: {
         double number = 0;
-        bool whole = false;
+        bool is_total = false;
         if (is_waiting(value)) return true;   // the default stays
-        if (!read_in_range(key, value, scene->units, &number, &whole, err)) return false;
+        if (!read_in_range(key, value, scene->units, &number, &is_total, err)) return false;
         memcpy(field, &number, sizeof number);
-        if (key->whole) *(bool *)((char *)scene + key->is_whole) = whole;
+        if (key->total_unit) *(bool *)((char *)scene + key->is_total) = is_total;
         return true;
     }
     case KEY_FLAG: {

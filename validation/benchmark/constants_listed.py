@@ -278,7 +278,7 @@ NOT_A_CHOICE = {
         "SPACE_PART_ENTRIES": "by the memory of reductions of 16^3, 24^3, 20 x 40 x 20, 28 x 56 x 13 and 40 x 80 x 19 cells",
         "SPACE_COLUMNS": "the same", "SPACE_TOGETHER": "the first three of them either way",
         "SPACE_FACTORS": "counted"},
-    "model/contact_laws.c": {"SAMPLES": "a jump of `friction.along` to a part in 32 of a cell; exact where it is straight"},
+    "model/node_laws.c": {"SAMPLES": "a jump of `friction.along` to a part in 32 of a cell; exact where it is straight"},
     "study/stability/stability.c": {"MEMORY_PART": "of a rate; slower ones matter to no answer", "POINTS_BEYOND": "shown"},
     "study/stability/loss.c": {"NEXT_PART": "of the contact; from one point of a path in space to the next 1 to 3 % begin to slip"},
     "study/stability/why.c": {"TAKES_PART": "words", "EARLIER": "words"},

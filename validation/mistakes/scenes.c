@@ -8,7 +8,7 @@
 #include "fem/mesh.h"
 #include "friction/friction_start.h"
 #include "contact/rod_course.h"
-#include "model/contact_laws.h"
+#include "model/node_laws.h"
 #include "model/gaps.h"
 #include "run/kept_states.h"
 #include "run/saved_state.h"

@@ -22,7 +22,7 @@
 #include "io/hdf5/array_file.h"
 #include "io/text/json_writer.h"
 #include "model/assemble.h"
-#include "model/contact_laws.h"
+#include "model/node_laws.h"
 #include "model/gaps.h"
 #include "record/field_files.h"
 #include "run/result/result_folder.h"

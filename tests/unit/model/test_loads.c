@@ -35,7 +35,7 @@ TEST(force_over_the_top)
     assert_true(scene_pressure(scene, &mesh, &pressure, &err));
     assert_near("pressure", pressure, 60 / (0.006 * 2), 1e-9);
     assert_near("per width", scene_machine_stiffness(scene, &mesh, 1), 4e6, 0);
-    scene->rod.stiffness_is_whole = true;
+    scene->rod.stiffness_is_total = true;
     assert_near("whole", scene_machine_stiffness(scene, &mesh, 1), 4e6 / 0.006, 1e-6);
     assert_near("forces", scene_whole_force(scene, 2), 0.006, 0);
     scene->thickness = scene->load.force = 0;

@@ -23,7 +23,7 @@ bool study_plain_number(const Study *study, YamlNode node, double *value)
 bool study_pair(const Study *study, YamlNode node, const char *key, double pair[2],
                 char unit[STUDY_UNIT_SIZE])
 {
-    const char *whole, *dimension = scene_dimension(key, &whole);
+    const char *total, *dimension = scene_dimension(key, &total);
     int32_t units = 0, read = 0;
     unit[0] = 0;
     if (yaml_kind(study->file, node) != YAML_LIST || yaml_count(study->file, node) != 2)
@@ -35,8 +35,8 @@ bool study_pair(const Study *study, YamlNode node, const char *key, double pair[
         length += (int32_t)strspn(text + length, " ");
         if (yaml_kind(study->file, end) != YAML_SCALAR || length == 0 || !dimension) return false;
         bool known = unit_to_si(text + length, dimension, &pair[read - 1]);
-        if (!known && units == 0 && whole) {   // both ends are of the whole block then
-            dimension = whole;
+        if (!known && units == 0 && total) {   // both ends are of the whole block then
+            dimension = total;
             known = unit_to_si(text + length, dimension, &pair[read - 1]);
         }
         if (!known) return false;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The friction law of each contact node, where they differ. Called by model/obtain and
 // run/static/static_solve when the interface is known.
-#ifndef AMONTONS_MODEL_CONTACT_LAWS_H
-#define AMONTONS_MODEL_CONTACT_LAWS_H
+#ifndef AMONTONS_MODEL_NODE_LAWS_H
+#define AMONTONS_MODEL_NODE_LAWS_H
 
 #include "model/model.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "model/contact_laws.h"
+#include "model/node_laws.h"
 
 #include "base/memory.h"
 #include "fem/mesh_pieces.h"
