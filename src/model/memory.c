@@ -27,9 +27,9 @@ static const double SPACE_SQUARES = 30, SPACE_SQUARES_ONE_SIDE = 20, SPACE_ENTRI
 static const double SPACE_PART_ENTRIES = 58, SPACE_COLUMNS = 5;
 static const double SPACE_TOGETHER = 1.43;   // two parts side by side over one
 static const double SPACE_FACTORS = 11;   // step sizes of a run with a sliding, each with a factor
-// Unknowns of a reduced block over those of its interface. Each is a motion of the mesh, which is
+// Unknowns of a reduced block over those of its interface. Each is a mode of the mesh, which is
 // kept where fields or probes are asked for.
-static const double SPACE_MOTIONS = 1.55, PLANE_MOTIONS = 3.1;
+static const double SPACE_MODES = 1.55, PLANE_MODES = 3.1;
 
 double memory_there(void)
 {
@@ -44,19 +44,17 @@ double memory_expected(const MemorySizes *sizes, bool reduced)
 {
     double n = sizes->unknowns, m = sizes->interface, parts = sizes->parts;
     double of_part = n / parts, border = m / parts;
-    double motions = sizes->motions ? (sizes->space ? SPACE_MOTIONS : PLANE_MOTIONS) * n * border
-                                    : 0;
+    double modes = sizes->modes ? (sizes->space ? SPACE_MODES : PLANE_MODES) * n * border : 0;
     if (!sizes->space)
         return reduced ? BYTES_FACTORS * of_part +
                              BYTES_PRODUCTS * border * far_patches_left(of_part, border) +
-                             sizeof(double) * motions
+                             sizeof(double) * modes
                        : 0;
     double squares = (sizes->one_side ? SPACE_SQUARES_ONE_SIDE : SPACE_SQUARES) * m * m;
     double factor = SPACE_ENTRIES * pow(n, 4.0 / 3);
     double responses = SPACE_PART_ENTRIES * pow(of_part, 4.0 / 3) +
                        SPACE_COLUMNS * of_part * border;
     if (parts > 1 && !sizes->one_by_one) responses *= SPACE_TOGETHER;
-    double numbers = reduced ? fmax(squares, responses) + motions
-                             : squares + SPACE_FACTORS * factor;
+    double numbers = reduced ? fmax(squares, responses) + modes : squares + SPACE_FACTORS * factor;
     return SPACE_LEAST + SPACE_MESH * n + sizeof(double) * numbers;
 }

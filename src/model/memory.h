@@ -13,7 +13,7 @@ typedef struct MemorySizes {
     bool one_side;   // contact is its own mirror image (contact/contact_half)
     double parts;   // that the block is reduced in (reduction/mirror)
     bool one_by_one;   // they are built one after another
-    bool motions;   // what each reduced unknown moves is kept, for fields and probes
+    bool modes;   // they are kept, for fields and probes
 } MemorySizes;
 
 double memory_there(void);   // of this computer, or what a limit leaves of it, bytes

@@ -166,7 +166,7 @@ static bool check_memory(Model *model, int32_t parts, Error *err)
                          .unknowns = model->bulk.dof_count,
                          .interface = model->interface.count,
                          .parts = parts,
-                         .motions = wants_modes(model->scene)};
+                         .modes = wants_modes(model->scene)};
     ContactHalf half = {0};
     TRY(contact_half_find(&model->interface, &half, err));
     sizes.one_side = half.interface.contact_count > 0;
@@ -178,7 +178,7 @@ static bool check_memory(Model *model, int32_t parts, Error *err)
     if (model->one_by_one) model->memory = less;
     if (model->scene->time.scheme == SCHEME_EXPLICIT) model->memory = 0;
     if (model->memory > have) {
-        sizes.motions = false;
+        sizes.modes = false;
         double bare = memory_expected(&sizes, model->is_reduced);
         const char *way_out = "";
         if (model->is_reduced && whole < have)

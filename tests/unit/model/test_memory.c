@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The motions of the mesh that a run keeps for fields and probes, against what is told of them
+// The modes of the mesh that a run keeps for fields and probes, against what is told of them
 // before a basis is there. How many unknowns a basis needs is not known then, hence the half.
 #include "model/memory.h"
 
@@ -29,21 +29,21 @@ static void check(const char *file, const char *const *overrides, int32_t count)
                          .interface = model.interface.count,
                          .parts = model.reduced.part_count};
     double without = memory_expected(&sizes, true);
-    sizes.motions = true;
+    sizes.modes = true;
     double told = memory_expected(&sizes, true) - without;
     assert_true(bytes > told / 1.5 && bytes < 1.5 * told);
     model_destroy(&model);
     amontons_scene_destroy(scene);
 }
 
-TEST(test_motions_in_the_plane)
+TEST(test_modes_in_the_plane)
 {
     const char *overrides[] = {"mesh.set.nx=40", "mesh.set.nz=40", "output.fields={every_U: 0.01}",
                                "reduction.cache=false"};
     check("paper/fig1.yaml", overrides, 4);
 }
 
-TEST(test_motions_in_space)
+TEST(test_modes_in_space)
 {
     const char *overrides[] = {"mesh.set={length: 1, breadth: 1, height: 1, nx: 10, ny: 10, nz: 8}",
                                "output.fields={every_U: 0.01}", "reduction.cache=false"};
