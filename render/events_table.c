@@ -12,7 +12,7 @@
 #include <stdio.h>
 
 // Steps that follow an event at least, for what is read off its course to be more than one step's.
-enum { STEPS_ENOUGH = 8, NAME_SIZE = 48 };
+enum { STEPS_ENOUGH = 8 };
 
 // Series of the whole contact, not of the line that figures of a block in space show.
 typedef struct Friction {
@@ -79,34 +79,27 @@ static bool read_nodes(const ResultView *view, ResultNodes nodes, double **value
             FAULT(err, ERROR_FILE, "%d values at %d contact nodes", count, view->all_nodes));
 }
 
-static void name_column(CsvWriter *csv, const char *name, const char *unit)
-{
-    char text[NAME_SIZE];
-    snprintf(text, sizeof text, unit ? "%s (%s)" : "%s", name, unit);
-    csv_text(csv, text);
-}
-
 static void name_columns(CsvWriter *csv, const ResultView *view, bool whole)
 {
     const char *force = whole ? "N" : "N/m", *energy = whole ? "J" : "J/m";
     const char *moment = whole ? "N m" : "N";
-    name_column(csv, "cycle", NULL);
-    name_column(csv, "event", NULL);
-    name_column(csv, "U", view->si ? "m" : NULL);
-    name_column(csv, "t", view->si ? "s" : NULL);
-    name_column(csv, "F_T/F_N before", NULL);
-    name_column(csv, "F_T/F_N after", NULL);
-    name_column(csv, "F_T before", view->si ? force : NULL);
-    name_column(csv, "F_T after", view->si ? force : NULL);
-    name_column(csv, "length", view->si ? "m" : NULL);
-    name_column(csv, "front", view->si ? "m" : NULL);
-    name_column(csv, "largest slip rate", view->si ? "m/s" : NULL);
-    name_column(csv, "duration", view->si ? "s" : NULL);
-    name_column(csv, "work of friction", view->si ? energy : NULL);
-    name_column(csv, "torque before", view->si ? moment : NULL);
-    name_column(csv, "torque after", view->si ? moment : NULL);
-    name_column(csv, "steps", NULL);
-    name_column(csv, "resolved", NULL);
+    csv_heading(csv, "cycle", NULL);
+    csv_heading(csv, "event", NULL);
+    csv_heading(csv, "U", view->si ? "m" : NULL);
+    csv_heading(csv, "t", view->si ? "s" : NULL);
+    csv_heading(csv, "F_T/F_N before", NULL);
+    csv_heading(csv, "F_T/F_N after", NULL);
+    csv_heading(csv, "F_T before", view->si ? force : NULL);
+    csv_heading(csv, "F_T after", view->si ? force : NULL);
+    csv_heading(csv, "length", view->si ? "m" : NULL);
+    csv_heading(csv, "front", view->si ? "m" : NULL);
+    csv_heading(csv, "largest slip rate", view->si ? "m/s" : NULL);
+    csv_heading(csv, "duration", view->si ? "s" : NULL);
+    csv_heading(csv, "work of friction", view->si ? energy : NULL);
+    csv_heading(csv, "torque before", view->si ? moment : NULL);
+    csv_heading(csv, "torque after", view->si ? moment : NULL);
+    csv_heading(csv, "steps", NULL);
+    csv_heading(csv, "resolved", NULL);
     csv_end_row(csv);
 }
 

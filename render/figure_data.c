@@ -10,26 +10,28 @@
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 enum { COLUMNS_MAX = 6 };
 
 // The figure that shows what is measured; a measured area stands on that of the law's own measure,
 // where it has one.
-static const char *figure_of(MeasuredKind kind, const ResultView *view)
+static FigureId figure_of(MeasuredKind kind, const ResultView *view)
 {
-    static const char *const figures[MEASURED_KINDS] = {
-        "force", "slip-map", "contact-density", "precursors", "front-speed", "probes"};
-    return kind == MEASURED_AREA && figure_contact_area_is_there(view) ? "contact-area"
+    static const FigureId figures[MEASURED_KINDS] = {[MEASURED_MU] = FIGURE_FORCE,
+                                                     [MEASURED_FRONT] = FIGURE_SLIP_MAP,
+                                                     [MEASURED_AREA] = FIGURE_CONTACT_DENSITY,
+                                                     [MEASURED_LENGTH] = FIGURE_PRECURSORS,
+                                                     [MEASURED_SPEED] = FIGURE_FRONT_SPEED,
+                                                     [MEASURED_PROBE] = FIGURE_PROBES};
+    return kind == MEASURED_AREA && figure_contact_area_is_there(view) ? FIGURE_CONTACT_AREA
                                                                        : figures[kind];
 }
 
 // MEASURED_KINDS: nothing of the figure is measured.
-static MeasuredKind kind_of(const char *figure, const ResultView *view)
+static MeasuredKind kind_of(const Figure *figure, const ResultView *view)
 {
     int32_t kind = 0;
-    while (kind < MEASURED_KINDS && strcmp(figure_of((MeasuredKind)kind, view), figure) != 0)
-        ++kind;
+    while (kind < MEASURED_KINDS && figure_of((MeasuredKind)kind, view) != figure->id) ++kind;
     return (MeasuredKind)kind;
 }
 
@@ -88,7 +90,7 @@ static bool write_compared_probes(const char *path, const Measured *measured,
 bool figure_data_write(const char *folder, const Figure *figure, ResultView *view,
                        const FieldChoice *field, const char *compare, Error *err)
 {
-    MeasuredKind kind = kind_of(figure->name, view);
+    MeasuredKind kind = kind_of(figure, view);
     Measured measured = {0};
     char path[PATH_MAX];
     if (figure->id == FIGURE_FORCE)
@@ -127,7 +129,7 @@ bool figure_data_misfits(const char *folder, ResultView *view, const char *compa
         if (measured.count > 0) {
             const char *unit = kind == MEASURED_PROBE ? probe_words(measured.quantity).si
                                                       : units[kind];
-            csv_text(csv, figure_of((MeasuredKind)kind, view));
+            csv_text(csv, figure_get(figure_of((MeasuredKind)kind, view))->name);
             csv_number(csv, measured.count);
             csv_number(csv, measured.compared);
             csv_number(csv, measured.compared > 0 ? measured.misfit : NAN);
@@ -146,10 +148,10 @@ cleanup:
     return error_is_clean(err);
 }
 
-bool figure_data_measured(const char *name, const char *compare, ResultView *view, bool *shows,
+bool figure_data_measured(const Figure *figure, const char *compare, ResultView *view, bool *shows,
                           Error *err)
 {
-    MeasuredKind kind = kind_of(name, view);
+    MeasuredKind kind = kind_of(figure, view);
     *shows = false;
     return kind == MEASURED_KINDS || !compare || measured_has(compare, kind, view, shows, err);
 }

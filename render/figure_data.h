@@ -11,8 +11,8 @@
 bool figure_data_write(const char *folder, const Figure *figure, ResultView *view,
                        const FieldChoice *field, const char *compare, Error *err);
 
-// Whether `name` shows what the file has measured.
-bool figure_data_measured(const char *name, const char *compare, ResultView *view, bool *shows,
+// Whether the figure shows what the file has measured.
+bool figure_data_measured(const Figure *figure, const char *compare, ResultView *view, bool *shows,
                           Error *err);
 
 // Writes figures/misfit.csv: a row for each figure that shows what the file has measured.

@@ -113,8 +113,7 @@ static bool is_drawn(const char *folder, const Figure *figure, const PictureRequ
 {
     const char *of = request->field.of;
     bool measured = false;
-    if (!figure_data_measured(figure->name, request->style.compare, view, &measured, err))
-        return false;
+    if (!figure_data_measured(figure, request->style.compare, view, &measured, err)) return false;
     *drawn = figure_is_there(figure, view) && (measured || !figure->kind->asked_only);
     if (figure->id == FIGURE_CONTACT_PLANE)
         *drawn = *drawn && (!of || figure_contact_plane_shows(view, of));
@@ -135,14 +134,15 @@ static bool check_compare(const PictureRequest *request, ResultView *view, Error
         Picture picture;
         if (!find_picture(request, k, &picture, err)) return false;
         for (int32_t i = 0; i < picture.count && !shows; ++i)
-            if (!figure_data_measured(picture.panels[i].figure->name, compare, view, &shows, err))
+            if (!figure_data_measured(picture.panels[i].figure, compare, view, &shows, err))
                 return false;
     }
     for (int32_t k = 0; k < FIGURE_COUNT && !shows; ++k) {
-        const char *name = figure_get((FigureId)k)->name;
-        if (!figure_data_measured(name, compare, view, &shows, err)) return false;
+        const Figure *figure = figure_get((FigureId)k);
+        if (!figure_data_measured(figure, compare, view, &shows, err)) return false;
         if (shows)
-            return REFUSE(err, "measurements %s: the figure that shows them is %s", compare, name);
+            return REFUSE(err, "measurements %s: the figure that shows them is %s", compare,
+                          figure->name);
     }
     return true;
 }
@@ -171,8 +171,7 @@ __attribute__((visibility("default"))) bool amontons_render(const char *folder,
         if (request->figure_count == 0 && !request->panels)
             TRY(is_drawn(folder, picture.figure, request, &view, &drawn, err));
         if (measured)
-            TRY(figure_data_measured(picture.figure->name, request->style.compare, &view, &drawn,
-                                     err));
+            TRY(figure_data_measured(picture.figure, request->style.compare, &view, &drawn, err));
         if (drawn) TRY(make_picture(folder, request, &picture, &view, err));
     }
     if (measured) TRY(figure_data_misfits(folder, &view, request->style.compare, err));

@@ -81,16 +81,17 @@ bool page_begin(Page *page, const PageDef *page_def, Error *err)
     const char *title = page_def->title;
     Purpose purpose = find_purpose(style);
     double width = purpose.width / INCH, height = style->height / INCH;   // inches
-    double points = page_def->foot + (title && title[0] ? TITLE_HEIGHT : 0);
-    if (!(height > 0)) height = width * page_def->height + purpose.scale * points / POINTS_AN_INCH;
+    double above = title && title[0] ? TITLE_HEIGHT : 0, below = page_def->foot;   // points
+    if (!(height > 0))
+        height = width * page_def->height + purpose.scale * (above + below) / POINTS_AN_INCH;
     if (!(style->dpi > 0))
         purpose.dpi = fmin(purpose.dpi, floor(CANVAS_SIZE_MAX / fmax(fmax(width, height), 1)));
 
     CanvasDef def = {.dpi = purpose.dpi, .dark = style->dark};
     *page = (Page){.point = purpose.scale * def.dpi / POINTS_AN_INCH, .style = *style};
     width *= def.dpi;
-    double foot = round(page_def->foot * page->point);
-    double head = title && title[0] ? round(TITLE_HEIGHT * page->point) : 0;
+    double foot = round(below * page->point);
+    double head = round(above * page->point);
     height = style->height > 0 ? round(height * def.dpi)
                                : round(fmin(width * page_def->height, INT32_MAX / 2)) + head + foot;
     if (style->format && !find_format(style->format, &def.format))

@@ -3,21 +3,15 @@
 
 #include "io/text/csv_writer.h"
 
-#include <stdio.h>
-
-enum { NAME_SIZE = 120 };
+#include <stddef.h>
 
 bool columns_write(const char *path, const Column *columns, int32_t count, int64_t rows, bool si,
                    Error *err)
 {
     CsvWriter *csv = csv_create(path, err);
-    char name[NAME_SIZE];
     if (!csv) return false;
-    for (int32_t k = 0; k < count; ++k) {
-        bool has_unit = si && columns[k].unit;
-        snprintf(name, sizeof name, has_unit ? "%s (%s)" : "%s", columns[k].name, columns[k].unit);
-        csv_text(csv, name);
-    }
+    for (int32_t k = 0; k < count; ++k)
+        csv_heading(csv, columns[k].name, si ? columns[k].unit : NULL);
     csv_end_row(csv);
     for (int64_t row = 0; row < rows; ++row) {
         for (int32_t k = 0; k < count; ++k) csv_rounded(csv, columns[k].values[row]);

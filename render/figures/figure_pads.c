@@ -158,11 +158,7 @@ bool figure_pads(Page *page, const FigureInput *input, Error *err)
     if (!(low < high)) result_view_range(view, &low, &high);
 
     // The axes: a line for each pad, with its name.
-    for (int32_t p = 0; p < courses.pads; ++p) {
-        char name[PAD_NAME_SIZE];
-        result_view_pad(view, p, name);
-        snprintf(names[p], sizeof names[p], "%s", name);
-    }
+    for (int32_t p = 0; p < courses.pads; ++p) result_view_pad(view, p, names[p]);
     double beside = BESIDE * (high - low);
     axes.x = figure_length_axis(view, "U", low - beside, high + beside);
     axes.y = (Axis){.low = 0.5,

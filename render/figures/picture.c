@@ -13,7 +13,7 @@ static const double LETTER_ROOM = 3;   // points: from the letter to numbers bes
 static const double SCRATCH_DPI = 100;   // of the page that is measured
 static const double SLACK = 0.4;   // points: what the measured page is coarser
 
-// Rows in the order of the figures in a page.
+// A page shows its figures in the order of PICTURE_FIGURES.
 static const FigureKind KINDS[FIGURE_COUNT] = {
     [FIGURE_FORCE] = {.height_over_width = 0.85,
                       .draw = figure_force,

@@ -8,7 +8,7 @@
 
 enum { PANELS_MAX = 12 };
 
-// What makes a figure, a row of the table in picture.c.
+// A figure is made by a row of the table in picture.c.
 typedef struct FigureKind {
     double height_over_width;   // on a column of a journal; 0: draw_whole finds it
     FigureFunction draw;   // on a page that has begun

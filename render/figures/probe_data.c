@@ -92,9 +92,7 @@ bool probe_read(ResultView *view, ProbeQuantity quantity, double **values, Error
 void probe_column_csv(CsvWriter *csv, const ResultView *view, int32_t probe, ProbeQuantity quantity,
                       int32_t c)
 {
-    char name[PROBE_COLUMN_SIZE], text[PROBE_COLUMN_SIZE + 20];
-    const char *unit = view->si ? probe_words(quantity).si : "";
+    char name[PROBE_COLUMN_SIZE];
     probe_column(view, probe, quantity, c, name);
-    snprintf(text, sizeof text, *unit ? "%s (%s)" : "%s", name, unit);
-    csv_text(csv, text);
+    csv_heading(csv, name, view->si ? probe_words(quantity).si : NULL);
 }

@@ -132,8 +132,8 @@ int32_t result_view_pads(const ResultView *view);
 // Number `k` of such names, a line each, and how long it is; 0: there is none.
 const char *result_view_name(const char *names, int32_t k, int *length);
 
-// What pictures call a pad: "contact_3" is pad 3, a name of the user's own stands as it is; without
-// names, numbers from 1.
+// Name of a pad in pictures: "contact_3" is pad 3, a name of the user's own stands as it is;
+// without names, numbers from 1.
 enum { PAD_NAME_SIZE = 96 };
 void result_view_pad(const ResultView *view, int32_t pad, char name[PAD_NAME_SIZE]);
 

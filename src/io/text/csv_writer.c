@@ -12,6 +12,7 @@
 #include <string.h>
 
 enum { DIGITS = 9, PLAIN = 4 };   // PLAIN: zeros before the first digit of 0.00012
+enum { HEADING_SIZE = 160 };
 
 static const double LEAST = 1e-290;   // smaller is 0
 
@@ -45,6 +46,13 @@ void csv_text(CsvWriter *csv, const char *text)
         fputc(*text, csv->out.out);
     }
     if (quoted) fputc('"', csv->out.out);
+}
+
+void csv_heading(CsvWriter *csv, const char *name, const char *unit)
+{
+    char text[HEADING_SIZE];
+    snprintf(text, sizeof text, unit && *unit ? "%s (%s)" : "%s", name, unit);
+    csv_text(csv, text);
 }
 
 void csv_number(CsvWriter *csv, double value)

@@ -13,6 +13,8 @@ typedef struct CsvWriter CsvWriter;
 // The first failure is kept and reported by finish.
 CsvWriter *csv_create(const char *path, Error *err);
 void csv_text(CsvWriter *csv, const char *text);   // a cell, quoted where it must be
+// A heading, "name (unit)"; unit NULL or empty: the name alone.
+void csv_heading(CsvWriter *csv, const char *name, const char *unit);
 // A cell with as few digits, 6 at least, as give the same double again; empty when not finite.
 void csv_number(CsvWriter *csv, double value);
 // A cell with nine digits, ten times as fast: of a long table.
