@@ -43,10 +43,11 @@ void sparse_apply(const SparsePattern *pattern, const double *values, const doub
 void sparse_apply_many(const SparsePattern *pattern, const double *values, const double *x,
                        int64_t columns, double *y);
 
-// The fill-reducing order and symbolic factor of one pattern, which must outlive it.
+// The fill-reducing order and symbolic factor of one pattern, which must outlive it. place:
+// [3 * size] coordinates of each unknown, by which they are ordered; NULL: by the pattern alone.
 typedef struct SparseAnalysis SparseAnalysis;
-SparseAnalysis *sparse_analyse(const SparsePattern *pattern, const int32_t *border,
-                               int32_t border_count, Error *err);
+SparseAnalysis *sparse_analyse(const SparsePattern *pattern, const double *place,
+                               const int32_t *border, int32_t border_count, Error *err);
 // Another one, for another thread.
 SparseAnalysis *sparse_analysis_copy(const SparseAnalysis *from, Error *err);
 void sparse_analysis_destroy(SparseAnalysis *analysis);   // NULL is fine

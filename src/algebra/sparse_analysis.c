@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// CAMD orders the border last.
+// The border comes last. Before it stands the interior in an order of few entries in L: by nested
+// dissection where places are known (algebra/sparse_order), else by CAMD.
 #include "algebra/sparse_analysis.h"
 
+#include "algebra/sparse_order.h"
 #include "base/memory.h"
 
 #include <string.h>
@@ -70,9 +72,10 @@ static bool analyse_in_order(SparseAnalysis *analysis, int32_t *order, bool post
 }
 
 // The order that keeps the border last, checked. Postordering makes larger supernodes and keeps the
-// border where it is when the interior is connected, as in a mesh; where it is not, CAMD's own
-// order is taken as it is.
-static bool analyse_with_border(SparseAnalysis *analysis, const int32_t *border, Error *err)
+// border where it is when the interior is connected, as in a mesh; where it is not, the order is
+// taken as it is.
+static bool analyse_with_border(SparseAnalysis *analysis, const SparsePattern *pattern,
+                                const double *place, const int32_t *border, Error *err)
 {
     cholmod_common *common = &analysis->common;
     int32_t size = analysis->size, count = analysis->border_count;
@@ -80,7 +83,9 @@ static bool analyse_with_border(SparseAnalysis *analysis, const int32_t *border,
     int32_t *order = NEW_ARRAY(int32_t, size, err);
     if (!member || !order) goto cleanup;
     for (int32_t j = 0; j < count; j++) member[border[j]] = 1;
-    if (!cholmod_camd(&analysis->pattern, NULL, 0, member, order, common))
+    if (place)
+        TRY(sparse_order_dissect(pattern, place, border, count, order, err));
+    else if (!cholmod_camd(&analysis->pattern, NULL, 0, member, order, common))
         FAIL(err, error_code_of(common), "CHOLMOD: the fill-reducing order failed (status %d)",
              common->status);
     // S is full, in whatever order.
@@ -118,12 +123,12 @@ cleanup:
     return NULL;
 }
 
-SparseAnalysis *sparse_analyse(const SparsePattern *pattern, const int32_t *border,
-                               int32_t border_count, Error *err)
+SparseAnalysis *sparse_analyse(const SparsePattern *pattern, const double *place,
+                               const int32_t *border, int32_t border_count, Error *err)
 {
     cholmod_sparse view = pattern_view(pattern);
     SparseAnalysis *analysis = begin_analysis(&view, border_count, err);
-    if (!analysis || analyse_with_border(analysis, border, err)) return analysis;
+    if (!analysis || analyse_with_border(analysis, pattern, place, border, err)) return analysis;
     sparse_analysis_destroy(analysis);
     return NULL;
 }

@@ -122,6 +122,10 @@ bool bulk_create(const Mesh *mesh, Bulk *bulk, Error *err)
     *bulk = (Bulk){.dim = mesh->dim, .dof_count = mesh->dim * mesh->node_count};
     bulk->load = NEW_ARRAY(double, bulk->dof_count, err);
     bulk->held = NEW_ARRAY(uint8_t, bulk->dof_count, err);
+    if (mesh->dim == 3) bulk->place = NEW_ARRAY(double, 3 * (int64_t)bulk->dof_count, err);
+    for (int32_t dof = 0; bulk->place && dof < bulk->dof_count; dof++)
+        memcpy(bulk->place + 3 * (int64_t)dof, mesh_place(mesh, dof_node(3, dof)),
+               3 * sizeof(double));
     if (mesh->is_base && (bulk->in_base = NEW_ARRAY(uint8_t, bulk->dof_count, err)))
         for (int32_t dof = 0; dof < bulk->dof_count; dof++)
             bulk->in_base[dof] = mesh->is_base[dof_node(mesh->dim, dof)];
@@ -192,7 +196,7 @@ void bulk_destroy(Bulk *bulk)
 {
     sparse_pattern_destroy(&bulk->pattern);
     memory_free_all(bulk->stiffness, bulk->damping, bulk->mass, bulk->load, bulk->held);
-    memory_free_all(bulk->mass_beside, bulk->in_base);
+    memory_free_all(bulk->place, bulk->mass_beside, bulk->in_base);
     for (int32_t j = 0; j < SPECTRUM_SHAPES_MAX; j++) memory_free(bulk->shape[j]);
     *bulk = (Bulk){0};
 }

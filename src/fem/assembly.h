@@ -15,6 +15,8 @@ typedef struct Bulk {
     int32_t dim;   // unknowns of a node
     int32_t dof_count;   // dim * nodes
     double *load;   // [dof_count] f, force/width; starts at 0; owned
+    double *place;   // [3 * dof_count] coordinates of each unknown, in space, where they order the
+        // factor; NULL in the plane; owned
     uint8_t *held;   // [dof_count] 1: stays at 0 (bulk_hold); owned
     SparsePattern pattern;   // of K and C, empty before bulk_assemble; owned
     double *stiffness;   // [pattern.start[dof_count]]; owned

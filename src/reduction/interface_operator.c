@@ -59,7 +59,8 @@ bool bulk_operator_create(const Bulk *bulk, const double *position, const int32_
     memcpy(system->load, bulk->load, (size_t)bulk->dof_count * sizeof(double));
     system->position = position;
     if (position && !list_rigid_motions(bulk, position, system, err)) return false;
-    system->analysis = sparse_analyse(&bulk->pattern, interface_dofs, interface_count, err);
+    system->analysis =
+        sparse_analyse(&bulk->pattern, bulk->place, interface_dofs, interface_count, err);
     return error_is_clean(err);
 }
 

@@ -265,6 +265,7 @@ bool bulk_transform(const Bulk *from, const Transform *by, Bulk *to, Error *err)
                  .mass = NEW_ARRAY(double, by->count, err),
                  .load = NEW_ARRAY(double, by->count, err),
                  .held = NEW_ARRAY(uint8_t, by->count, err)};
+    if (from->place) to->place = NEW_ARRAY(double, 3 * (int64_t)by->count, err);
     if (!error_is_clean(err) || !transform_matrices(from, by, to, err)) return false;
     for (const TransformBlock *b = by->blocks; b < by->blocks + by->block_count; b++) {
         for (int64_t j = 0; j < b->count; j++) {
@@ -276,6 +277,9 @@ bool bulk_transform(const Bulk *from, const Transform *by, Bulk *to, Error *err)
                 held = held && from->held[b->rows[i]];
             }
             to->held[b->first + j] = held;
+            if (to->place)   // that of the first unknown it is made of
+                memcpy(to->place + 3 * (b->first + j), from->place + 3 * (int64_t)b->rows[0],
+                       3 * sizeof(double));
         }
     }
     return true;

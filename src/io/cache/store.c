@@ -40,7 +40,7 @@ _Static_assert(sizeof(Head) == ARCHIVE_LINE, "what follows would not begin with 
 static Head make_head(const CacheItem *item, int64_t size)
 {
     Head head = {.size = size};
-    memcpy(head.magic, "amontons-cache 4", sizeof head.magic);   // without its NUL
+    memcpy(head.magic, "amontons-cache 5", sizeof head.magic);   // without its NUL
     memcpy(head.key, item->key, strnlen(item->key, KEY_SIZE));
     memcpy(head.ending, endings[item->kind], strlen(endings[item->kind]));
     return head;

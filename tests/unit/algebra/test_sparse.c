@@ -30,6 +30,7 @@ void *malloc(size_t size)
 typedef struct Case {
     int32_t size, border_count;
     double dense[SIZE_TRIED * SIZE_TRIED];
+    double place[3 * SIZE_TRIED];   // anywhere: an order follows from it, no answer
     int32_t border[SIZE_TRIED];   // in a random order
     SparsePattern pattern;
     double *values;
@@ -67,6 +68,7 @@ static void make_case(Random *random, int32_t size, int32_t border_count, Case *
         for (int32_t i = 0; i < size; i++) sum += i == j ? 0 : fabs(made->dense[j * size + i]);
         made->dense[j * size + j] = sum;
     }
+    for (int32_t k = 0; k < 3 * size; k++) made->place[k] = random_index(random, 3);
     int32_t order[SIZE_TRIED];
     for (int32_t k = 0; k < size; k++) order[k] = k;
     for (int32_t k = 0; k < border_count; k++) {
@@ -160,7 +162,8 @@ TEST(test_random_matrices)
         int32_t border_count = random_index(&random, size + 1);
         if (trial < 20) border_count = trial % 4 == 0 ? 0 : (trial % 4 == 1 ? 1 : size);
         make_case(&random, size, border_count, &made);
-        SparseAnalysis *analysis = sparse_analyse(&made.pattern, made.border, border_count, &err);
+        SparseAnalysis *analysis = sparse_analyse(&made.pattern, trial % 3 == 0 ? NULL : made.place,
+                                                  made.border, border_count, &err);
         if (!analysis) fail_msg("size %d, border %d: %s", size, border_count, err.message);
         SparseFactor *factor = sparse_factorise(analysis, made.values, &err);
         if (!factor) fail_msg("size %d, border %d: %s", size, border_count, err.message);
@@ -181,7 +184,7 @@ TEST(test_two_factors_without_allocation)
     Random random = {.state = 4};
     Case made;
     make_case(&random, 50, 12, &made);
-    SparseAnalysis *analysis = sparse_analyse(&made.pattern, made.border, 12, &err);
+    SparseAnalysis *analysis = sparse_analyse(&made.pattern, made.place, made.border, 12, &err);
     SparseFactor *first = sparse_factorise(analysis, made.values, &err);
     int32_t entries = made.pattern.start[made.size];
     for (int32_t k = 0; k < entries; k++) made.values[k] *= 2;
@@ -283,7 +286,7 @@ TEST(test_not_definite)
         make_case(&random, 30, 8, &made);
         for (int32_t k = made.pattern.start[spoilt]; k < made.pattern.start[spoilt + 1]; k++)
             if (made.pattern.index[k] == spoilt) made.values[k] = -1;
-        SparseAnalysis *analysis = sparse_analyse(&made.pattern, made.border, 8, &err);
+        SparseAnalysis *analysis = sparse_analyse(&made.pattern, made.place, made.border, 8, &err);
         assert_null(sparse_factorise(analysis, made.values, &err));
         assert_int_equal(err.code, ERROR_COMPUTE);
         assert_non_null(strstr(err.message, "not positive definite"));
@@ -304,7 +307,7 @@ TEST(test_memory_faults)
     for (int32_t k = 0; !done; k++) {
         Error err = {0};
         memory_fail_after(k);
-        SparseAnalysis *analysis = sparse_analyse(&made.pattern, made.border, 5, &err);
+        SparseAnalysis *analysis = sparse_analyse(&made.pattern, made.place, made.border, 5, &err);
         SparseFactor *factor = analysis ? sparse_factorise(analysis, made.values, &err) : NULL;
         memory_fail_after(-1);
         done = factor != NULL;
@@ -367,7 +370,7 @@ TEST(test_memory_of_the_library)
     for (; !done; failed++) {
         Error err = {0};
         library_left = failed;
-        SparseAnalysis *analysis = sparse_analyse(&made.pattern, made.border, 5, &err);
+        SparseAnalysis *analysis = sparse_analyse(&made.pattern, made.place, made.border, 5, &err);
         SparseFactor *factor = analysis ? sparse_factorise(analysis, made.values, &err) : NULL;
         bool answered = factor && sparse_expand_many(factor, motions, 3, x, &err);
         done = library_left >= 0;   // not one of so many failed
