@@ -3,7 +3,7 @@
 
 A reading is taken from what a run lists, not from the run's own choice of what counts: the peaks (for mu_M) and load drops
 (for mu_hold) of the second half of U. mu_M is their mean, or F_T/F_N of steady sliding where there are none; mu_hold the lowest
-where they repeat, else the lowest decile."""
+where they repeat, else the lowest decile. Of a block that slid once or more and then slides steadily, the last of each."""
 import math
 import statistics
 from dataclasses import dataclass
@@ -38,9 +38,26 @@ def reading(report, end):
         found[name] = of(late) if len(late) >= LATE_LEAST and third and fourth else None
         found["drift"][name] = of(fourth) - of(third) if third and fourth else 0
         found["late"][name] = len(late)
-    if results["mu_M_is"] == "steady sliding" and not any(found["late"].values()):
-        found["mu_M"] = results["mu_steady"]
+    if results["mu_steady"] is not None and not any(found["late"].values()):
+        found["steady"] = True
+        if results["mu_M_is"] == "steady sliding":
+            found["mu_M"] = results["mu_steady"]
+        else:
+            for name, items in (("mu_M", results["peaks"]), ("mu_hold", results["drops"]["list"])):
+                found[name] = items[-1]["mu"] if items else None
     return found
+
+
+def too_short(asked, rows):
+    """Whether runs of this length cannot decide, however fine the mesh: too few peaks or drops on one of `rows`, or what drifts within
+    them alone makes a reference's own error more than it may be."""
+    for name in ANSWERS:
+        if any(0 < row["late"][name] < LATE_LEAST for row in rows):
+            return True
+        drift = abs(statistics.mean(row["drift"][name] for row in rows)) / 2
+        if asked[f"{name}_error"] and drift > OWN_MAX * asked[f"{name}_error"]:
+            return True
+    return False
 
 
 # --- references ---------------------------------------------------------------------------------

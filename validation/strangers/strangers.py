@@ -36,7 +36,8 @@ WITHIN = 60                 # s, of each request
 USUAL = 70                  # s of processor time of a problem, its reference included
 ASK_LIMIT = 600             # s of processor time after which a request is ended
 WINDOW = (0.995, 1, 1.005)  # of pressure: ends and middle of the program's own window
-LONGER = 3                  # a run with too few drops in its second half is made so many times as long,
+LONGER = 3                  # runs with too few drops in their second half, or that drift, are made so many times as long,
+LONGEST = 27                # at most so many times in all,
 STEADY = 1e-3               # drift, relative, that such a one may have
 MANY = 36                   # one with so many or more, of either kind, so many times as short
 QUIET = ["output.history=false"]
@@ -56,6 +57,13 @@ class Kept:
             self.data |= {key: earlier[key] for key in ("longer", "runs")}
             if not any(row.get(name) for row in self.data["runs"] for name in judge.ANSWERS):
                 self.data["runs"] = []      # cheap, and an earlier version may not have known steady sliding
+
+    def forget_cut(self, limit):
+        """A run that the limit of an earlier call cut off is made again where there is now twice the time that it had."""
+        whole = [row for row in self.data["runs"] if row.get("said") != "too long"]
+        cut = sum(row["seconds"] for row in self.data["runs"] if row not in whole)
+        if limit - sum(row["seconds"] for row in whole) > 2 * cut:
+            self.data["runs"] = whole
 
     def save(self):
         part = self.path.with_suffix(".json.new")
@@ -153,17 +161,23 @@ def settled(row):
 
 
 def extend(one, scene, kept, limit):
-    """Runs of the reference until it is known well enough, or the limit of processor time is met."""
+    """Runs of the reference until it is known well enough, or the limit of processor time is met. Where the first mesh shows that
+    they are too short to decide they are begun anew, longer; not where the scene's own program says what happens when."""
+    in_time = any(word.startswith(("program", "ramp", "holds")) for word in one.features)
     for refine in judge.LADDER:
         if kept.data["asked"] and enough(kept.data["asked"], good(kept)):
             return
+        if not in_time and len(kept.data["runs"]) == len(WINDOW) and len(good(kept)) == len(WINDOW) and \
+                kept.data["longer"] < LONGEST and judge.too_short(kept.data["asked"], good(kept)):
+            kept.data |= {"longer": kept.data["longer"] * LONGER, "lengthened": True, "runs": []}
+            return extend(one, scene, kept, limit)
         done = {row["pressure"] for row in kept.data["runs"] if row["refine"] == refine}
         for factor in (f for f in WINDOW if f not in done):
             left = limit - spent(kept)
             if left < 5 or any(row["status"] for row in kept.data["runs"][-2:]):
                 return
             row = reference_run(one, scene, (refine, factor), kept.data["longer"], left)
-            if not kept.data["runs"] and kept.data["longer"] == 1 and (longer := other_length(row)) != 1:
+            if not kept.data["runs"] and kept.data["longer"] == 1 and not kept.data.get("lengthened") and (longer := other_length(row)) != 1:
                 other = reference_run(one, scene, (refine, factor), longer, left)
                 if longer > 1 or settled(other):
                     kept.data["longer"], row = longer, other
@@ -306,6 +320,7 @@ def main():
     pairs = [(one, Kept(options.output, one, earlier.get(one.number))) for one in chosen]
     if not options.table:
         for one, kept in pairs:
+            kept.forget_cut(options.limit)
             if kept.data.get("unknowns") is None:
                 kept.data["unknowns"] = size(one.write(options.output / "scenes"))[0]
                 kept.save()
