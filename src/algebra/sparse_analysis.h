@@ -9,7 +9,9 @@
 
 #include <cholmod.h>
 
-enum { PASSAGE_COLUMNS = 16 };   // of one pass over a factor with many columns
+// Columns of one pass over a factor: few where supernodes are narrow, many where BLAS multiplies by
+// them (algebra/sparse_expand).
+enum { PASSAGE_COLUMNS = 16, PASSAGE_COLUMNS_WIDE = 64 };
 
 // L's border stands in the caller's order.
 struct SparseAnalysis {
@@ -23,9 +25,8 @@ struct SparseAnalysis {
     cholmod_dense *forward;   // solve2's workspaces, shared by all factors
     cholmod_dense *work_y, *work_e;
     cholmod_dense *permuted;   // right-hand side in L's order
-    cholmod_dense
-        *passages[PARALLEL_WORKERS_MAX];   // [size, PASSAGE_COLUMNS] work of a thread each;
-    // NULL: not used yet
+    // [size + rows of a supernode, columns of a pass] work of a thread each; NULL: not used yet
+    cholmod_dense *passages[PARALLEL_WORKERS_MAX];
 };
 
 struct SparseFactor {

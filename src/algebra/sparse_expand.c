@@ -1,10 +1,18 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// L' x = 0 inside, from x on the border, for many columns at once. Rows of x stand together, so
-// that each entry of L is read once for up to 16 columns and no row is gathered: CHOLMOD's own
-// solve calls BLAS twice for each supernode, most of which are too small for that (160 x 160 cells:
-// the same 5 Gflop in a third of the time).
+// L' x = 0 inside, from x on the border, for many columns at once. Rows of x stand together. Where
+// supernodes are narrow, as in the plane, each entry of L is read once for up to 16 columns and no
+// row is gathered: CHOLMOD's own solve calls BLAS twice for each supernode (160 x 160 cells: the
+// same 5 Gflop in a third of the time). Where they are wide, as in space, BLAS multiplies 64 columns
+// by them.
 #include "algebra/lanes.h"
 #include "algebra/sparse_analysis.h"
+
+#include <cblas.h>
+#include <string.h>
+
+// Entries of L for each unknown from which on supernodes are wide: 80 on 160 x 160 cells, 400 on
+// 16^3.
+enum { WIDE_FROM = 256 };
 
 enum {
     LANES_MAX = PASSAGE_COLUMNS / LANE,
@@ -81,10 +89,34 @@ FOR_EACH_PROCESSOR static void pass_with(const cholmod_factor *factor, int32_t b
     if (lanes == 4) pass_down(factor, border, 4, x);
 }
 
+// The same by BLAS for any number of columns. gathered: room for `columns` of all rows of a
+// supernode.
+static void pass_wide(const cholmod_factor *factor, int32_t border, int32_t columns, double *x,
+                      double *gathered)
+{
+    const int32_t *super = factor->super, *row_start = factor->pi, *value_start = factor->px;
+    for (int64_t s = (int64_t)factor->nsuper - 1; s >= 0; s--) {
+        int32_t end = super[s + 1] < border ? super[s + 1] : border, own = end - super[s];
+        int32_t height = row_start[s + 1] - row_start[s], below = height - own;
+        const int32_t *rows = (const int32_t *)factor->s + row_start[s] + own;
+        const double *values = (const double *)factor->x + value_start[s];
+        double *unknowns = x + (int64_t)super[s] * columns;
+        if (own <= 0) continue;
+        for (int32_t k = 0; k < below; k++)
+            memcpy(gathered + (int64_t)k * columns, x + (int64_t)rows[k] * columns,
+                   (size_t)columns * sizeof *x);
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, columns, own, below, -1, gathered,
+                    columns, values + own, height, 0, unknowns, columns);
+        cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasNoTrans, CblasNonUnit, columns, own,
+                    1, values, height, unknowns, columns);
+    }
+}
+
 typedef struct Expansion {
     SparseFactor *factor;
     const double *border;   // [border_count * count]
     int32_t count, passes;
+    bool wide;   // by BLAS
     double *x;   // [size * count]
 } Expansion;
 
@@ -92,13 +124,17 @@ static void expand_columns(const Expansion *all, int32_t first, int32_t columns,
 {
     const SparseAnalysis *analysis = all->factor->analysis;
     const int32_t *permutation = all->factor->numeric->Perm;
-    int32_t lanes = (columns + LANE - 1) / LANE, wide = lanes * LANE;
+    int32_t lanes = (columns + LANE - 1) / LANE, wide = all->wide ? columns : lanes * LANE;
     int64_t size = analysis->size, border_count = analysis->border_count;
+    int32_t first_border = (int32_t)(size - border_count);
     double *border = rows + (size - border_count) * wide;
     for (int64_t k = 0; k < border_count; k++)
         for (int32_t j = 0; j < wide; j++)
             border[k * wide + j] = j < columns ? all->border[(first + j) * border_count + k] : 0;
-    pass_with(all->factor->numeric, (int32_t)(size - border_count), lanes, (Lane *)rows);
+    if (all->wide)
+        pass_wide(all->factor->numeric, first_border, wide, rows, rows + size * wide);
+    else
+        pass_with(all->factor->numeric, first_border, lanes, (Lane *)rows);
     for (int32_t j = 0; j < columns; j++) {
         double *out = all->x + (first + j) * size;
         for (int64_t k = 0; k < size; k++) out[permutation[k]] = rows[k * wide + j];
@@ -117,17 +153,20 @@ bool sparse_expand_many(SparseFactor *factor, const double *x_border, int32_t co
                         Error *err)
 {
     SparseAnalysis *analysis = factor->analysis;
-    // Alike: a few columns alone take as long as many.
-    Expansion all = {factor, x_border, count, (count + PASSAGE_COLUMNS - 1) / PASSAGE_COLUMNS, x};
+    const cholmod_factor *symbolic = analysis->symbolic;
+    bool wide = symbolic->xsize > WIDE_FROM * (size_t)analysis->size;
+    int32_t columns = wide ? PASSAGE_COLUMNS_WIDE : PASSAGE_COLUMNS;
+    // Passes have as many columns each, as a few alone take as long as many.
+    Expansion all = {factor, x_border, count, (count + columns - 1) / columns, wide, x};
     for (int32_t k = 0; k < parallel_workers();
          k++) {   // kept: memory asked for anew comes page by page
         cholmod_dense **rows = &analysis->passages[k];
+        size_t gathered = wide ? symbolic->maxesize + (size_t)analysis->border_count : 0;
         if (!*rows)
-            *rows = cholmod_zeros((size_t)analysis->size, PASSAGE_COLUMNS, CHOLMOD_REAL,
+            *rows = cholmod_zeros((size_t)analysis->size + gathered, (size_t)columns, CHOLMOD_REAL,
                                   &analysis->common);
         if (!*rows)
-            return FAULT(err, ERROR_MEMORY, "no memory for %d answers of a factor",
-                         PASSAGE_COLUMNS);
+            return FAULT(err, ERROR_MEMORY, "no memory for %d answers of a factor", columns);
     }
     parallel_for(all.passes, expand_pass, &all);
     return true;
