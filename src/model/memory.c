@@ -23,8 +23,8 @@ static const double SPACE_MESH = 4500;
 // factors, certificate), entries of a factor, and in a reduction those of the factors of a part and
 // columns of responses over those of its border. Contact that is its own mirror image is solved on
 // one side, and takes 58 where its symmetry breaks, which nobody knows before.
-static const double SPACE_SQUARES = 30, SPACE_SQUARES_ONE_SIDE = 20, SPACE_ENTRIES = 39;
-static const double SPACE_PART_ENTRIES = 58, SPACE_COLUMNS = 5;
+static const double SPACE_SQUARES = 30, SPACE_SQUARES_ONE_SIDE = 20, SPACE_ENTRIES = 25;
+static const double SPACE_PART_ENTRIES = 28, SPACE_COLUMNS = 5;
 static const double SPACE_TOGETHER = 1.43;   // two parts side by side over one
 static const double SPACE_FACTORS = 11;   // step sizes of a run with a sliding, each with a factor
 // Unknowns of a reduced block over those of its interface. Each is a mode of the mesh, which is
