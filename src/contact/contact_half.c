@@ -25,64 +25,44 @@ typedef struct Places {
     double sum, apart;   // second of a node and of its image together
 } Places;
 
-// The image of k, looked for among its neighbours in the order; -1: there is none.
-static int32_t image_of(const Places *places, int32_t k)
-{
-    for (int32_t way = -1; way <= 1; way += 2)
-        for (int32_t j = way < 0 ? k : k + 1; j >= 0 && j < places->count; j += way) {
-            if (!(fabs(places->first[j] - places->first[k]) <= places->apart)) break;
-            if (fabs(places->second[j] + places->second[k] - places->sum) <= places->apart)
-                return j;
-        }
-    return -1;
-}
-
-// Those on the lower side and in the middle. false: one has no image.
+// Lists those on the lower side and in the middle, and their images, which are looked for among the
+// neighbours in the order. Returns false where one has none.
 static bool list_half(const Places *places, int32_t *list, int32_t *image, int32_t *count)
 {
+    const double *first = places->first, *second = places->second;
     *count = 0;
     for (int32_t k = 0; k < places->count; k++) {
-        int32_t j = image_of(places, k);
-        if (j < 0) return false;
-        if (j != k && places->second[k] > places->second[j]) continue;
+        int32_t found = -1;
+        for (int32_t way = -1; way <= 1 && found < 0; way += 2)
+            for (int32_t j = way < 0 ? k : k + 1; j >= 0 && j < places->count; j += way) {
+                if (!(fabs(first[j] - first[k]) <= places->apart)) break;
+                if (!(fabs(second[j] + second[k] - places->sum) <= places->apart)) continue;
+                found = j;
+                break;
+            }
+        if (found < 0) return false;
+        if (found != k && second[k] > second[found]) continue;
         list[*count] = k;
-        image[(*count)++] = j;
+        image[(*count)++] = found;
     }
     return true;
 }
 
-static void list_unknowns(const Interface *whole, ContactHalf *half)
+bool contact_half_find(const Interface *interface, ContactHalf *half, Error *err)
 {
-    Interface *interface = &half->interface;
-    int32_t dim = whole->dim;
-    for (int32_t k = 0; k < interface->count; k++) {
-        int32_t i = dof_node(dim, k), axis = dof_axis(dim, k), j = k - interface_rod(interface, 0);
-        half->unknown[k] = j < 0 ? interface_unknown(whole, half->node[i], axis)
-                                 : interface_rod(whole, half->rod[j]);
-        half->image[k] = j < 0 ? interface_unknown(whole, half->node_image[i], axis)
-                               : interface_rod(whole, half->rod_image[j]);
-        half->sign[k] = j < 0 && axis == 1 ? -1 : 1;
-    }
-}
-
-static bool allocate(const Interface *interface, ContactHalf *half, Error *err)
-{
+    int32_t contacts = interface->contact_count, rods = interface->rod_count, dim = interface->dim;
+    *half = (ContactHalf){.whole = interface->count};
+    if (dim < 3 || contacts == 0) return true;
     half->unknown = NEW_ARRAY(int32_t, interface->count, err);
     half->image = NEW_ARRAY(int32_t, interface->count, err);
     half->sign = NEW_ARRAY(double, interface->count, err);
-    half->node = NEW_ARRAY(int32_t, interface->contact_count, err);
-    half->node_image = NEW_ARRAY(int32_t, interface->contact_count, err);
-    half->rod = NEW_ARRAY(int32_t, interface->rod_count, err);
-    half->rod_image = NEW_ARRAY(int32_t, interface->rod_count, err);
-    return error_is_clean(err);
-}
+    half->node = NEW_ARRAY(int32_t, contacts, err);
+    half->node_image = NEW_ARRAY(int32_t, contacts, err);
+    half->rod = NEW_ARRAY(int32_t, rods, err);
+    half->rod_image = NEW_ARRAY(int32_t, rods, err);
+    if (!error_is_clean(err)) return false;
 
-bool contact_half_find(const Interface *interface, ContactHalf *half, Error *err)
-{
-    int32_t contacts = interface->contact_count, rods = interface->rod_count;
-    *half = (ContactHalf){.whole = interface->count};
-    if (interface->dim < 3 || contacts == 0) return true;
-    if (!allocate(interface, half, err)) return false;
+    // Nodes of the contact and of the rod's face, across the middle of the contact.
     double least = interface->y[0], most = least;
     for (int32_t i = 0; i < contacts; i++) {
         least = fmin(least, interface->y[i]);
@@ -94,11 +74,20 @@ bool contact_half_find(const Interface *interface, ContactHalf *half, Error *err
     Interface *side = &half->interface;
     bool found = list_half(&floor, half->node, half->node_image, &side->contact_count) &&
                  list_half(&face, half->rod, half->rod_image, &side->rod_count);
-    *side = (Interface){.dim = interface->dim,
+    *side = (Interface){.dim = dim,
                         .contact_count = found ? side->contact_count : 0,
                         .rod_count = found ? side->rod_count : 0};
     side->count = interface_rod(side, side->rod_count);
-    list_unknowns(interface, half);
+
+    // Their unknowns; motion along y changes its sign in the image.
+    for (int32_t k = 0; k < side->count; k++) {
+        int32_t i = dof_node(dim, k), axis = dof_axis(dim, k), j = k - interface_rod(side, 0);
+        half->unknown[k] = j < 0 ? interface_unknown(interface, half->node[i], axis)
+                                 : interface_rod(interface, half->rod[j]);
+        half->image[k] = j < 0 ? interface_unknown(interface, half->node_image[i], axis)
+                               : interface_rod(interface, half->rod_image[j]);
+        half->sign[k] = j < 0 && axis == 1 ? -1 : 1;
+    }
     return true;
 }
 
@@ -127,28 +116,6 @@ static bool is_still(const ContactHalf *half, int32_t k, bool antisymmetric)
     return in_middle(half, k) && sign_of(half, k, antisymmetric) < 0;
 }
 
-// A column of S, and that of its image.
-typedef struct Columns {
-    const double *own, *across;
-    double sign;   // of the image's motion over its own
-} Columns;
-
-// Row a, whose image moves by `sign` times its own. Returns by how much the images of its entries
-// are off.
-static double fill_entry(const ContactHalf *half, Columns columns, int32_t a, double sign,
-                         double *out)
-{
-    int32_t unknown = half->unknown[a], image = half->image[a];
-    double own = columns.own[unknown], there = sign * columns.own[image];
-    double across = columns.sign * columns.across[unknown];
-    double opposite = columns.sign * sign * columns.across[image];
-    *out = own;
-    if (unknown != image) *out += there;
-    if (columns.own != columns.across) *out += across;
-    if (columns.own != columns.across && unknown != image) *out += opposite;
-    return fmax(fabs(own - opposite), fabs(there - across));
-}
-
 bool contact_half_matrix(const ContactHalf *half, const double *schur, bool antisymmetric,
                          double *out)
 {
@@ -156,17 +123,28 @@ bool contact_half_matrix(const ContactHalf *half, const double *schur, bool anti
     double largest = 0, off = 0;
     for (int64_t k = 0; k < whole; k++) largest = fmax(largest, schur[k * (whole + 1)]);
     for (int32_t b = 0; b < size; b++) {
-        Columns columns = {.own = schur + whole * half->unknown[b],
-                           .across = schur + whole * half->image[b],
-                           .sign = sign_of(half, b, antisymmetric)};
+        // A column of S and that of its image, whose motion is `turned` times the column's own.
+        const double *own_column = schur + whole * half->unknown[b];
+        const double *image_column = schur + whole * half->image[b];
+        double turned = sign_of(half, b, antisymmetric);
+        bool still = is_still(half, b, antisymmetric);
         for (int32_t a = 0; a < size; a++) {
             double *entry = out + size * b + a;
-            *entry = 0;
-            if (!is_still(half, a, antisymmetric) && !is_still(half, b, antisymmetric))
-                off =
-                    fmax(off, fill_entry(half, columns, a, sign_of(half, a, antisymmetric), entry));
-            else if (a == b)
-                *entry = antisymmetric ? HELD * largest : columns.own[half->unknown[a]];
+            if (still || is_still(half, a, antisymmetric)) {
+                *entry = a != b ? 0 : antisymmetric ? HELD * largest : own_column[half->unknown[a]];
+                continue;
+            }
+            // The entry, those of the row's and of the column's image, and that of both.
+            int32_t unknown = half->unknown[a], image = half->image[a];
+            double sign = sign_of(half, a, antisymmetric);
+            double own = own_column[unknown], there = sign * own_column[image];
+            double across = turned * image_column[unknown];
+            double opposite = turned * sign * image_column[image];
+            *entry = own;
+            if (unknown != image) *entry += there;
+            if (own_column != image_column) *entry += across;
+            if (own_column != image_column && unknown != image) *entry += opposite;
+            off = fmax(off, fmax(fabs(own - opposite), fabs(there - across)));
         }
     }
     return off <= ALIKE * largest;

@@ -121,19 +121,6 @@ static void sweep_node(const ContactProblem *problem, ContactSolution *at, int32
     }
 }
 
-static void sweep_rod(const ContactProblem *problem, ContactSolution *at, int32_t j)
-{
-    int64_t count = problem->interface->count;
-    int32_t x = interface_rod(problem->interface, j);
-    double own = problem->matrix->schur[(count + 1) * x], stiffness = rod_stiffness(problem, j);
-    double b = own * at->velocity[x] - at->reaction[x], v = b / own;
-    if (problem->rod_kind == ROD_PUSHES) at->rod_touches[j] = v < problem->bound[x];
-    if (at->rod_touches[j])
-        v = stiffness > 0 ? (b + stiffness * problem->bound[x]) / (own + stiffness)
-                          : problem->bound[x];
-    move_to(problem, at, x, v);
-}
-
 // In space later rounds are only longer; 435 collected problems are solved so.
 int32_t contact_sweep(const ContactProblem *problem, ContactSolution *solution, int32_t round)
 {
@@ -147,7 +134,18 @@ int32_t contact_sweep(const ContactProblem *problem, ContactSolution *solution, 
     for (int32_t k = 0; k < sweeps; k++, back = turns && !back) {
         for (int32_t i = 0; i <= last; i++)
             sweep_node(problem, solution, back ? last - i : i, part);
-        for (int32_t j = 0; j < interface->rod_count; j++) sweep_rod(problem, solution, j);
+
+        // A rod node alone: what it is pushed by over its own entry of S.
+        for (int32_t j = 0; j < interface->rod_count; j++) {
+            int32_t x = interface_rod(interface, j);
+            double own = problem->matrix->schur[(interface->count + (int64_t)1) * x];
+            double stiffness = rod_stiffness(problem, j), bound = problem->bound[x];
+            double b = own * solution->velocity[x] - solution->reaction[x], v = b / own;
+            if (problem->rod_kind == ROD_PUSHES) solution->rod_touches[j] = v < bound;
+            if (solution->rod_touches[j])
+                v = stiffness > 0 ? (b + stiffness * bound) / (own + stiffness) : bound;
+            move_to(problem, solution, x, v);
+        }
     }
     return sweeps;
 }

@@ -32,33 +32,29 @@ static bool allocate_full(const Bulk *bulk, const int32_t *interface_dofs, int32
     return true;
 }
 
-// Rigid motions of the block, over a base that stands still. mass_total: of one direction, as all
-// have the same.
-static bool list_rigid_motions(const Bulk *bulk, const double *position, BulkOperator *system,
-                               Error *err)
-{
-    int32_t dim = bulk->dim, dofs = bulk->dof_count;
-    double *next = system->rigid = NEW_ARRAY(double, (int64_t)rigid_count(dim) * dofs, err);
-    if (!next) return false;
-    for (int32_t dof = 0; dof < dofs; dof += dim)
-        system->mass_total += bulk->in_base && bulk->in_base[dof] ? 0 : bulk->mass[dof];
-    for (int32_t which = 0; which < rigid_count(dim); which++)
-        for (int32_t dof = 0; dof < dofs; dof++)
-            *next++ = bulk->in_base && bulk->in_base[dof]
-                          ? 0
-                          : rigid_motion(dim, which, position + dof - dof_axis(dim, dof),
-                                         dof_axis(dim, dof));
-    return true;
-}
-
 // The load is copied: later changes of `bulk` do not reach it.
 bool bulk_operator_create(const Bulk *bulk, const double *position, const int32_t *interface_dofs,
                           int32_t interface_count, BulkOperator *system, Error *err)
 {
+    int32_t dim = bulk->dim, dofs = bulk->dof_count;
     if (!allocate_full(bulk, interface_dofs, interface_count, system, err)) return false;
-    memcpy(system->load, bulk->load, (size_t)bulk->dof_count * sizeof(double));
+    memcpy(system->load, bulk->load, (size_t)dofs * sizeof(double));
     system->position = position;
-    if (position && !list_rigid_motions(bulk, position, system, err)) return false;
+
+    // Rigid motions of the block, over a base that stands still, and the mass in one direction, as
+    // all have the same.
+    if (position) {
+        double *next = system->rigid = NEW_ARRAY(double, (int64_t)rigid_count(dim) * dofs, err);
+        if (!next) return false;
+        for (int32_t dof = 0; dof < dofs; dof += dim)
+            system->mass_total += bulk->in_base && bulk->in_base[dof] ? 0 : bulk->mass[dof];
+        for (int32_t which = 0; which < rigid_count(dim); which++)
+            for (int32_t dof = 0; dof < dofs; dof++) {
+                bool still = bulk->in_base && bulk->in_base[dof];
+                int32_t axis = dof_axis(dim, dof);
+                *next++ = still ? 0 : rigid_motion(dim, which, position + dof - axis, axis);
+            }
+    }
     system->analysis =
         sparse_analyse(&bulk->pattern, bulk->place, interface_dofs, interface_count, err);
     return error_is_clean(err);
@@ -167,14 +163,16 @@ double bulk_operator_error(const BulkOperator *system, OperatorTerms terms)
     return reduced_bulk_error(system->reduced, terms.mass * scales->mass / rest);
 }
 
-// A = m M + c C + k K with its branches; returns its largest diagonal entry on the interface.
-static double combine_sparse(BulkOperator *system, OperatorTerms terms)
+// A = m M + c C + k K with its branches, factored. S is the square of the factor's last block
+// (algebra/sparse); lifting the border's diagonal adds the same to S, and is taken off again.
+static bool condense_sparse(InterfaceOperator *condensed, OperatorTerms terms, Error *err)
 {
+    BulkOperator *system = condensed->system;
     const Bulk *bulk = system->bulk;
-    double weight[SPECTRUM_SHAPES_MAX];
     const SparsePattern *pattern = &bulk->pattern;
-    double *values = system->values, largest = 0;
+    double weight[SPECTRUM_SHAPES_MAX], *values = system->values, shift = 0;
     int32_t entries = pattern->start[bulk->dof_count];
+    int64_t m = system->interface_count;
     terms.stiffness += spectrum_weights(&bulk->spectrum, terms.damping, terms.stiffness, weight);
     for (int32_t k = 0; k < entries; k++)
         values[k] = terms.damping * bulk->damping[k] + terms.stiffness * bulk->stiffness[k];
@@ -185,25 +183,17 @@ static double combine_sparse(BulkOperator *system, OperatorTerms terms)
         values[sparse_entry(pattern, dof, dof)] += terms.mass * bulk->mass[dof];
     for (int32_t k = 0; bulk->mass_beside && terms.mass != 0 && k < entries; k++)
         values[k] += terms.mass * bulk->mass_beside[k];
-    for (int32_t j = 0; j < system->interface_count; j++) {
-        int32_t dof = system->interface_dofs[j];
-        largest = fmax(largest, values[sparse_entry(pattern, dof, dof)]);
-    }
-    return largest;
-}
 
-// S is the square of the factor's last block (algebra/sparse); lifting the border's diagonal adds
-// the same to S, and is taken off again.
-static bool condense_sparse(InterfaceOperator *condensed, OperatorTerms terms, Error *err)
-{
-    BulkOperator *system = condensed->system;
-    int64_t m = system->interface_count;
-    double largest = combine_sparse(system, terms), shift = terms.lift ? largest : 0;
-    for (int32_t j = 0; j < m; j++) {
+    // Lifted by its largest diagonal entry on the interface.
+    for (int64_t j = 0; terms.lift && j < m; j++) {
         int32_t dof = system->interface_dofs[j];
-        system->values[sparse_entry(&system->bulk->pattern, dof, dof)] += shift;
+        shift = fmax(shift, values[sparse_entry(pattern, dof, dof)]);
     }
-    condensed->factor = sparse_factorise(system->analysis, system->values, err);
+    for (int64_t j = 0; j < m; j++) {
+        int32_t dof = system->interface_dofs[j];
+        values[sparse_entry(pattern, dof, dof)] += shift;
+    }
+    condensed->factor = sparse_factorise(system->analysis, values, err);
     if (!condensed->factor) return false;
     if (terms.lower_only) return true;
     sparse_schur(condensed->factor, condensed->schur);

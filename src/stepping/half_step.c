@@ -11,52 +11,46 @@
 // was stepped as a whole, far below what a step may be off.
 static const double ALIKE = 1e-9;
 
-// A node that stands for two yields half as much to the sum of their forces. false: two are not
-// alike.
-static bool create_rod(const Rod *whole, const ContactHalf *half, Rod *rod, Error *err)
-{
-    rod->softness = NEW_ARRAY(double, half->interface.rod_count, err);
-    rod->lag = NEW_ARRAY(double, half->interface.rod_count, err);
-    bool alike = error_is_clean(err);
-    for (int32_t j = 0; alike && j < half->interface.rod_count; j++) {
-        int32_t own = half->rod[j], across = half->rod_image[j];
-        double softness = whole->softness[own], lag = whole->lag[own];
-        alike = fabs(softness - whole->softness[across]) <= ALIKE * softness &&
-                fabs(lag - whole->lag[across]) <= ALIKE * lag;
-        rod->softness[j] = own == across ? softness : 0.5 * softness;
-        rod->lag[j] = lag;
-    }
-    return alike;
-}
-
-// The symmetric part of the bulk, by the images that the interface has.
-static bool find_bulk(const BulkOperator *system, const ContactHalf *half, SymmetricPart *bulk,
-                      Error *err)
-{
-    int32_t *image = NEW_ARRAY(int32_t, half->whole, err);
-    double *sign = NEW_ARRAY(double, half->whole, err);
-    for (int32_t k = 0; error_is_clean(err) && k < half->interface.count; k++) {
-        int32_t own = half->unknown[k], across = half->image[k];
-        image[own] = across;
-        image[across] = own;
-        sign[own] = sign[across] = half->sign[k];
-    }
-    bool done = error_is_clean(err) && symmetric_part_find(system, image, sign, bulk, err);
-    memory_free_all(image, sign);
-    return done;
-}
-
 bool half_step_create(const Block *block, const Certificate *whole, HalfStep *half, Error *err)
 {
     const Interface *side = &half->half.interface;
+    int32_t *image = NULL;
+    double *sign = NULL;
     *half = (HalfStep){.friction = friction_everywhere(friction_constant(0))};   // none so far
-    if (!contact_half_find(block->interface, &half->half, err)) return false;
-    if (side->contact_count == 0) return true;
-    bool alike = create_rod(block->rod, &half->half, &half->rod, err);
-    if (!state_create(&(BulkOperator){0}, side, &half->state, err)) return false;
-    if (!state_create(block->system, block->interface, &half->whole, err)) return false;
-    if (!find_bulk(block->system, &half->half, &half->bulk, err)) return false;
-    if (!contact_solver_create(side, &half->solver, err)) return false;
+    TRY(contact_half_find(block->interface, &half->half, err));
+    if (side->contact_count == 0) goto cleanup;
+
+    // The rod. A node that stands for two yields half as much to the sum of their forces.
+    Rod *rod = &half->rod;
+    rod->softness = NEW_ARRAY(double, side->rod_count, err);
+    rod->lag = NEW_ARRAY(double, side->rod_count, err);
+    TRY(error_is_clean(err));
+    bool alike = true;
+    for (int32_t j = 0; alike && j < side->rod_count; j++) {
+        int32_t own = half->half.rod[j], across = half->half.rod_image[j];
+        double softness = block->rod->softness[own], lag = block->rod->lag[own];
+        alike = fabs(softness - block->rod->softness[across]) <= ALIKE * softness &&
+                fabs(lag - block->rod->lag[across]) <= ALIKE * lag;
+        rod->softness[j] = own == across ? softness : 0.5 * softness;
+        rod->lag[j] = lag;
+    }
+
+    // The symmetric part of the bulk, by the images that the interface has.
+    TRY((image = NEW_ARRAY(int32_t, half->half.whole, err)));
+    TRY((sign = NEW_ARRAY(double, half->half.whole, err)));
+    for (int32_t k = 0; k < side->count; k++) {
+        int32_t own = half->half.unknown[k], across = half->half.image[k];
+        image[own] = across;
+        image[across] = own;
+        sign[own] = sign[across] = half->half.sign[k];
+    }
+    TRY(symmetric_part_find(block->system, image, sign, &half->bulk, err));
+
+    // States, solvers and their work.
+    TRY(state_create(&(BulkOperator){0}, side, &half->state, err));
+    TRY(state_create(block->system, block->interface, &half->whole, err));
+    TRY(contact_solver_create(side, &half->solver, err));
+    TRY(contact_newton_create(side, &half->newton, err));
     half->nodes = NEW_ARRAY(FrictionNode, block->interface->contact_count, err);
     half->g = NEW_ARRAY(double, side->count, err);
     half->bound = NEW_ARRAY(double, side->count, err);
@@ -64,14 +58,18 @@ bool half_step_create(const Block *block, const Certificate *whole, HalfStep *ha
     half->anti_bound = NEW_ARRAY(double, side->count, err);
     half->anti_velocity = NEW_ARRAY(double, side->count, err);
     half->anti_reaction = NEW_ARRAY(double, side->count, err);
-    if (!contact_newton_create(side, &half->newton, err)) return false;
-    Block one = {.interface = side, .friction = &half->friction, .rod = &half->rod};
+    TRY(error_is_clean(err));
+
+    // Certificates of both parts.
+    Block one = {.interface = side, .friction = &half->friction, .rod = rod};
     for (ContactPart part = PART_SYMMETRIC; alike && part <= PART_ANTISYMMETRIC; part++) {
         Certificate *certificate = part == PART_SYMMETRIC ? &half->symmetric : &half->antisymmetric;
-        if (!certificate_halve(whole, &half->half, &one, part, certificate, err)) return false;
+        TRY(certificate_halve(whole, &half->half, &one, part, certificate, err));
         alike = certificate->damping_contact.schur != NULL;
     }
     half->exists = alike;
+cleanup:
+    memory_free_all(image, sign);
     return error_is_clean(err);
 }
 
