@@ -311,17 +311,6 @@ static void hash_numbers(Hash *hash, const double *numbers, int64_t count)
     hash_bytes(hash, numbers, (size_t)count * sizeof(double));
 }
 
-static void hash_part(Hash *hash, const ReducedPart *part)
-{
-    int64_t m = part->border_count, all = part->count;
-    hash_numbers(hash, part->mass, m * m);
-    hash_numbers(hash, part->coupling, (all - m) * m);
-    hash_numbers(hash, part->masses, all - m);
-    hash_numbers(hash, part->damping, all * all);
-    hash_numbers(hash, part->stiffness, m * m);
-    for (int32_t j = 0; j < part->shape_count; j++) hash_numbers(hash, part->shape[j], all * all);
-}
-
 // A reduced state is in coordinates of its basis: the same mesh reduced on another computer may
 // have another one.
 void bulk_operator_hash(const BulkOperator *system, Hash *hash)
@@ -340,7 +329,16 @@ void bulk_operator_hash(const BulkOperator *system, Hash *hash)
         hash_numbers(hash, bulk->damping, entries);
         for (int32_t j = 0; j < bulk->spectrum.matrix_count; j++)
             hash_numbers(hash, bulk->shape[j], entries);
-    } else {
-        for (int p = 0; p < reduced->part_count; p++) hash_part(hash, &reduced->part[p]);
+    }
+    for (int p = 0; reduced && p < reduced->part_count; p++) {
+        const ReducedPart *part = &reduced->part[p];
+        int64_t m = part->border_count, all = part->count;
+        hash_numbers(hash, part->mass, m * m);
+        hash_numbers(hash, part->coupling, (all - m) * m);
+        hash_numbers(hash, part->masses, all - m);
+        hash_numbers(hash, part->damping, all * all);
+        hash_numbers(hash, part->stiffness, m * m);
+        for (int32_t j = 0; j < part->shape_count; j++)
+            hash_numbers(hash, part->shape[j], all * all);
     }
 }

@@ -120,17 +120,6 @@ const State *half_step_fold(HalfStep *half, const State *state)
     return one;
 }
 
-// u'K u/2 + v'M v/2 of two states' difference.
-static double energy_between(const State *one, const State *other)
-{
-    double sum = 0;
-    for (int32_t k = 0; k < one->dof_count; k++)
-        sum += (one->displacement[k] - other->displacement[k]) *
-                   (one->elastic_force[k] - other->elastic_force[k]) +
-               (one->velocity[k] - other->velocity[k]) * (one->momentum[k] - other->momentum[k]);
-    return 0.5 * sum;
-}
-
 // K, C and M join no symmetric motion to an antisymmetric one, so that the energy lost is that of
 // what is dropped.
 void half_step_symmetrise(HalfStep *half, State *state, double *bound)
@@ -150,9 +139,14 @@ void half_step_symmetrise(HalfStep *half, State *state, double *bound)
         symmetric_part_take(&half->bulk, state->stretch + at, to->stretch + at);
         symmetric_part_take(&half->bulk, state->pull + at, to->pull + at);
     }
-    double energy = state_elastic_energy(to) +
-                    0.5 * dense_dot(to->velocity, to->momentum, to->dof_count);
-    if (!(energy_between(state, to) <= ALIKE * ALIKE * energy)) return;
+    // u'K u/2 + v'M v/2 of what would be dropped, and of what stays.
+    double dropped = 0, kept = state_elastic_energy(to) +
+                               0.5 * dense_dot(to->velocity, to->momentum, to->dof_count);
+    for (int32_t k = 0; k < state->dof_count; k++)
+        dropped += (state->displacement[k] - to->displacement[k]) *
+                       (state->elastic_force[k] - to->elastic_force[k]) +
+                   (state->velocity[k] - to->velocity[k]) * (state->momentum[k] - to->momentum[k]);
+    if (!(0.5 * dropped <= ALIKE * ALIKE * kept)) return;
     contact_half_symmetrise(side, to->slip_rate, half->g);
     contact_half_symmetrise(side, bound, half->g);
     contact_half_symmetrise_forces(side, to->reaction, half->g);
@@ -162,28 +156,15 @@ void half_step_symmetrise(HalfStep *half, State *state, double *bound)
     half->asymmetry = 0;
 }
 
-// Adds the antisymmetric part, to first order. one: the problem of the symmetric part.
-static bool follow_antisymmetric(HalfStep *half, const ContactProblem *one, ContactMatrix *matrix,
-                                 const ContactSolution *symmetric, ContactSolution *solution)
-{
-    ContactProblem problem = *one;
-    problem.matrix = matrix;
-    problem.g = half->anti_g;
-    problem.bound = half->anti_bound;
-    ContactSolution antisymmetric = {half->anti_velocity, half->anti_reaction, symmetric->status,
-                                     symmetric->rod_touches};
-    if (!contact_discs_follow(&half->solver.discs, &half->newton, &problem, &antisymmetric))
-        return false;
-    contact_half_add(&half->half, true, antisymmetric.velocity, solution->velocity);
-    contact_half_add_forces(&half->half, true, antisymmetric.reaction, solution->reaction);
-    return true;
-}
-
-// Folds what pushes. Whether it is its own image.
-static bool fold_problem(HalfStep *half, const ContactProblem *problem)
+bool half_step_solve(HalfStep *half, const ContactProblem *problem, ContactMatrix *antisymmetric,
+                     ContactSolution *solution, bool *alike)
 {
     const ContactHalf *side = &half->half;
+    State *one = &half->state;
     int32_t count = side->interface.count;
+    size_t bytes = (size_t)side->whole * sizeof(double);
+
+    // What pushes, folded; how far it is from its own image.
     contact_half_fold_forces(side, false, problem->g, half->g);
     contact_half_fold_forces(side, true, problem->g, half->anti_g);
     contact_half_fold(side, false, problem->bound, half->bound);
@@ -192,18 +173,11 @@ static bool fold_problem(HalfStep *half, const ContactProblem *problem)
     double speed = fmax(force / problem->matrix->diagonal, dense_max_abs(half->bound, count));
     half->asymmetry = fmax(dense_max_abs(half->anti_g, count) / force,
                            dense_max_abs(half->anti_bound, count) / speed);
-    return half->asymmetry <= ALIKE;
-}
-
-bool half_step_solve(HalfStep *half, const ContactProblem *problem, ContactMatrix *antisymmetric,
-                     ContactSolution *solution, bool *alike)
-{
-    const ContactHalf *side = &half->half;
-    State *one = &half->state;
-    size_t bytes = (size_t)side->whole * sizeof(double);
-    ContactSolution at = {one->slip_rate, one->reaction, one->status, one->rod_touches};
-    *alike = fold_problem(half, problem);
+    *alike = half->asymmetry <= ALIKE;
     if (!*alike) return false;
+
+    // The problem of one side.
+    ContactSolution at = {one->slip_rate, one->reaction, one->status, one->rod_touches};
     fold_solution(side, solution, &at);
     ContactProblem one_side = *problem;
     one_side.interface = &side->interface;
@@ -218,7 +192,17 @@ bool half_step_solve(HalfStep *half, const ContactProblem *problem, ContactMatri
     contact_half_add(side, false, at.velocity, solution->velocity);
     contact_half_add_forces(side, false, at.reaction, solution->reaction);
     contact_half_unfold_statuses(side, &at, solution->status, solution->rod_touches);
-    return !antisymmetric || follow_antisymmetric(half, &one_side, antisymmetric, &at, solution);
+    if (!antisymmetric) return true;
+
+    // The antisymmetric part, to first order.
+    one_side.matrix = antisymmetric;
+    one_side.g = half->anti_g;
+    one_side.bound = half->anti_bound;
+    ContactSolution anti = {half->anti_velocity, half->anti_reaction, at.status, at.rod_touches};
+    if (!contact_discs_follow(&half->solver.discs, &half->newton, &one_side, &anti)) return false;
+    contact_half_add(side, true, anti.velocity, solution->velocity);
+    contact_half_add_forces(side, true, anti.reaction, solution->reaction);
+    return true;
 }
 
 void half_step_archive(HalfStep *half, Archive *archive)
