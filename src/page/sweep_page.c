@@ -210,8 +210,8 @@ static bool is_shown(const SweepSource *sweep, const CsvTable *table, int32_t co
     return true;
 }
 
-// Each cell is a number with its error bar, where there is one, or in the digits that are known; or a
-// text.
+// Each cell is a number with its error bar, where there is one, or in the digits that are known; or
+// a text.
 static void write_table(HtmlWriter *html, const SweepSource *sweep, const CsvTable *table,
                         int32_t most, const char *caption)
 {
