@@ -99,27 +99,6 @@ static void print_open(const Search *search, int32_t best, FILE *out)
                      "until they are told apart\n");
 }
 
-static void print_section(const Search *search, int32_t best, int32_t k, FILE *out)
-{
-    const SearchKey *key = &search->study->search.keys[k];
-    const Designs *designs = &search->designs;
-    double last = -INFINITY;
-    fprintf(out, "  along %s:", key->key);
-    for (;;) {   // by value: the next larger one each time
-        int32_t next = -1;
-        for (int32_t d = 0; d < designs->count; d++)
-            if (is_on_section(search, best, k, d) && designs->list[d].x[k] > last &&
-                (next < 0 || designs->list[d].x[k] < designs->list[next].x[k]))
-                next = d;
-        if (next < 0) break;
-        fprintf(out, "%s %.4g: ", isinf(last) ? "" : ",", designs->list[next].x[k]);
-        print_estimate(&designs->list[next], out);
-        last = designs->list[next].x[k];
-    }
-    bool edge = designs->list[best].x[k] == key->least || designs->list[best].x[k] == key->most;
-    fprintf(out, "%s\n", edge ? "; the best is at the edge of the range: look beyond" : "");
-}
-
 static void print_answer(const Search *search, const OptimiseSummary *summary, int32_t best,
                          FILE *out)
 {
@@ -163,8 +142,26 @@ static void print_answer(const Search *search, const OptimiseSummary *summary, i
             fprintf(out, " +- %.1f %%\n", 100 * error);
     }
     print_open(search, best, out);
-    for (int32_t k = 0; k < search->study->search.key_count; k++)
-        print_section(search, best, k, out);
+
+    // The designs that differ from the best in one key alone.
+    for (int32_t k = 0; k < search->study->search.key_count; k++) {
+        const SearchKey *key = &search->study->search.keys[k];
+        double last = -INFINITY;
+        fprintf(out, "  along %s:", key->key);
+        for (;;) {   // by value: the next larger one each time
+            int32_t next = -1;
+            for (int32_t d = 0; d < designs->count; d++)
+                if (is_on_section(search, best, k, d) && designs->list[d].x[k] > last &&
+                    (next < 0 || designs->list[d].x[k] < designs->list[next].x[k]))
+                    next = d;
+            if (next < 0) break;
+            fprintf(out, "%s %.4g: ", isinf(last) ? "" : ",", designs->list[next].x[k]);
+            print_estimate(&designs->list[next], out);
+            last = designs->list[next].x[k];
+        }
+        bool edge = designs->list[best].x[k] == key->least || designs->list[best].x[k] == key->most;
+        fprintf(out, "%s\n", edge ? "; the best is at the edge of the range: look beyond" : "");
+    }
     search_print_exhausted(search, out);
     if (search->refused > 0)
         fprintf(out, "  %d more have no scene, the first: %s\n", search->refused,
