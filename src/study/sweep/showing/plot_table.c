@@ -87,22 +87,6 @@ void plot_table_close(PlotTable *table)
 
 // --- columns ------------------------------------------------------------------------------------
 
-static void refuse_name(PlotTable *table, const char *name, Error *err)
-{
-    WordList known = {0};
-    char hint[TEXT_HINT_SIZE];
-    if (!read_words(table, "columns", &known, err)) return;
-    char *all = words_join(&known, err);
-    for (char *at = all; at && *at; at++)
-        if (*at == '|') *at = ' ';
-    const char *near = text_hint(name, (const char *const *)known.words, known.count, NULL, hint);
-    if (all)
-        error_set(err, ERROR_INPUT, __FILE__, __LINE__, "%s has no column `%.60s`%s%s", table->path,
-                  name, near ? near : "; it has: ", near ? "" : all);
-    memory_free(all);
-    words_destroy(&known);
-}
-
 static bool read_column(PlotTable *table, const char *name, Quantity *column, Error *err)
 {
     char place[STUDY_NAME_SIZE + 32];
@@ -118,7 +102,19 @@ static bool read_column(PlotTable *table, const char *name, Quantity *column, Er
     snprintf(place, sizeof place, "result/%.95s", name);
     if (!read_values(table, place, &column->values, err)) return false;
     if (!column->values) {
-        refuse_name(table, name, err);
+        WordList known = {0};
+        char hint[TEXT_HINT_SIZE];
+        if (!read_words(table, "columns", &known, err)) return false;
+        char *all = words_join(&known, err);
+        for (char *at = all; at && *at; at++)
+            if (*at == '|') *at = ' ';
+        const char *near =
+            text_hint(name, (const char *const *)known.words, known.count, NULL, hint);
+        if (all)
+            error_set(err, ERROR_INPUT, __FILE__, __LINE__, "%s has no column `%.60s`%s%s",
+                      table->path, name, near ? near : "; it has: ", near ? "" : all);
+        memory_free(all);
+        words_destroy(&known);
         return false;
     }
     column->label = label_of_record(name);
@@ -166,34 +162,6 @@ static bool value_of(const void *context, const char *name, double *value)
     return true;
 }
 
-// "~{P}_{ext} · ~{L}": columns by their symbols.
-static void formula_label(const char *text, bool is_si, char *words, size_t size)
-{
-    size_t used = 0;
-    while (*text == ' ') text++;
-    while (*text && used + QUANTITY_LABEL_SIZE / 2 < size) {
-        char name[STUDY_NAME_SIZE];
-        size_t length = 0;
-        bool begins = isalpha((unsigned char)*text);
-        while (begins && length + 1 < sizeof name &&
-               (isalnum((unsigned char)text[length]) || strchr("._", text[length])))
-            length++;
-        if (length > 0) {
-            snprintf(name, sizeof name, "%.*s", (int)length, text);
-            QuantityLabel record = label_of_record(name);
-            if (strchr(name, '.')) label_symbol(name, record.words, sizeof record.words);
-            used += (size_t)snprintf(words + used, size - used, "%.40s", record.words);
-            text += length;
-        } else {
-            const char one[2] = {*text, 0};
-            used +=
-                (size_t)snprintf(words + used, size - used, "%s", *text == '*' ? "\u00b7" : one);
-            text++;
-        }
-    }
-    snprintf(words + used, size - used, " (%s)", is_si ? "SI" : "normalised");
-}
-
 static bool value_at(const char *text, FormulaPoint *at, double *value, Error *err)
 {
     FormulaNames names = {.look_up = value_of, .context = at, .unknown = "is no column"};
@@ -236,7 +204,32 @@ static bool work_out(PlotTable *table, const char *text, Quantity *made, Error *
         }
         made->errors[k] = sqrt(square);
     }
-    formula_label(text, table->is_si, made->label.words, sizeof made->label.words);
+
+    // Its label, "~{P}_{ext} · ~{L}": columns by their symbols.
+    char *words = made->label.words;
+    size_t written = 0, size = sizeof made->label.words;
+    while (*text == ' ') text++;
+    while (*text && written + QUANTITY_LABEL_SIZE / 2 < size) {
+        char name[STUDY_NAME_SIZE];
+        size_t length = 0;
+        bool begins = isalpha((unsigned char)*text);
+        while (begins && length + 1 < sizeof name &&
+               (isalnum((unsigned char)text[length]) || strchr("._", text[length])))
+            length++;
+        if (length > 0) {
+            snprintf(name, sizeof name, "%.*s", (int)length, text);
+            QuantityLabel record = label_of_record(name);
+            if (strchr(name, '.')) label_symbol(name, record.words, sizeof record.words);
+            written += (size_t)snprintf(words + written, size - written, "%.40s", record.words);
+            text += length;
+        } else {
+            const char one[2] = {*text, 0};
+            written += (size_t)snprintf(words + written, size - written, "%s",
+                                        *text == '*' ? "\u00b7" : one);
+            text++;
+        }
+    }
+    snprintf(words + written, size - written, " (%s)", table->is_si ? "SI" : "normalised");
     return error_is_clean(err);
 }
 

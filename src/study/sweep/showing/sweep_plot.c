@@ -146,17 +146,6 @@ static bool folder_of(const char *beside, const char *given, char folder[AMONTON
            REFUSE(err, "plot: the path %.60s is too long", given);
 }
 
-// The title of its study; where another sweep has the same, its folder.
-static const char *sweep_name(const PlotFigure *self, const Source *source)
-{
-    for (int32_t k = 0; k < self->source_count; k++) {
-        const PlotTable *other = &self->sources[k].table;
-        if (other != &source->table && strcmp(other->title, source->table.title) == 0)
-            return source->table.name;
-    }
-    return source->table.title;
-}
-
 // The sweep's name, where it is needed, and the value of the key that tells panels or curves apart.
 static void value_label(const PlotFigure *self, const Source *source, PlotKey key, int32_t which,
                         char label[GROUP_LABEL_SIZE])
@@ -165,8 +154,16 @@ static void value_label(const PlotFigure *self, const Source *source, PlotKey ke
     bool names_sweep = self->source_count > 1 && (self->is_map || key == PLOT_SERIES);
     values_label(key == PLOT_SERIES ? &source->series : &source->panels, which,
                  self->plot->text[key], value);
-    snprintf(label, GROUP_LABEL_SIZE, "%.40s%s%.50s", names_sweep ? sweep_name(self, source) : "",
-             names_sweep && value[0] ? ", " : "", value);
+
+    // A sweep has the title of its study; where another sweep has the same, the name of its folder.
+    const char *name = names_sweep ? source->table.title : "";
+    for (int32_t k = 0; names_sweep && k < self->source_count; k++) {
+        const PlotTable *other = &self->sources[k].table;
+        if (other != &source->table && strcmp(other->title, source->table.title) == 0)
+            name = source->table.name;
+    }
+    snprintf(label, GROUP_LABEL_SIZE, "%.40s%s%.50s", name, names_sweep && value[0] ? ", " : "",
+             value);
 }
 
 static bool open_sources(PlotFigure *self, const char *folder, const char *beside, Error *err)
@@ -366,23 +363,6 @@ static bool write_maps(PlotFigure *self, const char *panel, Error *err)
     return true;
 }
 
-static bool write_map_entries(PlotFigure *self, Error *err)
-{
-    const Quantity *const *quantity = self->sources[0].quantity;
-    char label[QUANTITY_LABEL_SIZE + 40];
-    if (quantity[PLOT_CONTOURS]) {
-        bool many = self->sources[0].table.count / self->panels.count > MAP_MANY;
-        snprintf(label, sizeof label, many ? "%s, medians of %d x %d points" : "%s",
-                 quantity[PLOT_CONTOURS]->label.words, MAP_MEDIANS, MAP_MEDIANS);
-        Curve line = {.label = label, .line = "solid"};
-        if (!figure_write_entry(&self->figure, &line, err)) return false;
-    }
-    bool formula = strchr(self->plot->text[PLOT_COLOR], '=') != NULL;
-    snprintf(label, sizeof label, "no %s", formula ? "value" : quantity[PLOT_COLOR]->label.words);
-    Curve missing = {.label = label, .line = "none", .marker = "cross"};
-    return !self->some_missing || figure_write_entry(&self->figure, &missing, err);
-}
-
 // --- the whole ----------------------------------------------------------------------------------
 
 // Standard deviation over mean of the differences of [count] rising values, or of the logarithms of
@@ -419,16 +399,17 @@ static bool values_suit_log(const double *values, int32_t count, bool *suits, Er
     return true;
 }
 
-static bool write_axes(PlotFigure *self, Error *err)
+static bool write_figure(PlotFigure *self, Error *err)
 {
+    JsonWriter *json = NULL;
     const StudyPlot *plot = self->plot;
     const Source *source = &self->sources[0];
-    bool is_log[2] = {plot->log_x, plot->log_y};
+    bool has_panels = self->panels.count > 1, is_log[2] = {plot->log_x, plot->log_y};
+    TRY(figure_begin(&self->figure, err));
     for (PlotKey key = PLOT_X; key <= PLOT_Y; key++) {
         const Quantity *quantity = source->quantity[key];
-        if (self->is_map && !plot->log_given &&
-            !values_suit_log(quantity->values, source->table.count, &is_log[key], err))
-            return false;
+        if (self->is_map && !plot->log_given)
+            TRY(values_suit_log(quantity->values, source->table.count, &is_log[key], err));
         QuantityLabel label = quantity->label;
         const char *equals = strchr(plot->text[key], '=');
         label.column = equals ? equals + strspn(equals, "= ") : plot->text[key];
@@ -439,15 +420,8 @@ static bool write_axes(PlotFigure *self, Error *err)
         figure_write_axis(&self->figure, "color", &source->quantity[PLOT_COLOR]->label, NULL);
     if (source->quantity[PLOT_CONTOURS])
         figure_write_axis(&self->figure, "contours", &source->quantity[PLOT_CONTOURS]->label, NULL);
-    return true;
-}
 
-static bool write_figure(PlotFigure *self, Error *err)
-{
-    JsonWriter *json = NULL;
-    bool has_panels = self->panels.count > 1;
-    TRY(figure_begin(&self->figure, err));
-    TRY(write_axes(self, err));
+    // Panels, each with its map or its curves.
     json = self->figure.json;
     if (has_panels) json_begin_list(json, "panels");
     for (int32_t k = 0; has_panels && k < self->panels.count; k++) {
@@ -468,17 +442,31 @@ static bool write_figure(PlotFigure *self, Error *err)
 
     // Curves without panels; with panels the entries of the legend, once for all of them.
     json_begin_list(json, "series");
-    if (self->is_map)
-        TRY(write_map_entries(self, err));
-    else if (!has_panels)
-        TRY(write_curves(self, self->panels.words[0], true, err));
+    if (!self->is_map && !has_panels) TRY(write_curves(self, self->panels.words[0], true, err));
     for (int32_t s = 0; !self->is_map && has_panels && s < self->source_count; s++)
         for (int32_t k = 0; k < self->sources[s].series.count; k++) {
-            char label[GROUP_LABEL_SIZE];
-            value_label(self, &self->sources[s], PLOT_SERIES, k, label);
-            Curve curve = curve_style(self, s, k, label);
-            if (label[0]) TRY(figure_write_entry(&self->figure, &curve, err));
+            char name[GROUP_LABEL_SIZE];
+            value_label(self, &self->sources[s], PLOT_SERIES, k, name);
+            Curve curve = curve_style(self, s, k, name);
+            if (name[0]) TRY(figure_write_entry(&self->figure, &curve, err));
         }
+
+    // The legend of a map: its contours, and points that have no value.
+    char label[QUANTITY_LABEL_SIZE + 40];
+    const Quantity *color = source->quantity[PLOT_COLOR], *lines = source->quantity[PLOT_CONTOURS];
+    if (self->is_map && lines) {
+        bool many = source->table.count / self->panels.count > MAP_MANY;
+        snprintf(label, sizeof label, many ? "%s, medians of %d x %d points" : "%s",
+                 lines->label.words, MAP_MEDIANS, MAP_MEDIANS);
+        Curve line = {.label = label, .line = "solid"};
+        TRY(figure_write_entry(&self->figure, &line, err));
+    }
+    if (self->is_map && self->some_missing) {
+        bool formula = strchr(plot->text[PLOT_COLOR], '=') != NULL;
+        snprintf(label, sizeof label, "no %s", formula ? "value" : color->label.words);
+        Curve missing = {.label = label, .line = "none", .marker = "cross"};
+        TRY(figure_write_entry(&self->figure, &missing, err));
+    }
     TRY(figure_write_doubts(&self->figure, &self->doubts, self->found, self->is_map, err));
     json_end(json);
 cleanup:
