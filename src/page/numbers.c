@@ -95,32 +95,32 @@ double run_known_to(const RunSource *run, const char *path, double *bar)
     return known_to;
 }
 
-static void write_cell(HtmlWriter *html, const RunSource *run, const NumberRow *row)
-{
-    if (row->kind == NUMBER_EVENTS) {
-        html_markup(html, "<td class='number' data-events='%s'>%d</td>", row->path,
-                    run_events(run, row->path));
-        return;
-    }
-    double value = run_number(run, row->path), bar = NAN;
-    html_markup(html, "<td class='number' data-path='%s'>", row->path);
-    if (row->kind != NUMBER_PLAIN) {
-        double known_to = run_known_to(run, row->path, &bar);
-        estimate_write(html, value, bar, row->kind == NUMBER_LENGTH ? LENGTH_KNOWN_TO : known_to);
-    } else if (isfinite(value)) {
-        html_number(html, value, fabs(value) >= 1 && value == floor(value) ? 12 : 3);
-    } else {
-        html_markup(html, "none");
-    }
-    html_markup(html, "</td>");
-}
-
 static void write_rows(HtmlWriter *html, const NumberRow *rows, size_t row_count,
                        const RunSource *runs, int32_t count)
 {
     for (size_t r = 0; r < row_count; ++r) {
         html_markup(html, "<tr><th scope='row'>%s</th>", rows[r].label);
-        for (int32_t k = 0; k < count; ++k) write_cell(html, &runs[k], &rows[r]);
+        for (int32_t k = 0; k < count; ++k) {
+            const RunSource *run = &runs[k];
+            const NumberRow *row = &rows[r];
+            if (row->kind == NUMBER_EVENTS) {
+                html_markup(html, "<td class='number' data-events='%s'>%d</td>", row->path,
+                            run_events(run, row->path));
+                continue;
+            }
+            double value = run_number(run, row->path), bar = NAN;
+            html_markup(html, "<td class='number' data-path='%s'>", row->path);
+            if (row->kind != NUMBER_PLAIN) {
+                double known_to = run_known_to(run, row->path, &bar);
+                estimate_write(html, value, bar,
+                               row->kind == NUMBER_LENGTH ? LENGTH_KNOWN_TO : known_to);
+            } else if (isfinite(value)) {
+                html_number(html, value, fabs(value) >= 1 && value == floor(value) ? 12 : 3);
+            } else {
+                html_markup(html, "none");
+            }
+            html_markup(html, "</td>");
+        }
         html_markup(html, "<td class='meaning'>%s</td></tr>\n", rows[r].meaning);
     }
 }
