@@ -209,39 +209,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// The first peak is kept apart: it starts from u_0, as in theory; later ones from the stress that
-// sliding left.
-static void summarise_steps(Model1dSimulation *simulation, Model1dSummary *summary)
-{
-    const StepCounters *steps = &simulation->control.counters;
-    const Drops *drops = &simulation->drops;
-    Answers answers = answers_of(drops);
-    double length = simulation->model.length;
-    summary->simulated = true;
-    for (int32_t k = drops->count - 1; k >= 0; k--) {
-        if (!drops->list[k].bulk) continue;
-        Drop peak = drops_as(drops, DROP_BULK, k);
-        summary->first_mu = peak.mu;
-        summary->first_l_sc = peak.front_uncertified / length;
-        summary->first_l_c = peak.critical_length / length;
-    }
-    summary->mu_M = answers.mu_M.value;
-    summary->mu_M_spread = answers.mu_M_spread;
-    summary->l_sc_seen = answers.subcritical_length / length;
-    summary->l_c_seen = answers.critical_length / length;
-    summary->period = answers.period;
-    summary->peaks = answers.peaks;
-    summary->peaks_counted = answers.peaks_counted;
-    summary->bounded = simulation->events.kinds[EVENT_BOUNDED];
-    summary->leading = simulation->events.kinds[EVENT_LEADING];
-    summary->quasi_static_error = simulation->quasi_static_error;
-    summary->energy_error = simulation->energy_error;
-    summary->contact_error = simulation->contact_error;
-    summary->accepted = steps->accepted;
-    summary->rejected = steps->rejected_error + steps->rejected_energy +
-                        steps->rejected_uncertified + steps->unsolved;
-}
-
 // Theory always, steps unless options say otherwise; results last, so that a failed simulation
 // leaves none.
 bool amontons_model1d(const Scene *scene, const Model1dOptions *options, Model1dSummary *summary,
@@ -266,7 +233,36 @@ bool amontons_model1d(const Scene *scene, const Model1dOptions *options, Model1d
     TRY(find_theory(&simulation, summary, err));
     if (!options->theory_only) {
         TRY(model1d_simulate(&simulation, err));
-        summarise_steps(&simulation, summary);
+        const StepCounters *steps = &simulation.control.counters;
+
+        // The first peak is kept apart: it starts from u_0, as in theory; later ones from the
+        // stress that sliding left.
+        const Drops *drops = &simulation.drops;
+        Answers answers = answers_of(drops);
+        double length = simulation.model.length;
+        summary->simulated = true;
+        for (int32_t k = drops->count - 1; k >= 0; k--) {
+            if (!drops->list[k].bulk) continue;
+            Drop peak = drops_as(drops, DROP_BULK, k);
+            summary->first_mu = peak.mu;
+            summary->first_l_sc = peak.front_uncertified / length;
+            summary->first_l_c = peak.critical_length / length;
+        }
+        summary->mu_M = answers.mu_M.value;
+        summary->mu_M_spread = answers.mu_M_spread;
+        summary->l_sc_seen = answers.subcritical_length / length;
+        summary->l_c_seen = answers.critical_length / length;
+        summary->period = answers.period;
+        summary->peaks = answers.peaks;
+        summary->peaks_counted = answers.peaks_counted;
+        summary->bounded = simulation.events.kinds[EVENT_BOUNDED];
+        summary->leading = simulation.events.kinds[EVENT_LEADING];
+        summary->quasi_static_error = simulation.quasi_static_error;
+        summary->energy_error = simulation.energy_error;
+        summary->contact_error = simulation.contact_error;
+        summary->accepted = steps->accepted;
+        summary->rejected = steps->rejected_error + steps->rejected_energy +
+                            steps->rejected_uncertified + steps->unsolved;
     }
     summary->seconds = clock_seconds() - started;
     if (options->folder) {

@@ -110,30 +110,6 @@ static bool add_place(Fit *fit, const double *place, Error *err)
     return search_add(&fit->search, x, &added, err);
 }
 
-// Designs at the best place and at the ends of the regions, where polynomials would be guesses.
-static bool refine_regions(Fit *fit, Error *err)
-{
-    bool stays = false;
-    fit->widened = 1;
-    for (int32_t round = 0; round <= ROUNDS_MAX; round++) {
-        int32_t first = fit->search.designs.count;
-        if (!find_best(fit, err)) return false;
-        fit_find_regions(fit, &stays);
-        if ((stays && round > 0) || round == ROUNDS_MAX) break;
-        for (int32_t k = 0; k < fit->response.keys; k++)
-            fit->search.designs.near[k] = NEAR_IN_REGION *
-                                          (fit->regions[k].high - fit->regions[k].low);
-        if (!add_place(fit, fit->best, err)) return false;
-        for (int32_t k = 0; k < fit->response.keys; k++) {
-            if (!add_place(fit, fit->regions[k].low_place, err)) return false;
-            if (!add_place(fit, fit->regions[k].high_place, err)) return false;
-        }
-        if (fit->search.designs.count == first) break;
-        if (!search_compute_from(&fit->search, first, err)) return false;
-    }
-    return true;
-}
-
 // --- the whole ----------------------------------------------------------------------------------
 
 bool amontons_fit(const char *path, const SweepOptions *options, FitSummary *summary, Error *err)
@@ -160,9 +136,27 @@ bool amontons_fit(const char *path, const SweepOptions *options, FitSummary *sum
     TRY(fit->own = NEW_ARRAY(double, (int64_t)DESIGNS_MAX *data, err));
     search->planned += search->designs.conditions * 2 * (1 + 2 * keys->key_count);
 
-    // Designs, and then the regions of the keys.
     TRY(search_designs(search, keys->designs, err));
-    TRY(refine_regions(fit, err));
+
+    // The regions of the keys, with designs at the best place and at the ends of the regions, where
+    // polynomials would be guesses.
+    bool stays = false;
+    fit->widened = 1;
+    for (int32_t round = 0; round <= ROUNDS_MAX; round++) {
+        int32_t first = search->designs.count;
+        TRY(find_best(fit, err));
+        fit_find_regions(fit, &stays);
+        if ((stays && round > 0) || round == ROUNDS_MAX) break;
+        for (int32_t k = 0; k < fit->response.keys; k++)
+            search->designs.near[k] = NEAR_IN_REGION * (fit->regions[k].high - fit->regions[k].low);
+        TRY(add_place(fit, fit->best, err));
+        for (int32_t k = 0; k < fit->response.keys; k++) {
+            TRY(add_place(fit, fit->regions[k].low_place, err));
+            TRY(add_place(fit, fit->regions[k].high_place, err));
+        }
+        if (search->designs.count == first) break;
+        TRY(search_compute_from(search, first, err));
+    }
 
     *summary = (FitSummary){.parameter_count = fit->response.keys,
                             .measurements = data,

@@ -146,34 +146,6 @@ static void print_answer(const Fit *fit, const FitSummary *summary, FILE *out)
             words, fit->search.options->folder);
 }
 
-// --- fit.csv ------------------------------------------------------------------------------------
-
-static bool write_table(const Fit *fit, Error *err)
-{
-    static const char *const names[] = {"condition", "name",  "along",     "at", "measured",
-                                        "error",     "found", "own_error", "off"};
-    char path[POINT_PATH_SIZE];
-    snprintf(path, sizeof path, "%s/fit.csv", fit->search.options->folder);
-    CsvWriter *csv = csv_create(path, err);
-    if (!csv) return false;
-    for (size_t k = 0; k < sizeof names / sizeof *names; k++) csv_text(csv, names[k]);
-    csv_end_row(csv);
-    for (int32_t k = 0; k < fit->measured.count; k++) {
-        const Datum *datum = &fit->measured.list[k];
-        csv_text(csv, fit->measured.conditions[datum->condition]);
-        csv_text(csv, datum->name);
-        csv_text(csv, datum->along);
-        csv_number(csv, *datum->along ? datum->at : (double)NAN);
-        csv_number(csv, datum->value);
-        csv_number(csv, datum->error);
-        csv_number(csv, response_at(&fit->response, k, fit->best));
-        csv_number(csv, fit->response.own[k]);
-        csv_number(csv, fit_errors_off(fit, k));
-        csv_end_row(csv);
-    }
-    return csv_finish(csv, err);
-}
-
 // --- profiles -----------------------------------------------------------------------------------
 
 static bool draw_profile(const Fit *fit, int32_t k, Error *err)
@@ -451,7 +423,33 @@ bool fit_report(const Fit *fit, const FitSummary *summary, Error *err)
     SearchAnswer answer;
     if (!search_answer_begin(&answer, err)) return false;
     print_answer(fit, summary, answer.out);
-    if (!search_answer_end(&fit->search, &answer, err) || !write_table(fit, err)) return false;
+    if (!search_answer_end(&fit->search, &answer, err)) return false;
+
+    // fit.csv: each measurement, and what was found.
+    static const char *const names[] = {"condition", "name",  "along",     "at", "measured",
+                                        "error",     "found", "own_error", "off"};
+    char path[POINT_PATH_SIZE];
+    snprintf(path, sizeof path, "%s/fit.csv", fit->search.options->folder);
+    CsvWriter *csv = csv_create(path, err);
+    if (!csv) return false;
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++) csv_text(csv, names[k]);
+    csv_end_row(csv);
+    for (int32_t k = 0; k < fit->measured.count; k++) {
+        const Datum *datum = &fit->measured.list[k];
+        csv_text(csv, fit->measured.conditions[datum->condition]);
+        csv_text(csv, datum->name);
+        csv_text(csv, datum->along);
+        csv_number(csv, *datum->along ? datum->at : (double)NAN);
+        csv_number(csv, datum->value);
+        csv_number(csv, datum->error);
+        csv_number(csv, response_at(&fit->response, k, fit->best));
+        csv_number(csv, fit->response.own[k]);
+        csv_number(csv, fit_errors_off(fit, k));
+        csv_end_row(csv);
+    }
+    if (!csv_finish(csv, err)) return false;
+
+    // Figures.
     if (!draw_measured(fit, err) || !draw_fitted(fit, err)) return false;
     for (int32_t k = 0; k < n; k++)
         if (!draw_profile(fit, k, err)) return false;

@@ -226,42 +226,6 @@ static bool read_number(const Table *table, int32_t row, int32_t column, double 
     return true;
 }
 
-static bool read_row(Measurements *measured, const Table *table, int32_t row, Error *err)
-{
-    Datum datum = {0};
-    int32_t along = -1;
-    if (!find_condition(measured, table, row, &datum.condition, err)) return false;
-    for (int32_t k = 0; k < table->csv.columns; k++)
-        if (table->columns[k].kind == COLUMN_ALONG) along = k;
-    if (along >= 0 && !read_number(table, row, along, &datum.at, err)) return false;
-    for (int32_t k = 0; k < table->csv.columns; k++) {
-        const char *name = table->columns[k].name;
-        if (table->columns[k].kind != COLUMN_RESULT || !*csv_cell(&table->csv, row, k)) continue;
-        snprintf(datum.name, sizeof datum.name, "%s", name);
-        snprintf(datum.along, sizeof datum.along, "%s",
-                 is_curve(table, name) ? table->columns[along].name : "");
-        if (!read_number(table, row, k, &datum.value, err)) return false;
-        if (!read_number(table, row, table->columns[k].error, &datum.error, err)) return false;
-        if (!(datum.error > 0))
-            return csv_refuse(&table->csv, row, table->columns[k].error, err,
-                              "`%.40s`: an error is above 0",
-                              csv_cell(&table->csv, row, table->columns[k].error));
-        if (fabs(datum.value) > LARGEST || datum.error > LARGEST)
-            return csv_refuse(&table->csv, row, k, err,
-                              "%g with an error of %g; allowed: at most %g", datum.value,
-                              datum.error, LARGEST);
-        if (datum.error < SMALLEST || datum.error < DIGITS * fabs(datum.value))
-            return csv_refuse(&table->csv, row, table->columns[k].error, err,
-                              "%g beside %s = %g: nothing is measured to so many digits",
-                              datum.error, name, datum.value);
-        if (!memory_grow(&measured->list, measured->count, &measured->room, sizeof *measured->list,
-                         err))
-            return false;
-        measured->list[measured->count++] = datum;
-    }
-    return true;
-}
-
 static bool read_named(const Study *study, YamlNode node, Measurements *measured, Error *err)
 {
     char path[2 * SCENE_TEXT_SIZE];
@@ -272,7 +236,40 @@ static bool read_named(const Study *study, YamlNode node, Measurements *measured
     Table table = {.path = path};
     TRY(csv_read(path, &table.csv, err));
     TRY(read_columns(&table, err));
-    for (int32_t row = 0; row < table.csv.rows; row++) TRY(read_row(measured, &table, row, err));
+    int32_t along = -1;
+    for (int32_t k = 0; k < table.csv.columns; k++)
+        if (table.columns[k].kind == COLUMN_ALONG) along = k;
+
+    // Rows: a datum for each result that is there.
+    const CsvTable *csv = &table.csv;
+    for (int32_t row = 0; row < csv->rows; row++) {
+        Datum datum = {0};
+        TRY(find_condition(measured, &table, row, &datum.condition, err));
+        if (along >= 0) TRY(read_number(&table, row, along, &datum.at, err));
+        for (int32_t k = 0; k < csv->columns; k++) {
+            const char *name = table.columns[k].name;
+            int32_t beside = table.columns[k].error;
+            if (table.columns[k].kind != COLUMN_RESULT || !*csv_cell(csv, row, k)) continue;
+            snprintf(datum.name, sizeof datum.name, "%s", name);
+            snprintf(datum.along, sizeof datum.along, "%s",
+                     is_curve(&table, name) ? table.columns[along].name : "");
+            TRY(read_number(&table, row, k, &datum.value, err));
+            TRY(read_number(&table, row, beside, &datum.error, err));
+            if (!(datum.error > 0))
+                TRY(csv_refuse(csv, row, beside, err, "`%.40s`: an error is above 0",
+                               csv_cell(csv, row, beside)));
+            if (fabs(datum.value) > LARGEST || datum.error > LARGEST)
+                TRY(csv_refuse(csv, row, k, err, "%g with an error of %g; allowed: at most %g",
+                               datum.value, datum.error, LARGEST));
+            if (datum.error < SMALLEST || datum.error < DIGITS * fabs(datum.value))
+                TRY(csv_refuse(csv, row, beside, err,
+                               "%g beside %s = %g: nothing is measured to so many digits",
+                               datum.error, name, datum.value));
+            TRY(memory_grow(&measured->list, measured->count, &measured->room,
+                            sizeof *measured->list, err));
+            measured->list[measured->count++] = datum;
+        }
+    }
 cleanup:
     memory_free(table.columns);
     csv_destroy(&table.csv);

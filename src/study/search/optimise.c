@@ -173,12 +173,6 @@ static void set_aim(Search *search, int32_t aim)
     for (int32_t d = 0; d < search->designs.count; d++) designs_judge(&search->designs, d);
 }
 
-// Number of parts of the search: a front has one for the mean of its aims and one for each aim.
-static int32_t count_parts(const Search *search)
-{
-    return has_front(search) ? 1 + search->designs.aims : PARTS;
-}
-
 // --- the whole ----------------------------------------------------------------------------------
 
 bool amontons_optimise(const char *path, const SweepOptions *options, OptimiseSummary *summary,
@@ -202,7 +196,9 @@ bool amontons_optimise(const char *path, const SweepOptions *options, OptimiseSu
     search->judge = (SearchJudge){take_value, judge_design, NULL};
     TRY(search_begin(search, 0, NULL, err));
     Designs *designs = &search->designs;
-    int32_t chosen = 0, wanted = keys->designs, parts = count_parts(search);
+    int32_t chosen = 0, wanted = keys->designs;
+    // A front has a part for the mean of its aims and one for each aim.
+    int32_t parts = has_front(search) ? 1 + designs->aims : PARTS;
     search->planned += designs->conditions * parts * (SECTION_POINTS - 1) * keys->key_count;
 
     // Parts of the search, and between them designs along the keys through the best.
