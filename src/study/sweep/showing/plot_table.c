@@ -217,7 +217,7 @@ const Quantity *plot_table_find(PlotTable *table, const char *text, Quantity *ma
         size_t length = 0;
         bool begins = isalpha((unsigned char)*at);
         while (begins && length + 1 < sizeof name &&
-               (isalnum((unsigned char)at[length]) || strchr("._", at[length])))
+               (isalnum((unsigned char)at[length]) || at[length] == '.' || at[length] == '_'))
             length++;
         if (length > 0) {
             snprintf(name, sizeof name, "%.*s", (int)length, at);
