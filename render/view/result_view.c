@@ -266,7 +266,7 @@ bool result_view_open(const char *folder, ResultView *view, Error *err)
         FAIL(err, ERROR_FILE, "%d contact nodes with %d pad numbers", view->nodes, pads);
     view->all_nodes = view->nodes;
 
-    // Of a block in space x and pads become those of the line; ascending x, as the nodes are.
+    // In space x and pads become those of the line; ascending x, as the nodes are.
     int32_t all = view->nodes, marks = 0;
     if (result_file_has_nodes(view->file, NODES_LINE)) {
         TRY(result_file_read_nodes(view->file, NODES_LINE, &of_line, &marks, err));

@@ -87,7 +87,7 @@ int command_run(const Command *command, int argc, char **argv)
     int status = scene_words_read(command, own, argc, argv, &words);
     if (status != 0) return status;
 
-    // What the options may say.
+    // Options that contradict each other or make no sense are refused.
     if (settings->count + 3 > OPTION_WORDS_MAX) return report_misuse("too many --set");
     if (checkpoint && !(seconds_of(checkpoint) > 0))
         return report_misuse("--checkpoint: found `%.40s`; allowed: a time such as 30s or 5min",

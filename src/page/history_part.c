@@ -202,8 +202,8 @@ void film_find(PageSource *source)
     if (count >= 0) free(entries);
 }
 
-// The page may be sent to somebody: of a stranger's result nothing goes into it but a film that lies
-// there, no file of ours that a link of that name leads to.
+// The page may be sent to somebody: of a stranger's result nothing goes into it but a film that
+// lies there, no file of ours that a link of that name leads to.
 bool film_write(HtmlWriter *html, PageSource *source, Error *err)
 {
     const char *name = source->film;

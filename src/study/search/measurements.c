@@ -126,7 +126,7 @@ static bool read_columns(Table *table, Error *err)
         if (unit.length == 0) error->factor = column->factor;
     }
 
-    // What each column is, and whether that makes a table.
+    // The kind of each column, and whether all of them make a table.
     for (int32_t k = 0; k < csv->columns; k++) {
         Column *column = &table->columns[k];
         const char *name = column->name;

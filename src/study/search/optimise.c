@@ -183,7 +183,7 @@ bool amontons_optimise(const char *path, const SweepOptions *options, OptimiseSu
     Search *search = NEW_ARRAY(Search, 1, err);
     TRY(search);
 
-    // What is best, and over which points.
+    // The study must say which design is best.
     TRY(search_open(search, path, options, false, err));
     const StudyRank *rank = &search->study->rank;
     const StudySearch *keys = &search->study->search;

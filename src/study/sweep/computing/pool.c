@@ -51,7 +51,7 @@ typedef struct Pool {
     int32_t next, step;   // point to look at for the next child; to the one behind it
 } Pool;
 
-// What streams hold is written before the fork: the child has a copy of them.
+// Streams are flushed before the fork, as the child has a copy of them.
 static bool start_child(Pool *pool, PoolChild *child, Error *err)
 {
     int ends[2] = {-1, -1};
