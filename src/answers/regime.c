@@ -110,12 +110,12 @@ Regime regime_of(const Drops *drops)
             int32_t looked_back = count - 1;
             int32_t round = regime.period > 0 ? regime.period : 1;
             for (int32_t half = looked_back; half > round; looked_back = half) {
-                SeriesTrend all = trend_of_last(last, looked_back, &regime);
-                if (!series_trend_stands_out(&all)) break;
+                SeriesTrend whole = trend_of_last(last, looked_back, &regime);
+                if (!series_trend_stands_out(&whole)) break;
                 half = (looked_back / 2 + round - 1) / round * round;
                 SeriesTrend later = trend_of_last(last, half, &regime);
                 double most = fabs(later.slope) + student(later.freedoms) * later.error;
-                if (!(most < fabs(all.slope))) break;
+                if (!(most < fabs(whole.slope))) break;
             }
             note_trend(drops, last, looked_back, &regime);
             if (looked_back < regime.count) regime.count = looked_back;
