@@ -181,7 +181,7 @@ bool picture_draw(const Picture *asked, const char *folder, const PictureRequest
     PageDef def = {
         .style = style, .title = page_title(style, view->title, false), .foot = foot_height(&foot)};
     FigureInput input = {view, folder, &request->field, def};
-    Page measured = {0};
+    Page coarse_page = {0};
 
     // A panel for each of several states, and the shapes of all panels.
     int32_t more = view->states - 1;
@@ -212,11 +212,12 @@ bool picture_draw(const Picture *asked, const char *folder, const PictureRequest
         def.height = page_shape(style, sum_shapes(&picture));
         PageDef scratch = def;
         scratch.style = &coarse;
-        TRY(page_begin(&measured, &scratch, err));
-        TRY(panels_draw(&measured, &picture, view, frame, err));
+        TRY(page_begin(&coarse_page, &scratch, err));
+        TRY(panels_draw(&coarse_page, &picture, view, frame, err));
         for (int32_t k = 0; k < picture.count; ++k) {
-            beside[0] = fmax(beside[0], frame[k].left / measured.point);
-            beside[1] = fmax(beside[1], (measured.room.right - frame[k].right) / measured.point);
+            beside[0] = fmax(beside[0], frame[k].left / coarse_page.point);
+            beside[1] =
+                fmax(beside[1], (coarse_page.room.right - frame[k].right) / coarse_page.point);
         }
         beside[0] += LETTER_ROOM;
         TRY(page_begin(page, &def, err));
@@ -231,7 +232,7 @@ bool picture_draw(const Picture *asked, const char *folder, const PictureRequest
     }
     foot_draw(page, &foot);
 cleanup:
-    page_destroy(&measured);
+    page_destroy(&coarse_page);
     error_context(err, "figure %s", figure ? figure->name : "panels");
     return error_is_clean(err);
 }
