@@ -48,16 +48,6 @@ static double torque(const ResultView *view, const Friction *friction, int64_t r
     return sum;
 }
 
-// How much slipped from the trailing end on at one moment, at most, behind row `first` up to
-// `last`.
-static double longest_front(const ResultView *view, int64_t first, int64_t last)
-{
-    double longest = 0;
-    for (int64_t row = first + 1; row <= last && row < view->rows; ++row)
-        longest = fmax(longest, view->front[row] - result_view_trailing_end(view));
-    return longest;
-}
-
 static bool read_vectors(ResultView *view, Friction *friction, ResultSeries series, double **values,
                          Error *err)
 {
@@ -79,8 +69,24 @@ static bool read_nodes(const ResultView *view, ResultNodes nodes, double **value
             FAULT(err, ERROR_FILE, "%d values at %d contact nodes", count, view->all_nodes));
 }
 
-static void name_columns(CsvWriter *csv, const ResultView *view, bool whole)
+bool events_table_write(const char *path, ResultView *view, Error *err)
 {
+    Friction friction = {0};
+    double *peak = NULL, thickness = view->number[NUMBER_THICKNESS];
+    int32_t peaks = 0, cycle = 1;
+    bool whole = view->line || thickness > 0;
+    double times = !view->line && thickness > 0 ? thickness : 1;
+    double load = view->number[NUMBER_LOAD] * times;
+    CsvWriter *csv = NULL;
+    friction.nodes = view->all_nodes;
+    TRY(read_vectors(view, &friction, SERIES_SLIP, &friction.slip, err) &&
+        read_vectors(view, &friction, SERIES_SHEAR, &friction.shear, err) &&
+        result_view_read(view, SERIES_PRESSURE, true, &friction.pressure, err) &&
+        read_nodes(view, NODES_WEIGHT, &friction.weight, err) &&
+        read_nodes(view, NODES_X, &friction.x, err));
+    TRY(result_view_read_front(view, err));
+    TRY(result_file_read_table(view->file, EVENTS_PEAK_RATE, &peak, &peaks, err));
+    TRY(csv = csv_create(path, err));
     const char *force = whole ? "N" : "N/m", *energy = whole ? "J" : "J/m";
     const char *moment = whole ? "N m" : "N";
     csv_heading(csv, "cycle", NULL);
@@ -101,27 +107,6 @@ static void name_columns(CsvWriter *csv, const ResultView *view, bool whole)
     csv_heading(csv, "steps", NULL);
     csv_heading(csv, "resolved", NULL);
     csv_end_row(csv);
-}
-
-bool events_table_write(const char *path, ResultView *view, Error *err)
-{
-    Friction friction = {0};
-    double *peak = NULL, thickness = view->number[NUMBER_THICKNESS];
-    int32_t peaks = 0, cycle = 1;
-    bool whole = view->line || thickness > 0;
-    double times = !view->line && thickness > 0 ? thickness : 1;
-    double load = view->number[NUMBER_LOAD] * times;
-    CsvWriter *csv = NULL;
-    friction.nodes = view->all_nodes;
-    TRY(read_vectors(view, &friction, SERIES_SLIP, &friction.slip, err) &&
-        read_vectors(view, &friction, SERIES_SHEAR, &friction.shear, err) &&
-        result_view_read(view, SERIES_PRESSURE, true, &friction.pressure, err) &&
-        read_nodes(view, NODES_WEIGHT, &friction.weight, err) &&
-        read_nodes(view, NODES_X, &friction.x, err));
-    TRY(result_view_read_front(view, err));
-    TRY(result_file_read_table(view->file, EVENTS_PEAK_RATE, &peak, &peaks, err));
-    TRY(csv = csv_create(path, err));
-    name_columns(csv, view, whole);
     for (int32_t k = 0; k < view->event_count; ++k) {
         const ViewEvent *event = &view->events[k];
         bool sliding = event->kind == VIEW_LEADING;
@@ -129,6 +114,11 @@ bool events_table_write(const char *path, ResultView *view, Error *err)
         if (!isfinite(event->U_start + event->U_stop)) continue;
         int64_t first = 0, last = 0;   // the step before, and that of its end
         result_view_event_rows(view, event->U_start, event->U_stop, &first, &last);
+
+        // How much slipped from the trailing end on at one moment, at most.
+        double longest = 0;
+        for (int64_t row = first + 1; row <= last && row < view->rows; ++row)
+            longest = fmax(longest, view->front[row] - result_view_trailing_end(view));
         csv_number(csv, cycle);
         csv_text(csv, view_event_word(event));
         csv_rounded(csv, event->U_start);
@@ -138,7 +128,7 @@ bool events_table_write(const char *path, ResultView *view, Error *err)
         csv_rounded(csv, load * view->mu[first]);
         csv_rounded(csv, load * view->mu[last]);
         csv_rounded(csv, event->reach - result_view_trailing_end(view));
-        csv_rounded(csv, longest_front(view, first, last));
+        csv_rounded(csv, longest);
         csv_rounded(csv, k < peaks ? peak[k] : NAN);
         csv_rounded(csv, view->t[last] - view->t[first]);
         csv_rounded(csv, times * friction_work(&friction, first, last));

@@ -35,17 +35,6 @@ static bool is_among(const char *words, const char *word)
     return false;
 }
 
-static bool set_number(const PictureOption *option, const char *value, void *place, Error *err)
-{
-    char *end = NULL;
-    double number = strtod(value, &end);
-    if (!*value || *end || !(number >= option->low && number <= option->high))
-        return REFUSE(err, "%s %.40s: a number from %g to %g is allowed", option->name, value,
-                      option->low, option->high);
-    *(double *)place = number;
-    return true;
-}
-
 // One end; *rest: behind it.
 static double read_end(const char *text, const char **rest, bool *is_part)
 {
@@ -57,25 +46,27 @@ static double read_end(const char *text, const char **rest, bool *is_part)
     return *is_part ? value / 100 : value;
 }
 
-static const PictureOption *find_option(const char *name, Error *err)
-{
-    char names[NAMES_SIZE] = "";
-    for (int32_t k = 0; k < OPTIONS_COUNT; ++k) {
-        if (strcmp(OPTIONS[k].name, name) == 0) return &OPTIONS[k];
-        size_t used = strlen(names);
-        snprintf(names + used, sizeof names - used, "%s%s", k > 0 ? ", " : "", OPTIONS[k].name);
-    }
-    FAIL(err, ERROR_INPUT, "a picture has no option \"%.40s\"; known are: %s", name, names);
-cleanup:
-    return NULL;
-}
-
 bool picture_option_set(PictureStyle *style, const char *name, const char *value, Error *err)
 {
-    const PictureOption *option = find_option(name, err);
-    if (!option) return false;
+    const PictureOption *option = NULL;
+    char names[NAMES_SIZE] = "";
+    for (int32_t k = 0; k < OPTIONS_COUNT && !option; ++k) {
+        size_t used = strlen(names);
+        if (strcmp(OPTIONS[k].name, name) == 0) option = &OPTIONS[k];
+        snprintf(names + used, sizeof names - used, "%s%s", k > 0 ? ", " : "", OPTIONS[k].name);
+    }
+    if (!option)
+        return REFUSE(err, "a picture has no option \"%.40s\"; known are: %s", name, names);
     void *place = (char *)style + option->offset;
-    if (option->kind == OPTION_NUMBER) return set_number(option, value, place, err);
+    if (option->kind == OPTION_NUMBER) {
+        char *end = NULL;
+        double number = strtod(value, &end);
+        if (!*value || *end || !(number >= option->low && number <= option->high))
+            return REFUSE(err, "%s %.40s: a number from %g to %g is allowed", option->name, value,
+                          option->low, option->high);
+        *(double *)place = number;
+        return true;
+    }
     if (option->kind == OPTION_WORD && !is_among(option->words, value))
         return REFUSE(err, "%s %.40s: one of these is allowed: %s", name, value, option->words);
     if (option->kind == OPTION_RANGE) {

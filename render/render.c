@@ -14,36 +14,26 @@
 #include <string.h>
 #include <sys/stat.h>
 
-// The figures that `names` has, separated by commas.
-static bool find_panels(const char *names, Picture *picture, Error *err)
-{
-    char name[32];
-    for (const char *at = names; *at; at += strcspn(at, ","), at += *at == ',') {
-        snprintf(name, sizeof name, "%.*s", (int)strcspn(at, ","), at);
-        const Figure *figure = NULL;
-        if (!figure_find(name, &figure, err)) return false;
-        if (!figure->kind->draw || figure->kind->own_axes)
-            return REFUSE(err, "panels are figures over U: %s cannot be one", name);
-        if (!picture_add(picture, figure, err)) return false;
-    }
-    return picture->count > 0 || REFUSE(err, "no panel is named");
-}
-
 // Finds the k-th picture of those that are asked for; if none is named, of all that there are.
 static bool find_picture(const PictureRequest *request, int32_t k, Picture *picture, Error *err)
 {
     *picture = (Picture){0};
-    if (request->panels) return find_panels(request->panels, picture, err);
+    for (const char *at = request->panels; at && *at;) {   // names, separated by commas
+        char name[32];
+        size_t length = strcspn(at, ",");
+        const Figure *figure = NULL;
+        snprintf(name, sizeof name, "%.*s", (int)length, at);
+        if (!figure_find(name, &figure, err)) return false;
+        if (!figure->kind->draw || figure->kind->own_axes)
+            return REFUSE(err, "panels are figures over U: %s cannot be one", name);
+        if (!picture_add(picture, figure, err)) return false;
+        at += length + (at[length] == ',');
+    }
+    if (request->panels) return picture->count > 0 || REFUSE(err, "no panel is named");
     picture->figure = figure_get((FigureId)(k % FIGURE_COUNT));
     if (request->figure_count > 0 && !figure_find(request->figures[k], &picture->figure, err))
         return false;
     return picture_add(picture, picture->figure, err);
-}
-
-// The one name "measured": all figures that show what the measurements have, and no others.
-static bool wants_measured(const PictureRequest *request)
-{
-    return request->figure_count == 1 && strcmp(request->figures[0], "measured") == 0;
 }
 
 static int32_t picture_count(const PictureRequest *request)
@@ -78,53 +68,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-static bool make_figures_folder(const char *result, Error *err)
-{
-    char folder[PATH_MAX];
-    int length = snprintf(folder, sizeof folder, "%s/figures", result);
-    if (length < 0 || length >= (int)sizeof folder)
-        return REFUSE(err, "the result folder's path is too long");
-    return folder_make(folder, err);
-}
-
-// All names are checked before anything is read or drawn.
-static bool request_check(const char *folder, const PictureRequest *request, Error *err)
-{
-    struct stat about;
-    Picture picture;
-    const char *names[PANELS_MAX];
-    for (int32_t k = 0; k < picture_count(request); ++k)
-        if (!find_picture(request, k, &picture, err)) return false;
-    for (int32_t k = 0; request->panels && k < picture.count; ++k)
-        names[k] = picture.panels[k].figure->name;
-    const char *const *asked = request->panels ? names : request->figures;
-    int32_t count = request->panels ? picture.count : request->figure_count;
-    if (count > 0 && !picture_options_fit(&request->style, &request->field, asked, count, err))
-        return false;
-    if (stat(folder, &about) != 0)
-        return REFUSE(err, "cannot find the result folder %s: %s", folder, strerror(errno));
-    return S_ISDIR(about.st_mode) || REFUSE(err, "%s is not a folder", folder);
-}
-
-// Who asks for all figures gets those that there are, and of fields those that have what is asked
-// for.
-static bool is_drawn(const char *folder, const Figure *figure, const PictureRequest *request,
-                     ResultView *view, bool *drawn, Error *err)
-{
-    const char *of = request->field.of;
-    bool measured = false;
-    if (!figure_data_measured(figure, request->style.compare, view, &measured, err)) return false;
-    *drawn = figure_is_there(figure, view) && (measured || !figure->kind->asked_only);
-    if (figure->id == FIGURE_CONTACT_PLANE)
-        *drawn = *drawn && (!of || figure_contact_plane_shows(view, of));
-    bool probes = of && view->probes > 0 && figure_probes_show(of);
-    if (figure->id == FIGURE_PROBES) *drawn = *drawn && (!of || probes);
-    if (figure->id == FIGURE_FIELD)
-        *drawn = figure_field_shows(folder, of) || (figure_field_shows(folder, NULL) && !probes &&
-                                                    !figure_contact_plane_shows(view, of));
-    return true;
-}
-
 // Measurements that none of the figures named would show were given for nothing.
 static bool check_compare(const PictureRequest *request, ResultView *view, Error *err)
 {
@@ -154,27 +97,58 @@ __attribute__((visibility("default"))) bool amontons_render(const char *folder,
     ResultView view = {0};
     PictureRequest taken = *asked;
     const PictureRequest *request = &taken;
-    bool measured = wants_measured(asked);
+    const char *compare = asked->style.compare, *of = asked->field.of;
+    Picture picture;
+    struct stat about;
+
+    // The one name "measured": all figures that show what the measurements have, and no others.
+    bool measured = asked->figure_count == 1 && strcmp(asked->figures[0], "measured") == 0;
     if (measured) taken.figure_count = 0;
-    if (measured && !asked->style.compare)
+    if (measured && !compare)
         return REFUSE(err, "`measured` are the figures that show measurements: none are given");
-    TRY(request_check(folder, request, err));
+
+    // All names are checked before anything is read or drawn.
+    const char *names[PANELS_MAX];
+    for (int32_t k = 0; k < picture_count(request); ++k)
+        TRY(find_picture(request, k, &picture, err));
+    for (int32_t k = 0; request->panels && k < picture.count; ++k)
+        names[k] = picture.panels[k].figure->name;
+    const char *const *named = request->panels ? names : request->figures;
+    int32_t count = request->panels ? picture.count : request->figure_count;
+    if (count > 0) TRY(picture_options_fit(&request->style, &request->field, named, count, err));
+    if (stat(folder, &about) != 0)
+        FAIL(err, ERROR_INPUT, "cannot find the result folder %s: %s", folder, strerror(errno));
+    if (!S_ISDIR(about.st_mode)) FAIL(err, ERROR_INPUT, "%s is not a folder", folder);
     TRY(result_view_open(folder, &view, err));
     TRY(check_compare(request, &view, err));
     if (request->style.line) TRY(result_view_choose_line(&view, request->style.line, err));
     if (request->style.cycle) TRY(zoom_choose_cycle(&view, request->style.cycle, err));
-    TRY(make_figures_folder(folder, err));
+    char path[PATH_MAX];
+    int length = snprintf(path, sizeof path, "%s/figures", folder);
+    TRY((length >= 0 && length < PATH_MAX) || REFUSE(err, "the result folder's path is too long"));
+    TRY(folder_make(path, err));
     for (int32_t k = 0; k < picture_count(request); ++k) {
-        Picture picture;
         bool drawn = true;
         TRY(find_picture(request, k, &picture, err));
-        if (request->figure_count == 0 && !request->panels)
-            TRY(is_drawn(folder, picture.figure, request, &view, &drawn, err));
-        if (measured)
-            TRY(figure_data_measured(picture.figure, request->style.compare, &view, &drawn, err));
+        const Figure *figure = picture.figure;
+        if (request->figure_count == 0 && !request->panels) {
+            // Who asks for all figures gets those that there are, and of fields those that have
+            // what is asked for.
+            bool of_probes = of && view.probes > 0 && figure_probes_show(of), shows = false;
+            TRY(figure_data_measured(figure, compare, &view, &shows, err));
+            drawn = figure_is_there(figure, &view) && (shows || !figure->kind->asked_only);
+            if (figure->id == FIGURE_CONTACT_PLANE)
+                drawn = drawn && (!of || figure_contact_plane_shows(&view, of));
+            if (figure->id == FIGURE_PROBES) drawn = drawn && (!of || of_probes);
+            if (figure->id == FIGURE_FIELD)
+                drawn = figure_field_shows(folder, of) ||
+                        (figure_field_shows(folder, NULL) && !of_probes &&
+                         !figure_contact_plane_shows(&view, of));
+        }
+        if (measured) TRY(figure_data_measured(figure, compare, &view, &drawn, err));
         if (drawn) TRY(make_picture(folder, request, &picture, &view, err));
     }
-    if (measured) TRY(figure_data_misfits(folder, &view, request->style.compare, err));
+    if (measured) TRY(figure_data_misfits(folder, &view, compare, err));
 cleanup:
     result_view_close(&view);
     return error_is_clean(err);

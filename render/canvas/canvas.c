@@ -159,24 +159,6 @@ void canvas_set_below(Canvas *canvas, Color below)
                                  (uint8_t)lroundf(255 * below.blue));
 }
 
-// Exact pixels: no filter, and no edge that mixes with the paper.
-static void place_image(Canvas *canvas, const Box *box, cairo_surface_t *image)
-{
-    cairo_t *cairo = canvas->cairo;
-    double width = box->right - box->left, height = box->bottom - box->top;
-    cairo_save(cairo);
-    cairo_rectangle(cairo, box->left, box->top, width, height);
-    cairo_translate(cairo, box->left, box->top);
-    cairo_scale(cairo, width / cairo_image_surface_get_width(image),
-                height / cairo_image_surface_get_height(image));
-    cairo_set_source_surface(cairo, image, 0, 0);
-    cairo_pattern_set_filter(cairo_get_source(cairo), CAIRO_FILTER_NEAREST);
-    if (!canvas_is_vector(canvas))   // there Cairo would make a second, padded image
-        cairo_pattern_set_extend(cairo_get_source(cairo), CAIRO_EXTEND_PAD);
-    cairo_fill(cairo);
-    cairo_restore(cairo);
-}
-
 // Where in a PNG the pixels of `box` begin, if they are whole ones and all are drawn.
 static uint32_t *pixels_of_box(Canvas *canvas, const Box *box, GlImageDef *def)
 {
@@ -244,7 +226,22 @@ static void draw_pixels(Canvas *canvas, const Box *box, const GlImageDef *wanted
     }
     TRY(map ? rows_draw(&def, map, pixels, err) : gl_image_draw(GL_OSMESA, &def, pixels, err));
     cairo_surface_mark_dirty(on_page ? canvas->surface : image);
-    if (!on_page) place_image(canvas, box, image);
+    if (!on_page) {
+        cairo_t *cairo = canvas->cairo;
+        // Exact pixels: no filter, and no edge that mixes with the paper.
+        double width = box->right - box->left, height = box->bottom - box->top;
+        cairo_save(cairo);
+        cairo_rectangle(cairo, box->left, box->top, width, height);
+        cairo_translate(cairo, box->left, box->top);
+        cairo_scale(cairo, width / cairo_image_surface_get_width(image),
+                    height / cairo_image_surface_get_height(image));
+        cairo_set_source_surface(cairo, image, 0, 0);
+        cairo_pattern_set_filter(cairo_get_source(cairo), CAIRO_FILTER_NEAREST);
+        if (!canvas_is_vector(canvas))   // there Cairo would make a second, padded image
+            cairo_pattern_set_extend(cairo_get_source(cairo), CAIRO_EXTEND_PAD);
+        cairo_fill(cairo);
+        cairo_restore(cairo);
+    }
 cleanup:
     cairo_surface_destroy(image);
 }

@@ -339,31 +339,28 @@ static bool image_draw(Gl *gl, const GlImageDef *def, uint32_t *pixels, Error *e
     return true;
 }
 
-// The first source that works, from `first` on; why none does, by each of them. In a process that
-// was forked after Mesa's threads began these are missing, and it would wait for them for ever:
-// there the next source is taken.
-static Gl *gl_choose(GlSource first, Error *err)
-{
-    const char *said[GL_SOURCES] = {"not tried", "not tried"};
-    for (GlSource source = first; source < GL_SOURCES; ++source) {
-        Gl *gl = &opened[source];
-        if (!gl->tried) gl_open(gl, source, &gl->failure);
-        gl->tried = true;
-        if (gl->ready && gl->process == getpid()) return gl;
-        said[source] = gl->ready ? "in use before this process was forked" : gl->failure.message;
-    }
-    error_set(err, ERROR_LIBRARY, __FILE__, __LINE__,
-              "maps and fields need OpenGL, by OSMesa (package libosmesa6) or by EGL (libegl1 and "
-              "libgl1-mesa-dri): %s; %s",
-              said[GL_OSMESA], said[GL_EGL]);
-    return NULL;
-}
-
 bool gl_image_draw(GlSource first, const GlImageDef *def, uint32_t *pixels, Error *err)
 {
     Gl *gl = NULL;
+    const char *said[GL_SOURCES] = {"not tried", "not tried"};
     pthread_mutex_lock(&drawing);
-    TRY(gl = gl_choose(first, err));
+
+    // The first source that works, from `first` on; why none does, by each of them. In a process
+    // that was forked after Mesa's threads began these are missing, and it would wait for them for
+    // ever: there the next source is taken.
+    for (GlSource source = first; source < GL_SOURCES && !gl; ++source) {
+        Gl *tried = &opened[source];
+        if (!tried->tried) gl_open(tried, source, &tried->failure);
+        tried->tried = true;
+        if (tried->ready && tried->process == getpid()) gl = tried;
+        said[source] = tried->ready ? "in use before this process was forked"
+                                    : tried->failure.message;
+    }
+    if (!gl)
+        FAIL(err, ERROR_LIBRARY,
+             "maps and fields need OpenGL, by OSMesa (package libosmesa6) or by EGL (libegl1 and "
+             "libgl1-mesa-dri): %s; %s",
+             said[GL_OSMESA], said[GL_EGL]);
     if (!context_use(&gl->context, true))
         FAIL(err, ERROR_LIBRARY, "OpenGL's context cannot be used");
     image_draw(gl, def, pixels, err);

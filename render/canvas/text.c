@@ -64,16 +64,20 @@ static void library_close(void *library)
     FT_Done_FreeType(library);
 }
 
-// AMONTONS_FONT is taken at its word: where it is wrong, no other font is tried. Cairo keeps fonts
-// for longer than we do: the file is closed with the last of them. Fontconfig has no part in it, as
-// nothing is looked up.
-static bool font_open(Text *text, Error *err)
+Text *text_create(Canvas *canvas, Error *err)
 {
     static const cairo_user_data_key_t file;
     FT_Library library = NULL;
     FT_Face face = NULL;
     const char *path = getenv("AMONTONS_FONT");
     bool named = path && path[0];
+    Text *text = NULL;
+    TRY(text = NEW_ARRAY(Text, 1, err));
+    text->canvas = canvas;
+
+    // AMONTONS_FONT is taken at its word: where it is wrong, no other font is tried. Cairo keeps
+    // fonts for longer than we do: the file is closed with the last of them. Fontconfig has no part
+    // in it, as nothing is looked up.
     if (FT_Init_FreeType(&library)) FAIL(err, ERROR_LIBRARY, "FreeType does not start");
     if (named) face = face_open(library, path);
     if (named && !face)
@@ -93,24 +97,15 @@ static bool font_open(Text *text, Error *err)
         FAIL(err, ERROR_MEMORY, "no memory for a font");
     }
     library = NULL;   // the font's
-cleanup:
-    if (library) FT_Done_FreeType(library);
-    return error_is_clean(err);
-}
 
-// Not hinted: letters keep their shape at print size, and are as wide in a PDF as in a PNG.
-Text *text_create(Canvas *canvas, Error *err)
-{
-    Text *text = NULL;
-    TRY(text = NEW_ARRAY(Text, 1, err));
-    text->canvas = canvas;
-    TRY(font_open(text, err));
+    // Not hinted: letters keep their shape at print size, and are as wide in a PDF as in a PNG.
     text->options = cairo_font_options_create();
     cairo_font_options_set_hint_style(text->options, CAIRO_HINT_STYLE_NONE);
     cairo_font_options_set_hint_metrics(text->options, CAIRO_HINT_METRICS_OFF);
     cairo_font_options_set_antialias(text->options, CAIRO_ANTIALIAS_GRAY);
     return text;
 cleanup:
+    if (library) FT_Done_FreeType(library);
     text_destroy(text);
     return NULL;
 }

@@ -250,29 +250,6 @@ static void write_words(const Maps *maps, int32_t k, char words[WORDS_SIZE])
 
 // --- the page ------------------------------------------------------------------------------------
 
-// As many maps in a line as make all of them nearest to a square, but not so that they would be
-// higher than SHAPE_MOST; returns the points that all take in height.
-static double lay_out(Maps *maps, double room)
-{
-    const ContactPlane *plane = &maps->view->plane;
-    double size[2] = {plane->high[0] - plane->low[0], plane->high[1] - plane->low[1]};
-    double best = INFINITY;
-    for (int32_t columns = 1; columns <= COLUMNS_MAX && columns <= maps->count; ++columns) {
-        int32_t lines = (maps->count + columns - 1) / columns;
-        double width = (room - (columns - 1) * GAP) / columns, height = width * size[1] / size[0];
-        double shape = lines * (height + WORDS_HEIGHT) / room;
-        double away = fabs(log(shape / SHAPE_LIKED)) + EMPTY * (columns * lines - maps->count);
-        if (!(away < best)) continue;
-        best = away;
-        maps->columns = columns;
-        maps->lines = lines;
-        double fits = fmin(1, SHAPE_MOST * room / (lines * (height + WORDS_HEIGHT)));
-        maps->width = fits * width;
-        maps->height = fits * height;
-    }
-    return maps->lines * (maps->height + WORDS_HEIGHT);
-}
-
 // The page is begun twice: what numbers and bar take beside the maps is known on a page only.
 static bool draw_page(Page *page, const FigureInput *input, Maps *maps, Error *err)
 {
@@ -281,6 +258,7 @@ static bool draw_page(Page *page, const FigureInput *input, Maps *maps, Error *e
     PageDef def = input->def;
     char note[WORDS_SIZE], words[WORDS_SIZE];
     Axes axes = contact_map_axes(view);
+    double size[2] = {plane->high[0] - plane->low[0], plane->high[1] - plane->low[1]};
     double width = page_width(def.style), left = 0;
     def.height = 1;
     for (int32_t pass = 0; pass < 2; ++pass) {
@@ -288,7 +266,25 @@ static bool draw_page(Page *page, const FigureInput *input, Maps *maps, Error *e
         if (!page_begin(page, &def, err)) return false;
         left = axes_left_margin(page, &axes);
         double room = width - left - BAR_GAP - colorbar_width(page, &maps->bar);
-        double height = lay_out(maps, room) + axes_bottom_margin(&axes) + key_line_height();
+
+        // As many maps in a line as make all of them nearest to a square, but not so that they
+        // would be higher than SHAPE_MOST.
+        double best = INFINITY;
+        for (int32_t columns = 1; columns <= COLUMNS_MAX && columns <= maps->count; ++columns) {
+            int32_t lines = (maps->count + columns - 1) / columns;
+            double wide = (room - (columns - 1) * GAP) / columns, high = wide * size[1] / size[0];
+            double shape = lines * (high + WORDS_HEIGHT) / room;
+            double away = fabs(log(shape / SHAPE_LIKED)) + EMPTY * (columns * lines - maps->count);
+            if (!(away < best)) continue;
+            best = away;
+            maps->columns = columns;
+            maps->lines = lines;
+            double fits = fmin(1, SHAPE_MOST * room / (lines * (high + WORDS_HEIGHT)));
+            maps->width = fits * wide;
+            maps->height = fits * high;
+        }
+        double height = maps->lines * (maps->height + WORDS_HEIGHT) + axes_bottom_margin(&axes) +
+                        key_line_height();
         double used = maps->columns * (maps->width + GAP) - GAP;
         left += (room - used) / 2;
         def.height = height / width;

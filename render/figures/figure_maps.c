@@ -352,23 +352,7 @@ cleanup:
 
 enum { OF_STATE = 3 };   // columns of each
 
-// Least, median and largest over the nodes, of the state that the view stands for.
-static bool state_columns(ResultView *view, double *columns[OF_STATE], Error *err)
-{
-    double *states = NULL;
-    TRY(result_view_read(view, SERIES_STATE, false, &states, err));
-    for (int32_t k = 0; k < OF_STATE; ++k) TRY(columns[k] = NEW_ARRAY(double, view->rows, err));
-    for (int64_t row = 0; row < view->rows; ++row) {
-        double *own = states + row * view->nodes;
-        qsort(own, (size_t)view->nodes, sizeof *own, order_doubles);
-        for (int32_t k = 0; k < OF_STATE; ++k)
-            columns[k][row] = own[k * (view->nodes - 1) / (OF_STATE - 1)];
-    }
-cleanup:
-    memory_free(states);
-    return error_is_clean(err);
-}
-
+// Least, median and largest of each state over the nodes.
 bool figure_state_map_table(const char *path, ResultView *view, const FieldChoice *field,
                             Error *err)
 {
@@ -377,14 +361,24 @@ bool figure_state_map_table(const char *path, ResultView *view, const FieldChoic
     int32_t count = 2;
     Column *columns = NEW_ARRAY(Column, 2 + OF_STATE * view->states, err);
     char(*names)[VIEW_STATE_SIZE + 12] = memory_array(OF_STATE * view->states, sizeof *names, err);
-    double **values = NEW_ARRAY(double *, OF_STATE * view->states, err);
+    double **values = NEW_ARRAY(double *, OF_STATE * view->states, err), *states = NULL;
     TRY(columns && names && values);
     columns[0] = (Column){"U", "m", view->U};
     columns[1] = (Column){"t", "s", view->t};
     for (view->state = 0; view->state < view->states; ++view->state) {
         char name[VIEW_STATE_SIZE];
         ValueWords words = state_words(view, name);
-        TRY(state_columns(view, values + OF_STATE * view->state, err));
+        memory_free(states);
+        states = NULL;
+        TRY(result_view_read(view, SERIES_STATE, false, &states, err));
+        double **own = values + OF_STATE * view->state;
+        for (int32_t k = 0; k < OF_STATE; ++k) TRY(own[k] = NEW_ARRAY(double, view->rows, err));
+        for (int64_t row = 0; row < view->rows; ++row) {
+            double *sorted = states + row * view->nodes;
+            qsort(sorted, (size_t)view->nodes, sizeof *sorted, order_doubles);
+            for (int32_t k = 0; k < OF_STATE; ++k)
+                own[k][row] = sorted[k * (view->nodes - 1) / (OF_STATE - 1)];
+        }
         for (int32_t k = 0; k < OF_STATE; ++k, ++count) {
             snprintf(names[count - 2], sizeof *names, "%s %s", what[k], name);
             columns[count] =
@@ -395,7 +389,7 @@ bool figure_state_map_table(const char *path, ResultView *view, const FieldChoic
 cleanup:
     view->state = 0;
     for (int32_t k = 0; values && k < OF_STATE * view->states; ++k) memory_free(values[k]);
-    memory_free_all(columns, names, values);
+    memory_free_all(columns, names, values, states);
     return error_is_clean(err);
 }
 

@@ -30,39 +30,41 @@ typedef struct Strip {
     double magnification;
 } Strip;
 
-// The sliding that lies nearest to the asked time; without one that of the cycle that is asked for,
-// or else the last that has ended.
-static bool find_event(const FigureInput *input, const BlockSource *source, const ViewEvent **event,
-                       Error *err)
+static bool read_strip(const FigureInput *input, Strip *strip, BlockQuantity quantity, Error *err)
 {
-    const ResultView *view = input->view;
+    BlockSource source = {.folder = input->folder,
+                          .view = input->view,
+                          .quantity = quantity,
+                          .depth = input->def.style->depth};
+    ResultView *view = input->view;
+    const ViewEvent *event = NULL;
+    int32_t chosen[FRAMES_MAX];
+    TRY(block_source_open(&source, err));
+
+    // The sliding that lies nearest to the asked time; without one that of the cycle that is asked
+    // for, or else the last that has ended.
     int32_t index = -1;
-    double least = INFINITY;
-    *event = NULL;
-    if (input->field->at && !block_time_find(source, input->field->at, &index, err)) return false;
+    double nearest = INFINITY;
+    if (input->field->at) TRY(block_time_find(&source, input->field->at, &index, err));
     for (int32_t k = 0; k < view->event_count; ++k) {
         const ViewEvent *seen = &view->events[k];
         if (seen->kind != VIEW_LEADING || !isfinite(seen->U_start + seen->U_stop)) continue;
-        double away = index >= 0 ? fabs(view->U[source->row[index]] - seen->U_start) : 0;
-        if (!(away <= least)) continue;
-        least = away;
-        *event = seen;
+        double away = index >= 0 ? fabs(view->U[source.row[index]] - seen->U_start) : 0;
+        if (!(away <= nearest)) continue;
+        nearest = away;
+        event = seen;
     }
-    if (index < 0 && zoom_sliding(view)) *event = zoom_sliding(view);
-    if (!*event)
-        return REFUSE(err, "no sliding of the whole block has been seen from start to end");
-    return true;
-}
+    if (index < 0 && zoom_sliding(view)) event = zoom_sliding(view);
+    if (!event)
+        FAIL(err, ERROR_INPUT, "no sliding of the whole block has been seen from start to end");
 
-// chosen: indices of the times nearest to equal parts of the slip, each once; returns how many.
-static int32_t choose_times(const BlockSource *source, const ViewEvent *event,
-                            int32_t chosen[FRAMES_MAX])
-{
-    const ResultView *view = source->view;
-    const int64_t *row = source->row;
+    // The times nearest to equal parts of the slip, each once.
+    TRY(result_view_read_status(view, err));
+    TRY(result_view_read_slip(view, err));
+    const int64_t *row = source.row;
     double slack = SLACK * fabs(event->U_stop);
-    int32_t from = 0, to = source->count - 1, count = 0;
-    while (from < source->count && view->U[row[from]] < event->U_start - slack) ++from;
+    int32_t from = 0, to = source.count - 1, count = 0;
+    while (from < source.count && view->U[row[from]] < event->U_start - slack) ++from;
     while (to >= from && view->U[row[to]] > event->U_stop + slack) --to;
     for (int32_t k = 0; k < FRAMES_MAX && from <= to; ++k) {
         int32_t best = from;
@@ -84,22 +86,6 @@ static int32_t choose_times(const BlockSource *source, const ViewEvent *event,
         }
         if (count == 0 || chosen[count - 1] < best) chosen[count++] = best;
     }
-    return count;
-}
-
-static bool read_strip(const FigureInput *input, Strip *strip, BlockQuantity quantity, Error *err)
-{
-    BlockSource source = {.folder = input->folder,
-                          .view = input->view,
-                          .quantity = quantity,
-                          .depth = input->def.style->depth};
-    const ViewEvent *event = NULL;
-    int32_t chosen[FRAMES_MAX];
-    TRY(block_source_open(&source, err));
-    TRY(find_event(input, &source, &event, err));
-    TRY(result_view_read_status(input->view, err));
-    TRY(result_view_read_slip(input->view, err));
-    int32_t count = choose_times(&source, event, chosen);
     if (count < FRAMES_MIN)
         FAIL(err, ERROR_INPUT,
              "of the sliding at U = %.5g only %d time%s stored: output.fields takes more with "

@@ -332,41 +332,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// The misfit in words.
-static void describe(Measured *measured, const ResultView *view)
-{
-    static const struct {
-        const char *words;
-        int32_t number;   // that the misfit is over; -1: none
-    } scales[MEASURED_KINDS] = {{"", -1},
-                                {" ~{L}", NUMBER_LENGTH},
-                                {"", -1},
-                                {" ~{L}", NUMBER_LENGTH},
-                                {" ~{c}_{R}", NUMBER_C_RAYLEIGH},
-                                {"", -1}};
-    double sum = 0, parts = 0;
-    int32_t count = 0, number = scales[measured->kind].number;
-    for (int32_t k = 0; k < measured->count; ++k) {
-        double away = measured->value[k] - measured->computed[k];
-        if (!isfinite(away)) continue;
-        sum += away * away;
-        parts += away * away / (measured->error[k] * measured->error[k]);
-        ++count;
-    }
-    measured->compared = count;
-    measured->misfit = measured->in_errors = NAN;
-    if (count == 0) return;
-    size_t length = strlen(measured->words);
-    double misfit = sqrt(sum / count) / (number < 0 ? 1 : view->number[number]);
-    measured->misfit = misfit;
-    if (isfinite(parts)) measured->in_errors = sqrt(parts / count);
-    length += (size_t)snprintf(measured->words + length, sizeof measured->words - length,
-                               ": misfit %.3g%s", misfit, scales[measured->kind].words);
-    if (isfinite(parts))
-        snprintf(measured->words + length, sizeof measured->words - length, ", %.3g of its errors",
-                 sqrt(parts / count));
-}
-
 // Beside each measured length that of the precursor whose load is nearest, whose load becomes `x`;
 // no farther from it than neighbouring precursors are apart. What slipped over the whole contact is
 // a sliding, and stands beside one. Without precursors nothing is done.
@@ -407,6 +372,15 @@ cleanup:
 // Computes what the result has where each measurement lies, and the misfit.
 static bool compare(Measured *measured, ResultView *view, Error *err)
 {
+    static const struct {
+        const char *words;
+        int32_t number;   // that the misfit is over; -1: none
+    } scales[MEASURED_KINDS] = {{"", -1},
+                                {" ~{L}", NUMBER_LENGTH},
+                                {"", -1},
+                                {" ~{L}", NUMBER_LENGTH},
+                                {" ~{c}_{R}", NUMBER_C_RAYLEIGH},
+                                {"", -1}};
     ViewCurve curve = {0};
     double *values = NULL;   // of the probes
     bool probe = measured->kind == MEASURED_PROBE, area = measured->kind == MEASURED_AREA;
@@ -436,7 +410,29 @@ static bool compare(Measured *measured, ResultView *view, Error *err)
             *computed = curve_value(&curve, at);
         }
     }
-    describe(measured, view);
+
+    // The misfit, and what it is in words.
+    double sum = 0, parts = 0;
+    int32_t count = 0, number = scales[measured->kind].number;
+    for (int32_t k = 0; k < measured->count; ++k) {
+        double away = measured->value[k] - measured->computed[k];
+        if (!isfinite(away)) continue;
+        sum += away * away;
+        parts += away * away / (measured->error[k] * measured->error[k]);
+        ++count;
+    }
+    measured->compared = count;
+    measured->misfit = measured->in_errors = NAN;
+    if (count == 0) goto cleanup;
+    size_t length = strlen(measured->words);
+    double misfit = sqrt(sum / count) / (number < 0 ? 1 : view->number[number]);
+    measured->misfit = misfit;
+    if (isfinite(parts)) measured->in_errors = sqrt(parts / count);
+    length += (size_t)snprintf(measured->words + length, sizeof measured->words - length,
+                               ": misfit %.3g%s", misfit, scales[measured->kind].words);
+    if (isfinite(parts))
+        snprintf(measured->words + length, sizeof measured->words - length, ", %.3g of its errors",
+                 sqrt(parts / count));
 cleanup:
     memory_free(values);
     return error_is_clean(err);

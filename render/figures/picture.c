@@ -127,28 +127,6 @@ bool picture_add(Picture *picture, const Figure *figure, Error *err)
     return true;
 }
 
-// Makes a panel for each of several states, and sets the shapes of all panels.
-static bool spread_states(const ResultView *view, const PictureStyle *style, Picture *picture,
-                          Error *err)
-{
-    int32_t more = view->states - 1;
-    Panel *panels = picture->panels;
-    for (int32_t k = picture->count - 1; k >= 0; --k) {
-        const Figure *figure = panels[k].figure;
-        bool plain = figure->id == FIGURE_FORCE && !figure_force_enlarges(view, style);
-        panels[k].shape = plain ? FORCE_PLAIN : figure->kind->height_over_width;
-        if (figure->id != FIGURE_STATE_MAP || more < 1) continue;
-        if (picture->count + more > PANELS_MAX)
-            return REFUSE(err, "a page takes %d panels", PANELS_MAX);
-        memmove(panels + k + 1 + more, panels + k + 1,
-                (size_t)(picture->count - k - 1) * sizeof *panels);
-        for (int32_t i = 1; i <= more; ++i) panels[k + i] = panels[k];
-        for (int32_t i = 1; i <= more; ++i) panels[k + i].state = i;
-        picture->count += more;
-    }
-    return true;
-}
-
 // Whether a panel shows another U than the others: contact-density enlarges a part.
 static bool enlarges(const Picture *picture, int32_t k)
 {
@@ -192,37 +170,6 @@ static bool panels_draw(const Page *page, const Picture *picture, ResultView *vi
     return true;
 }
 
-// A page of panels with frames of one width, and numbers of U below the last of those that share
-// it. A coarse page, of which nothing else is wanted, tells how much room the widest names and
-// numbers take beside the frames.
-static bool panels_page(Page *page, PageDef *def, const Picture *picture, ResultView *view,
-                        Error *err)
-{
-    PictureStyle coarse = *def->style;
-    Box frame[PANELS_MAX];
-    Page measured = {0};
-    double beside[2] = {0, 0};   // points
-    coarse.dpi = SCRATCH_DPI;
-    coarse.format = "png";
-    def->height = page_shape(def->style, sum_shapes(picture));
-    PageDef scratch = *def;
-    scratch.style = &coarse;
-    TRY(page_begin(&measured, &scratch, err));
-    TRY(panels_draw(&measured, picture, view, frame, err));
-    for (int32_t k = 0; k < picture->count; ++k) {
-        beside[0] = fmax(beside[0], frame[k].left / measured.point);
-        beside[1] = fmax(beside[1], (measured.room.right - frame[k].right) / measured.point);
-    }
-    beside[0] += LETTER_ROOM;
-    TRY(page_begin(page, def, err));
-    for (int32_t side = 0; side < 2; ++side)
-        page->beside[side] = ceil((beside[side] + SLACK) * page->point);
-    TRY(panels_draw(page, picture, view, frame, err));
-cleanup:
-    page_destroy(&measured);
-    return error_is_clean(err);
-}
-
 bool picture_draw(const Picture *asked, const char *folder, const PictureRequest *request,
                   ResultView *view, Page *page, Error *err)
 {
@@ -234,9 +181,49 @@ bool picture_draw(const Picture *asked, const char *folder, const PictureRequest
     PageDef def = {
         .style = style, .title = page_title(style, view->title, false), .foot = foot_height(&foot)};
     FigureInput input = {view, folder, &request->field, def};
-    TRY(spread_states(view, style, &picture, err));
+    Page coarse_page = {0};
+
+    // A panel for each of several states, and the shapes of all panels.
+    int32_t more = view->states - 1;
+    Panel *panels = picture.panels;
+    for (int32_t k = picture.count - 1; k >= 0; --k) {
+        const Figure *own = panels[k].figure;
+        bool plain = own->id == FIGURE_FORCE && !figure_force_enlarges(view, style);
+        panels[k].shape = plain ? FORCE_PLAIN : own->kind->height_over_width;
+        if (own->id != FIGURE_STATE_MAP || more < 1) continue;
+        if (picture.count + more > PANELS_MAX)
+            FAIL(err, ERROR_INPUT, "a page takes %d panels", PANELS_MAX);
+        memmove(panels + k + 1 + more, panels + k + 1,
+                (size_t)(picture.count - k - 1) * sizeof *panels);
+        for (int32_t i = 1; i <= more; ++i) panels[k + i] = panels[k];
+        for (int32_t i = 1; i <= more; ++i) panels[k + i].state = i;
+        picture.count += more;
+    }
+
     if (!figure || picture.count > 1) {
-        TRY(panels_page(page, &def, &picture, view, err));
+        // A page of panels with frames of one width, and numbers of U below the last of those that
+        // share it. A coarse page, of which nothing else is wanted, tells how much room the widest
+        // names and numbers take beside the frames.
+        PictureStyle coarse = *style;
+        Box frame[PANELS_MAX];
+        double beside[2] = {0, 0};   // points
+        coarse.dpi = SCRATCH_DPI;
+        coarse.format = "png";
+        def.height = page_shape(style, sum_shapes(&picture));
+        PageDef scratch = def;
+        scratch.style = &coarse;
+        TRY(page_begin(&coarse_page, &scratch, err));
+        TRY(panels_draw(&coarse_page, &picture, view, frame, err));
+        for (int32_t k = 0; k < picture.count; ++k) {
+            beside[0] = fmax(beside[0], frame[k].left / coarse_page.point);
+            beside[1] =
+                fmax(beside[1], (coarse_page.room.right - frame[k].right) / coarse_page.point);
+        }
+        beside[0] += LETTER_ROOM;
+        TRY(page_begin(page, &def, err));
+        for (int32_t side = 0; side < 2; ++side)
+            page->beside[side] = ceil((beside[side] + SLACK) * page->point);
+        TRY(panels_draw(page, &picture, view, frame, err));
     } else if (figure->kind->draw_whole) {
         TRY(figure->kind->draw_whole(page, &input, err));
     } else {
@@ -245,6 +232,7 @@ bool picture_draw(const Picture *asked, const char *folder, const PictureRequest
     }
     foot_draw(page, &foot);
 cleanup:
+    page_destroy(&coarse_page);
     error_context(err, "figure %s", figure ? figure->name : "panels");
     return error_is_clean(err);
 }

@@ -127,38 +127,6 @@ static bool put_block(const Page *page, const FilmBlock *film, const Block *bloc
     return true;
 }
 
-// Draws a mixture of two stored fields, linear in time, in the place of the first. The first field
-// itself is read again where it is wanted.
-static bool draw_mixture(const Page *page, FilmBlock *film, int32_t first, double t, Error *err)
-{
-
-    // Both of the pair, the one that is there already kept.
-    if (film->pair_index[1] == first) {
-        Block kept = film->pair[1];
-        film->pair[1] = film->pair[0];
-        film->pair[0] = kept;
-        film->pair_index[1] = film->pair_index[0];
-        film->pair_index[0] = first;
-    }
-    for (int32_t k = 0; k < 2; ++k) {
-        if (film->pair_index[k] == first + k) continue;
-        block_destroy(&film->pair[k]);
-        film->pair_index[k] = -1;
-        if (!read_stored(film, first + k, &film->pair[k], err)) return false;
-        film->pair_index[k] = first + k;
-    }
-
-    Block *a = &film->pair[0], *b = &film->pair[1];
-    double part = (t - a->t) / (b->t - a->t);
-    if (a->frame.node_count != b->frame.node_count)
-        return FAULT(err, ERROR_FILE, "two fields of the film have %d and %d nodes",
-                     a->frame.node_count, b->frame.node_count);
-    block_mix(a, b, part);
-    a->t = t;   // from here on to the second
-    film->shown = -1;
-    return put_block(page, film, a, true, err);
-}
-
 // From one step to the next the block is linear in time, as all else is in the film; where steps
 // between two stored fields are not known it shows the nearer one, and says when that was stored.
 bool film_block_show(const Page *page, FilmBlock *film, int32_t k, double t, Error *err)
@@ -170,12 +138,40 @@ bool film_block_show(const Page *page, FilmBlock *film, int32_t k, double t, Err
                       source->row[first + 1] == source->row[first] + 1;
     film->still = !neighbours && film->shown == film->stored[k] ? film->still + 1 : 1;
     if (film->still > film->still_most) film->still_most = film->still;
-    if (neighbours) return draw_mixture(page, film, first, t, err);
-    if (film->stored[k] == film->shown) return true;   // it stands on the page
-    block_destroy(&film->block);
-    film->shown = film->stored[k];
-    return read_stored(film, film->shown, &film->block, err) &&
-           put_block(page, film, &film->block, false, err);
+    if (!neighbours) {
+        if (film->stored[k] == film->shown) return true;   // it stands on the page
+        block_destroy(&film->block);
+        film->shown = film->stored[k];
+        return read_stored(film, film->shown, &film->block, err) &&
+               put_block(page, film, &film->block, false, err);
+    }
+
+    // A mixture of two stored fields, in the place of the first, which is read again where it is
+    // wanted. Both of the pair, the one that is there already kept.
+    if (film->pair_index[1] == first) {
+        Block kept = film->pair[1];
+        film->pair[1] = film->pair[0];
+        film->pair[0] = kept;
+        film->pair_index[1] = film->pair_index[0];
+        film->pair_index[0] = first;
+    }
+    for (int32_t i = 0; i < 2; ++i) {
+        if (film->pair_index[i] == first + i) continue;
+        block_destroy(&film->pair[i]);
+        film->pair_index[i] = -1;
+        if (!read_stored(film, first + i, &film->pair[i], err)) return false;
+        film->pair_index[i] = first + i;
+    }
+
+    Block *a = &film->pair[0], *b = &film->pair[1];
+    double part = (t - a->t) / (b->t - a->t);
+    if (a->frame.node_count != b->frame.node_count)
+        return FAULT(err, ERROR_FILE, "two fields of the film have %d and %d nodes",
+                     a->frame.node_count, b->frame.node_count);
+    block_mix(a, b, part);
+    a->t = t;   // from here on to the second
+    film->shown = -1;
+    return put_block(page, film, a, true, err);
 }
 
 void film_block_contact(const Page *page, const FilmBlock *film, int64_t row)

@@ -88,21 +88,6 @@ static double length_of(const Course *course, double power)
     return sum;
 }
 
-static double choose_power(const Course *course)
-{
-    double low = 0, high = POWER_MAX;
-    double wanted = (1 + EXTRA) * (course->t[course->count - 1] - course->t[0]);
-    if (length_of(course, high) <= wanted) return high;
-    for (int32_t k = 0; k < HALVINGS; ++k) {
-        double middle = (low + high) / 2;
-        if (length_of(course, middle) < wanted)
-            low = middle;
-        else
-            high = middle;
-    }
-    return (low + high) / 2;
-}
-
 // A place in the film's time: in step `k` of a course, `part` of the way to its end.
 typedef struct Place {
     int64_t k;
@@ -124,43 +109,6 @@ static double time_at(const Course *course, const Place *place)
 {
     const double *t = course->t + place->k;
     return t[-1] + place->part * (t[0] - t[-1]);
-}
-
-// The same course at `count` places, evenly spaced in the film's time.
-static bool course_even(const Course *course, double power, int64_t count, Course *even, Error *err)
-{
-    double step = length_of(course, power) / (double)(count - 1);
-    Place place = {.k = 1};
-    if (!course_make(even, count, err)) return false;
-    for (int64_t i = 0; i < count; ++i) {
-        place_move(course, power, (double)i * step, &place);
-        even->t[i] = time_at(course, &place);
-        even->log_fast[i] = log_fast_of(course, place.k);
-    }
-    even->t[count - 1] = course->t[course->count - 1];
-    return true;
-}
-
-// Speed, 1 without slow motion, grows by no more than `slope` a unit of the run's time, before and
-// behind rapid slip: its logarithm then changes evenly in the film's time. It can only fall, so
-// that nothing rapid is shown faster than without.
-static void course_ease(Course *even, double power, double slope)
-{
-    double *log_fast = even->log_fast;
-    for (int32_t back = 0; back < 2; ++back)
-        for (int64_t i = 1; i < even->count; ++i) {
-            int64_t k = back ? even->count - 1 - i : i, from = back ? k + 1 : k - 1;
-            double most = exp(-power * log_fast[from]) + slope * fabs(even->t[k] - even->t[from]);
-            if (exp(-power * log_fast[k]) > most) log_fast[k] = -log(most) / power;
-        }
-}
-
-// The slope with which the way from the slowest to the fastest takes `ease` seconds.
-static double ease_slope(const FilmClockDef *def, const Course *even, double power)
-{
-    double largest = 0, seconds = (double)(def->frames - 1) / def->rate;
-    for (int64_t i = 0; i < even->count; ++i) largest = fmax(largest, even->log_fast[i]);
-    return seconds / length_of(even, power) * power * largest / def->ease;
 }
 
 // Frames evenly spaced in the film's time, the first at low, the last at high.
@@ -192,9 +140,44 @@ bool film_clock_create(const FilmClockDef *def, FilmClock *clock, Error *err)
     if (places > PLACES_MAX) places = PLACES_MAX;
     if (!(def->high > def->low)) FAIL(err, ERROR_INPUT, "the film would show no time");
     TRY(course_create(def, &course, err));
-    double power = choose_power(&course);
-    TRY(course_even(&course, power, places, &even, err));
-    if (def->ease > 0) course_ease(&even, power, ease_slope(def, &even, power));
+
+    // The power with which fast steps are stretched, by halving.
+    double least = 0, power = POWER_MAX, wanted = (1 + EXTRA) * (def->high - def->low);
+    if (length_of(&course, power) > wanted) {
+        double most = power;
+        for (int32_t k = 0; k < HALVINGS; ++k) {
+            double middle = (least + most) / 2;
+            *(length_of(&course, middle) < wanted ? &least : &most) = middle;
+        }
+        power = (least + most) / 2;
+    }
+
+    // The same course at places that are evenly spaced in the film's time.
+    double step = length_of(&course, power) / (double)(places - 1);
+    Place place = {.k = 1};
+    TRY(course_make(&even, places, err));
+    for (int64_t i = 0; i < places; ++i) {
+        place_move(&course, power, (double)i * step, &place);
+        even.t[i] = time_at(&course, &place);
+        even.log_fast[i] = log_fast_of(&course, place.k);
+    }
+    even.t[places - 1] = course.t[course.count - 1];
+
+    // Speed, 1 without slow motion, grows by no more than `slope` a unit of the run's time, before
+    // and behind rapid slip: its logarithm then changes evenly in the film's time. It can only
+    // fall, so that nothing rapid is shown faster than without. With this slope the way from the
+    // slowest to the fastest takes `ease` seconds.
+    double largest = 0, seconds = (double)(def->frames - 1) / def->rate;
+    for (int64_t i = 0; i < places; ++i) largest = fmax(largest, even.log_fast[i]);
+    double slope = def->ease > 0 ? seconds / length_of(&even, power) * power * largest / def->ease
+                                 : 0;
+    for (int32_t back = 0; back < 2 && def->ease > 0; ++back)
+        for (int64_t i = 1; i < places; ++i) {
+            int64_t k = back ? places - 1 - i : i, from = back ? k + 1 : k - 1;
+            double fastest = exp(-power * even.log_fast[from]) +
+                             slope * fabs(even.t[k] - even.t[from]);
+            if (exp(-power * even.log_fast[k]) > fastest) even.log_fast[k] = -log(fastest) / power;
+        }
     TRY(frames_place(def, &even, power, clock, err));
 cleanup:
     course_destroy(&course);

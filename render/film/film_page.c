@@ -123,33 +123,6 @@ int32_t film_page_still(const FilmPage *page)
     return page->block.still_most;
 }
 
-// Chooses the values that the film shows: for the contact the state that def->film->of names, or
-// slip rates; for the block the field.
-static bool choose_values(FilmPage *page, Error *err)
-{
-    const FilmPageDef *def = &page->def;
-    ResultView *view = def->view;
-    const FilmClock *clock = def->clock;
-    Colorbar bar = slip_scale(view, fabs(view->number[NUMBER_ROD_VELOCITY]));
-    bool state = def->film->of && result_view_choose_state(view, def->film->of);
-    if (!block_quantity_find(state ? NULL : def->film->of, &page->block.source.quantity, err))
-        return false;
-    if (state) {
-        char name[VIEW_STATE_SIZE];
-        ValueWords words = state_words(view, name);
-        const double range[2] = {film_moment(view, clock->t[0]).U,
-                                 film_moment(view, clock->t[clock->frames - 1]).U};
-        if (!result_view_read(view, SERIES_STATE, false, &page->states, err)) return false;
-        if (!history_bar_fit(view, range, page->states, &words, NULL, &bar, err)) return false;
-    }
-    page->band.map.bar = page->profile.bar = page->plane.bar = bar;
-    page->band.map.states = page->states;
-    page->band.map.sign = state ? -1 : 0;
-    page->plane.state = state;
-    page->profile.values = state ? page->states : view->slip_rate;
-    return true;
-}
-
 // --- begin and end -------------------------------------------------------------------------------
 
 FilmPage *film_page_create(const FilmPageDef *def, Error *err)
@@ -164,13 +137,33 @@ FilmPage *film_page_create(const FilmPageDef *def, Error *err)
     page->force.view = page->profile.view = page->band.view = page->plane.view = def->view;
     page->in_space = def->view->line && result_file_has_faces(def->view->file);
     page->band.clock = def->clock;
-    TRY(choose_values(page, err));
+
+    // The values that the film shows: of the contact the state that def->film->of names, or slip
+    // rates; of the block the field.
+    ResultView *view = def->view;
+    const FilmClock *clock = def->clock;
+    Colorbar bar = slip_scale(view, fabs(view->number[NUMBER_ROD_VELOCITY]));
+    bool state = def->film->of && result_view_choose_state(view, def->film->of);
+    TRY(block_quantity_find(state ? NULL : def->film->of, &page->block.source.quantity, err));
+    if (state) {
+        char name[VIEW_STATE_SIZE];
+        ValueWords words = state_words(view, name);
+        const double range[2] = {film_moment(view, clock->t[0]).U,
+                                 film_moment(view, clock->t[clock->frames - 1]).U};
+        TRY(result_view_read(view, SERIES_STATE, false, &page->states, err));
+        TRY(history_bar_fit(view, range, page->states, &words, NULL, &bar, err));
+    }
+    page->band.map.bar = page->profile.bar = page->plane.bar = bar;
+    page->band.map.states = page->states;
+    page->band.map.sign = state ? -1 : 0;
+    page->plane.state = state;
+    page->profile.values = state ? page->states : view->slip_rate;
+
+    // The pages of what stands and of what moves.
     TRY(page_open(page, &page->base, err));
     TRY(page_open(page, &page->frame, err));
     TRY(film_block_open(&page->block, err));
     TRY(lay_out(page, err));
-    const FilmClock *clock = page->def.clock;
-    const ResultView *view = page->def.view;
     double V = fabs(view->number[NUMBER_ROD_VELOCITY]);
     double step = page->band.speed_low / clock->rate;
     double range = clock->t[clock->frames - 1] - clock->t[0];

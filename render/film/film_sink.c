@@ -48,12 +48,6 @@ struct FilmSink {
 
 // --- names ---------------------------------------------------------------------------------------
 
-static bool ends_in_png(const char *path)
-{
-    size_t length = strlen(path);
-    return length > 4 && strcmp(path + length - 4, ".png") == 0;
-}
-
 // Where in the name of a file, without its folder, a number is to stand; NULL: nowhere. A folder
 // may be called `50% load`, and so may a film.
 static const char *find_mark(const char *path)
@@ -70,8 +64,10 @@ static bool pattern_read(const char *path, Pattern *pattern, Error *err)
     pattern->digits = 0;
     for (; *d >= '0' && *d <= '9' && pattern->digits <= DIGITS_MAX; ++d)
         pattern->digits = 10 * pattern->digits + (*d - '0');
-    if (*d != 'd' || strchr(d, '%') || !ends_in_png(d) || pattern->digits > DIGITS_MAX ||
-        strlen(d) > NAME_MAX || length >= PATH_MAX)
+    size_t ending = strlen(d);
+    bool is_png = ending > 4 && strcmp(d + ending - 4, ".png") == 0;
+    if (*d != 'd' || strchr(d, '%') || !is_png || pattern->digits > DIGITS_MAX ||
+        ending > NAME_MAX || length >= PATH_MAX)
         return REFUSE(err, "%s: a pattern of frames has one number and ends in .png: run-%%04d.png",
                       path);
     memcpy(pattern->before, path, length);
@@ -80,20 +76,17 @@ static bool pattern_read(const char *path, Pattern *pattern, Error *err)
     return true;
 }
 
-// A folder's name has no ending, ends in a slash, or is that of one.
-static bool is_folder_name(const char *path)
-{
-    struct stat status;
-    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
-    if (stat(path, &status) == 0) return S_ISDIR(status.st_mode);
-    return name[0] == '\0' || !strchr(name, '.');
-}
-
 bool film_sink_check(const char *path, Error *err)
 {
     Pattern pattern;
     if (find_mark(path)) return pattern_read(path, &pattern, err);
-    if (path[0] && (video_file_is_known(path) || is_folder_name(path))) return true;
+
+    // A folder's name has no ending, ends in a slash, or is that of one.
+    struct stat status;
+    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+    bool is_there = stat(path, &status) == 0;
+    bool is_folder = is_there ? S_ISDIR(status.st_mode) : name[0] == '\0' || !strchr(name, '.');
+    if (path[0] && (video_file_is_known(path) || is_folder)) return true;
     return REFUSE(err, "%s: %s", path, ENDINGS);
 }
 
@@ -193,9 +186,20 @@ static void *encode(void *self)
     return NULL;
 }
 
-// Colours of the pictures: the colour map, greys, and six tints up to white.
-static void palette_fill(uint8_t palette[3 * PALETTE_SIZE])
+// --- the sink ------------------------------------------------------------------------------------
+
+FilmSink *film_sink_create(const VideoDef *def, Error *err)
 {
+    uint8_t palette[3 * PALETTE_SIZE];
+    VideoDef video = *def;
+    FilmSink *sink = NULL;
+    TRY(film_sink_check(def->path, err));
+    TRY(sink = NEW_ARRAY(FilmSink, 1, err));
+    sink->def = *def;
+    pthread_mutex_init(&sink->lock, NULL);
+    pthread_cond_init(&sink->changed, NULL);
+
+    // Colours of the pictures: the colour map, greys, and six tints up to white.
     static const uint8_t tint[][3] = {{13, 69, 140}, {191, 31, 31},  {237, 148, 20},
                                       {20, 89, 179}, {77, 158, 217}, {140, 20, 77}};
     uint8_t map[3 * MAP_SIZE];
@@ -210,21 +214,6 @@ static void palette_fill(uint8_t palette[3 * PALETTE_SIZE])
                 palette[3 * n + part] =
                     (uint8_t)(tint[c][part] + (255 - tint[c][part]) * k / TINTS);
     for (; n < PALETTE_SIZE; ++n) memset(palette + 3 * n, 255, 3);
-}
-
-// --- the sink ------------------------------------------------------------------------------------
-
-FilmSink *film_sink_create(const VideoDef *def, Error *err)
-{
-    uint8_t palette[3 * PALETTE_SIZE];
-    VideoDef video = *def;
-    FilmSink *sink = NULL;
-    TRY(film_sink_check(def->path, err));
-    TRY(sink = NEW_ARRAY(FilmSink, 1, err));
-    sink->def = *def;
-    pthread_mutex_init(&sink->lock, NULL);
-    pthread_cond_init(&sink->changed, NULL);
-    palette_fill(palette);
     video.palette = palette;
     for (int32_t k = 0; k < SLOTS; ++k)
         TRY(sink->slot[k] = memory_bytes(4 * (int64_t)def->width * def->height, err));

@@ -173,22 +173,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Writes the parts that all frames have in common; they are drawn once and used in each of them.
-static void write_common(const Frames *frames, HtmlWriter *html)
-{
-    const ResultView *view = &frames->view;
-    html_markup(html, "<svg class='common' width='0' height='0' aria-hidden='true'><defs>"
-                      "<g id='common-axes'>");
-    for (int32_t s = 0; s < STRIPS; ++s) svg_axes(html, &frames->strip[s], s == STRIPS - 1);
-    svg_level(html, &frames->strip[STRIP_RATIO], view->number[NUMBER_MU_STATIC], "~{\u03bc}_{S}");
-    svg_level(html, &frames->strip[STRIP_RATIO], view->number[NUMBER_MU_KINETIC], "~{\u03bc}_{K}");
-    svg_level(html, &frames->strip[STRIP_RATE], 1, "~{V}");
-    svg_axes(html, &frames->force, true);
-    svg_level(html, &frames->force, view->number[NUMBER_MU_M], "~{\u03bc}_{M}");
-    svg_curve(html, &frames->force, "curve0", view->U, view->mu, view->rows);
-    html_markup(html, "</g></defs></svg>\n");
-}
-
 // --- a frame -------------------------------------------------------------------------------------
 
 // The block as an <img> with the picture in it.
@@ -218,10 +202,17 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Above the strips, a colour for each part of the contact that is of one status.
-static void write_band(const Frames *frames, int32_t k, HtmlWriter *html)
+static void write_chart(const Frames *frames, int32_t k, HtmlWriter *html)
 {
     const ResultView *view = &frames->view;
+    int64_t row = frames->rows[frames->chosen[k]];
+    html_markup(html,
+                "<svg class='chart' viewBox='0 0 %d %d' role='img' aria-label='Pressure, friction "
+                "over pressure and slip rate along the contact, and the force curve, at U = "
+                "%.6g'><use href='#common-axes'/>",
+                WIDTH, HEIGHT, view->U[row]);
+
+    // Above the strips, a colour for each part of the contact that is of one status.
     const uint8_t *status = frames->status + (int64_t)k * view->nodes;
     const Axes *axes = &frames->strip[0];
     SpaceTime contact = {.nodes = view->nodes, .x = view->x, .pad = view->pad};
@@ -238,18 +229,8 @@ static void write_band(const Frames *frames, int32_t k, HtmlWriter *html)
                     status[i], left, BAND_TOP, right - left, BAND_HEIGHT);
         i = end + 1;
     }
-}
 
-static void write_chart(const Frames *frames, int32_t k, HtmlWriter *html)
-{
-    const ResultView *view = &frames->view;
-    int64_t row = frames->rows[frames->chosen[k]];
-    html_markup(html,
-                "<svg class='chart' viewBox='0 0 %d %d' role='img' aria-label='Pressure, friction "
-                "over pressure and slip rate along the contact, and the force curve, at U = "
-                "%.6g'><use href='#common-axes'/>",
-                WIDTH, HEIGHT, view->U[row]);
-    write_band(frames, k, html);
+    // The strips, and the place on the force curve.
     for (int32_t s = 0; s < STRIPS; ++s)
         svg_curve(html, &frames->strip[s], "curve1", frames->x,
                   frames->y[s] + (int64_t)k * frames->points, frames->points);
@@ -308,7 +289,18 @@ amontons_render_frames(const char *folder, HtmlWriter *html, RenderFrames *found
         view, 1, (Box){LEFT, FORCE_TOP, RIGHT, FORCE_TOP + FORCE_HEIGHT}, HEADROOM);
     if (frames.fields) TRY(result_view_read_status(view, err));
     if (frames.fields) TRY(fit_images(&frames, err));
-    write_common(&frames, html);
+
+    // The parts that all frames have in common are drawn once and used in each of them.
+    html_markup(html, "<svg class='common' width='0' height='0' aria-hidden='true'><defs>"
+                      "<g id='common-axes'>");
+    for (int32_t s = 0; s < STRIPS; ++s) svg_axes(html, &frames.strip[s], s == STRIPS - 1);
+    svg_level(html, &frames.strip[STRIP_RATIO], view->number[NUMBER_MU_STATIC], "~{\u03bc}_{S}");
+    svg_level(html, &frames.strip[STRIP_RATIO], view->number[NUMBER_MU_KINETIC], "~{\u03bc}_{K}");
+    svg_level(html, &frames.strip[STRIP_RATE], 1, "~{V}");
+    svg_axes(html, &frames.force, true);
+    svg_level(html, &frames.force, view->number[NUMBER_MU_M], "~{\u03bc}_{M}");
+    svg_curve(html, &frames.force, "curve0", view->U, view->mu, view->rows);
+    html_markup(html, "</g></defs></svg>\n");
 
     // A reader wants to see the last sliding first, where there is one.
     double U = INFINITY;

@@ -179,32 +179,6 @@ static const char *group_name(const MeshGroup *group, int32_t form, char name[GR
     return name;
 }
 
-// Outside the mesh, beside the middle of the curve: below or above a level one, left or right of an
-// upright one.
-static void draw_name(const MeshPage *map, const MeshGroup *group, Color color, int32_t form)
-{
-    const Page *page = map->page;
-    const Box *box = &map->axes.box;
-    Box extent = curve_extent(map, group);
-    double gap = NAME_GAP * page->point, middle = (box->left + box->right) / 2;
-    double x = (extent.left + extent.right) / 2, y = (extent.top + extent.bottom) / 2;
-    TextStyle style = {.size = NUMBER_SIZE * page->point, .color = color, .across = 0.5};
-    char buffer[GROUP_NAME_SIZE + 4];
-    const char *name = group_name(group, form, buffer);
-    if (extent.right - extent.left >= extent.bottom - extent.top) {
-        bool below = y > (box->top + box->bottom) / 2;
-        if (map->base_below && is_contact(group)) below = false;   // the base is there
-        if (map->base_below && strcmp(group->name, "floor") == 0) below = true;
-        style.up = below ? 1 : 0;
-        text_draw(page->text, &style, (Point){x, y + (below ? gap : -gap)}, name);
-        return;
-    }
-    style.rising = true;
-    if (isfinite(map->mesh->rod_low)) y = (extent.top + y) / 2;   // the middle is the arrow's
-    double right = text_digit_height() * style.size + gap;   // the baseline is on the right
-    text_draw(page->text, &style, (Point){x < middle ? x - gap : x + right, y}, name);
-}
-
 static void draw_groups(const MeshPage *map)
 {
     const Page *page = map->page;
@@ -234,7 +208,28 @@ static void draw_groups(const MeshPage *map)
             const Point line[3] = {from, through, to};
             draw_line(page->canvas, &stroke, line, 3);
         }
-        draw_name(map, group, color, form);
+
+        // Its name, outside the mesh, beside the middle of the curve: below or above a level one,
+        // left or right of an upright one.
+        const Box *box = &map->axes.box;
+        Box extent = curve_extent(map, group);
+        double gap = NAME_GAP * page->point, middle = (box->left + box->right) / 2;
+        double x = (extent.left + extent.right) / 2, y = (extent.top + extent.bottom) / 2;
+        TextStyle style = {.size = NUMBER_SIZE * page->point, .color = color, .across = 0.5};
+        char buffer[GROUP_NAME_SIZE + 4];
+        const char *name = group_name(group, form, buffer);
+        if (extent.right - extent.left >= extent.bottom - extent.top) {
+            bool below = y > (box->top + box->bottom) / 2;
+            if (map->base_below && is_contact(group)) below = false;   // the base is there
+            if (map->base_below && strcmp(group->name, "floor") == 0) below = true;
+            style.up = below ? 1 : 0;
+            text_draw(page->text, &style, (Point){x, y + (below ? gap : -gap)}, name);
+            continue;
+        }
+        style.rising = true;
+        if (isfinite(map->mesh->rod_low)) y = (extent.top + y) / 2;   // the middle is the arrow's
+        double right = text_digit_height() * style.size + gap;   // the baseline is on the right
+        text_draw(page->text, &style, (Point){x < middle ? x - gap : x + right, y}, name);
     }
 }
 

@@ -189,24 +189,6 @@ cleanup:
 
 // --- triangles ----------------------------------------------------------------------------------
 
-// Two in the middle of any four cells that meet and hold points.
-static bool grid_triangles(const MapGrid *grid, MapTriangles *triangles, Error *err)
-{
-    triangles->points = NEW_ARRAY(int32_t, 6 * (int64_t)grid->columns * grid->rows, err);
-    if (!triangles->points) return false;
-    for (int32_t row = 0; row + 1 < grid->rows; row++)
-        for (int32_t column = 0; column + 1 < grid->columns; column++) {
-            const int32_t *low = &grid->point[(int64_t)row * grid->columns + column];
-            const int32_t *high = low + grid->columns;
-            if (low[0] < 0 || low[1] < 0 || high[0] < 0 || high[1] < 0) continue;
-            const int32_t pair[6] = {low[0], low[1], high[1], low[0], high[1], high[0]};
-            for (int32_t k = 0; k < 6; k++)
-                triangles->points[6 * (triangles->count / 2) + k] = pair[k];
-            triangles->count += 2;
-        }
-    return true;
-}
-
 // Leaves out triangles that span a gap: a side is far longer than the geometric mean of those that
 // end in its corners; a few long ones change that little.
 static bool drop_long(const Point *place, int32_t count, MapTriangles *triangles, Error *err)
@@ -244,8 +226,23 @@ bool map_triangles_find(const MapGrid *grid, const Point *place, int32_t count,
                         MapTriangles *triangles, Error *err)
 {
     *triangles = (MapTriangles){0};
-    if (grid->columns > 0) return grid_triangles(grid, triangles, err);
-    return triangulate(place, count, triangles, err) && drop_long(place, count, triangles, err);
+    if (grid->columns == 0)
+        return triangulate(place, count, triangles, err) && drop_long(place, count, triangles, err);
+
+    // In a grid two in the middle of any four cells that meet and hold points.
+    triangles->points = NEW_ARRAY(int32_t, 6 * (int64_t)grid->columns * grid->rows, err);
+    if (!triangles->points) return false;
+    for (int32_t row = 0; row + 1 < grid->rows; row++)
+        for (int32_t column = 0; column + 1 < grid->columns; column++) {
+            const int32_t *low = &grid->point[(int64_t)row * grid->columns + column];
+            const int32_t *high = low + grid->columns;
+            if (low[0] < 0 || low[1] < 0 || high[0] < 0 || high[1] < 0) continue;
+            const int32_t pair[6] = {low[0], low[1], high[1], low[0], high[1], high[0]};
+            for (int32_t k = 0; k < 6; k++)
+                triangles->points[6 * (triangles->count / 2) + k] = pair[k];
+            triangles->count += 2;
+        }
+    return true;
 }
 
 void map_triangles_destroy(MapTriangles *triangles)

@@ -62,35 +62,9 @@ static bool read_points(const Plot *plot, const CsvTable *table, PlotSeries *ser
     return true;
 }
 
-// The one with a line through several points; NULL: there are several, or none.
-static PlotSeries *find_curve(Plot *plot)
-{
-    PlotSeries *found = NULL;
-    for (int32_t k = 0; k < plot->main.series_count; ++k) {
-        PlotSeries *series = &plot->main.series[k];
-        if (series->line == LINE_NONE || series->count < 2) continue;
-        if (found) return NULL;
-        found = series;
-    }
-    return plot->panel_count > 0 ? NULL : found;
-}
-
 static double on_axis(const Axis *axis, double value)
 {
     return axis->is_log ? log10(value) : value;
-}
-
-// NaN: the curve does not come to x.
-static double computed_at(const PlotSeries *curve, const Axis *axis, double x)
-{
-    for (int32_t k = 0; k + 1 < curve->count; ++k) {
-        double low = curve->x[k], high = curve->x[k + 1];
-        if (!(x >= fmin(low, high) && x <= fmax(low, high))) continue;
-        double span = on_axis(axis, high) - on_axis(axis, low);
-        double part = span != 0 ? (on_axis(axis, x) - on_axis(axis, low)) / span : 1;
-        return curve->y[k] + part * (curve->y[k + 1] - curve->y[k]);
-    }
-    return NAN;
 }
 
 // Widens an axis to values outside of it.
@@ -118,7 +92,17 @@ bool plot_compare(Plot *plot, const char *path, Error *err)
     if (plot->main.series_count == PLOT_SERIES_MAX)
         FAIL(err, ERROR_INPUT, "the plot has %d curves, and no room for measurements",
              PLOT_SERIES_MAX);
-    PlotSeries *series = &plot->main.series[plot->main.series_count], *curve = find_curve(plot);
+
+    // The curve to compare with: the one with a line through several points, if it is one alone.
+    PlotSeries *series = &plot->main.series[plot->main.series_count], *curve = NULL;
+    int32_t curves = 0;
+    for (int32_t k = 0; k < plot->main.series_count; ++k) {
+        PlotSeries *other = &plot->main.series[k];
+        if (other->line == LINE_NONE || other->count < 2) continue;
+        curve = other;
+        ++curves;
+    }
+    if (plot->panel_count > 0 || curves > 1) curve = NULL;
     plot->main.series_count++;
     *series = (PlotSeries){.marker = MARKER_CROSS, .filled = true, .line = LINE_NONE};
     TRY(read_points(plot, &table, series, err));
@@ -132,7 +116,18 @@ bool plot_compare(Plot *plot, const char *path, Error *err)
         if (!curve->label[0]) snprintf(curve->label, sizeof curve->label, "computed");
         TRY(plot->computed = NEW_ARRAY(double, series->count, err));
         for (int32_t k = 0; k < series->count; ++k) {
-            plot->computed[k] = computed_at(curve, &plot->main.x, series->x[k]);
+            // Between two points of the curve, on its axis; NaN: the curve does not come to x.
+            const Axis *axis = &plot->main.x;
+            double x = series->x[k];
+            plot->computed[k] = NAN;
+            for (int32_t i = 0; i + 1 < curve->count; ++i) {
+                double low = curve->x[i], high = curve->x[i + 1];
+                if (!(x >= fmin(low, high) && x <= fmax(low, high))) continue;
+                double span = on_axis(axis, high) - on_axis(axis, low);
+                double part = span != 0 ? (on_axis(axis, x) - on_axis(axis, low)) / span : 1;
+                plot->computed[k] = curve->y[i] + part * (curve->y[i + 1] - curve->y[i]);
+                break;
+            }
             double away = series->y[k] - plot->computed[k];
             double error = (series->high[k] - series->low[k]) / 2;
             if (!isfinite(away)) continue;

@@ -250,21 +250,6 @@ cleanup:
 
 // --- points -------------------------------------------------------------------------------------
 
-// The colour inside shows; ink inside of paper is seen on any. sides 4: a square.
-static void ring_draw(const Page *page, Point at, double radius, int32_t sides)
-{
-    Stroke stroke = {.color = PAPER, .width = fmin(3 * RING_WIDTH * page->point, 0.6 * radius)};
-    Point line[RING_SIDES + 1];
-    for (int32_t k = 0; k <= sides; k++) {
-        double angle = 8 * atan(1) * (k + 0.5) / sides;
-        line[k] = (Point){at.x + radius * cos(angle), at.y + radius * sin(angle)};
-    }
-    draw_line(page->canvas, &stroke, line, sides + 1);
-    stroke.color = INK;
-    stroke.width /= 3;
-    draw_line(page->canvas, &stroke, line, sides + 1);
-}
-
 // distance: to the next mark. Marks get smaller as they come nearer to each other. A cell is a run
 // and needs no mark; of very many points only the doubtful and those without value have some.
 static void point_draw(const MapDrawing *drawing, int32_t k, double distance, bool shows_all)
@@ -277,31 +262,21 @@ static void point_draw(const MapDrawing *drawing, int32_t k, double distance, bo
     if (!isfinite(drawing->map->value[k])) {
         cross_draw(page, INK, at, fmin(2 * DOT_SHARE * distance, CROSS_ARM * point));
     } else if (drawing->map->open && drawing->map->open[k] > 0) {
-        ring_draw(page, at, ring, drawing->map->open[k] > 1 ? 4 : RING_SIDES);
+        // A ring or a square: the colour inside shows, and ink inside of paper is seen on any.
+        int32_t sides = drawing->map->open[k] > 1 ? 4 : RING_SIDES;
+        Stroke stroke = {.color = PAPER, .width = fmin(3 * RING_WIDTH * page->point, 0.6 * ring)};
+        Point line[RING_SIDES + 1];
+        for (int32_t i = 0; i <= sides; i++) {
+            double angle = 8 * atan(1) * (i + 0.5) / sides;
+            line[i] = (Point){at.x + ring * cos(angle), at.y + ring * sin(angle)};
+        }
+        draw_line(page->canvas, &stroke, line, sides + 1);
+        stroke.color = INK;
+        stroke.width /= 3;
+        draw_line(page->canvas, &stroke, line, sides + 1);
     } else if (shows_all) {
         draw_disc(page->canvas, PAPER, at, dot + DOT_RIM * point);
         draw_disc(page->canvas, INK, at, dot);
-    }
-}
-
-// Where cells of a grid are smaller than marks that one can tell apart, those of some points stand
-// for the ones around them.
-static void points_draw(const MapDrawing *drawing)
-{
-    const MapGrid *grid = &drawing->grid;
-    double distance = point_distance(drawing), least = DISTANCE_MIN * drawing->page->point;
-    bool thinned = grid->columns > 0 && distance < least;
-    if (!thinned) {
-        for (int32_t k = 0; k < drawing->map->count; k++)
-            point_draw(drawing, k, distance, grid->columns == 0 && distance >= least);
-        return;
-    }
-    int32_t step = (int32_t)ceil(MARKS_APART * drawing->page->point / distance);
-    for (int32_t row = step / 2; row < grid->rows; row += step) {
-        for (int32_t column = step / 2; column < grid->columns; column += step) {
-            int32_t k = grid->point[row * grid->columns + column];
-            if (k >= 0) point_draw(drawing, k, least, false);
-        }
     }
 }
 
@@ -322,7 +297,20 @@ bool plot_map_draw(const Page *page, const Axes *axes, const PlotPanel *panel,
         TRY(triangles_draw(&drawing, err));
     canvas_clip(page->canvas, &axes->box);
     if (map->contour) TRY(contours_draw(&drawing, err));
-    points_draw(&drawing);
+
+    // Marks of the points. Where cells of a grid are smaller than marks that one can tell apart,
+    // those of some points stand for the ones around them.
+    const MapGrid *grid = &drawing.grid;
+    double distance = point_distance(&drawing), least = DISTANCE_MIN * page->point;
+    bool thinned = grid->columns > 0 && distance < least;
+    for (int32_t k = 0; k < map->count && !thinned; k++)
+        point_draw(&drawing, k, distance, grid->columns == 0 && distance >= least);
+    int32_t step = thinned ? (int32_t)ceil(MARKS_APART * page->point / distance) : 1;
+    for (int32_t row = step / 2; row < grid->rows && thinned; row += step)
+        for (int32_t column = step / 2; column < grid->columns; column += step) {
+            int32_t k = grid->point[row * grid->columns + column];
+            if (k >= 0) point_draw(&drawing, k, least, false);
+        }
 cleanup:
     canvas_clip(page->canvas, NULL);
     map_grid_destroy(&drawing.grid);

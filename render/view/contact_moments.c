@@ -19,26 +19,6 @@ enum { SLOW_PARTS = 3, RAPID_PARTS = 2, MOMENT_SIZE = 64 };
 static const double RAPID = 2, SLIPS = 0.01;   // of the rod's velocity
 static const double ROUNDING = 1e-9;   // of sums of areas
 
-static bool take_asked(const ResultView *view, const char *at, ContactMoments *moments, Error *err)
-{
-    char word[MOMENT_SIZE];
-    for (; *at; at += strcspn(at, ","), at += *at == ',') {
-        bool by_U = false;
-        double value = 0;
-        if (moments->count == MOMENTS_MAX)
-            return REFUSE(err, "a figure shows %d moments at most", MOMENTS_MAX);
-        snprintf(word, sizeof word, "%.*s", (int)strcspn(at, ","), at);
-        if (!block_moment_seen(view, word, &by_U, &value, err)) return false;
-        moments->row[moments->count++] =
-            result_view_nearest_row(view, by_U ? view->U : view->t, value);
-    }
-    qsort(moments->row, (size_t)moments->count, sizeof *moments->row, order_int64);
-    moments->asked = true;
-    moments->first = moments->row[0];
-    moments->last = moments->row[moments->count - 1];
-    return true;
-}
-
 // The event is the rapid one nearest to what is asked for; without a wish the sliding of the cycle
 // that is asked for, else the last that carried the whole block, or else the last.
 static bool take_event(const ResultView *view, const char *at, ContactMoments *moments, Error *err)
@@ -107,7 +87,24 @@ bool contact_moments_find(const ResultView *view, const double *rates, const cha
     const ContactPlane *plane = &view->plane;
     int32_t nodes = plane->nodes;
     *moments = (ContactMoments){0};
-    if (at && !whole) return take_asked(view, at, moments, err);
+    if (at && !whole) {
+        char word[MOMENT_SIZE];
+        for (; *at; at += strcspn(at, ","), at += *at == ',') {
+            bool by_U = false;
+            double value = 0;
+            if (moments->count == MOMENTS_MAX)
+                return REFUSE(err, "a figure shows %d moments at most", MOMENTS_MAX);
+            snprintf(word, sizeof word, "%.*s", (int)strcspn(at, ","), at);
+            if (!block_moment_seen(view, word, &by_U, &value, err)) return false;
+            moments->row[moments->count++] =
+                result_view_nearest_row(view, by_U ? view->U : view->t, value);
+        }
+        qsort(moments->row, (size_t)moments->count, sizeof *moments->row, order_int64);
+        moments->asked = true;
+        moments->first = moments->row[0];
+        moments->last = moments->row[moments->count - 1];
+        return true;
+    }
     if (!take_event(view, at, moments, err)) return false;
 
     // When each node was first rapid in the event, from when the first of them was.

@@ -103,43 +103,7 @@ typedef struct KnownSide {
     ContactSide side;
 } KnownSide;
 
-static void add_sides(const Face *face, KnownSide *sides, int32_t *count)
-{
-    int32_t corners = element_corner_count(face->kind);
-    bool between = element_node_count(face->kind) > corners;
-    for (int32_t k = 0; k < corners; ++k) {
-        int32_t next = (k + 1) % corners, a = face->point[k], b = face->point[next];
-        KnownSide *side = &sides[(*count)++];
-        side->low = a < b ? a : b;
-        side->high = a < b ? b : a;
-        memcpy(side->side.point[0], face->place[k], sizeof side->side.point[0]);
-        memcpy(side->side.point[2], face->place[next], sizeof side->side.point[2]);
-        middle_of(face->place[k], face->place[next], side->side.point[1]);
-        if (between) memcpy(side->side.point[1], face->place[corners + k], 2 * sizeof(double));
-    }
-}
-
 // --- reading -------------------------------------------------------------------------------------
-
-static bool read_faces(ArrayFile *file, Faces *faces, Error *err)
-{
-    int32_t two = 0;
-    if (!result_file_read_faces(file, FACES_NODES, &faces->point, &faces->count, &faces->width,
-                                err))
-        return false;
-    if (!result_file_read_faces(file, FACES_CORNERS, &faces->corner, &faces->corners, &two, err))
-        return false;
-    if (faces->count == 0)
-        return REFUSE(
-            err,
-            "the history does not have the faces of the contact: it was written before they were "
-            "stored, or by a run that did not read its mesh");
-    if (faces->corners > 0 && two != 2)
-        return FAULT(err, ERROR_FILE, "corners have %d numbers", two);
-    if (faces->width > FACE_NODES_MAX)
-        return FAULT(err, ERROR_FILE, "faces have up to %d points", faces->width);
-    return true;
-}
 
 bool contact_plane_read(ArrayFile *file, int32_t nodes, ContactPlane *plane, Error *err)
 {
@@ -156,14 +120,36 @@ bool contact_plane_read(ArrayFile *file, int32_t nodes, ContactPlane *plane, Err
             FAIL(err, ERROR_FILE, "%d of %d contact nodes have a place", count, nodes);
     }
     count = 0;   // of sides
-    TRY(read_faces(file, &faces, err));
+
+    int32_t two = 0;
+    TRY(result_file_read_faces(file, FACES_NODES, &faces.point, &faces.count, &faces.width, err));
+    TRY(result_file_read_faces(file, FACES_CORNERS, &faces.corner, &faces.corners, &two, err));
+    if (faces.count == 0)
+        FAIL(err, ERROR_INPUT,
+             "the history does not have the faces of the contact: it was written before they were "
+             "stored, or by a run that did not read its mesh");
+    if (faces.corners > 0 && two != 2) FAIL(err, ERROR_FILE, "corners have %d numbers", two);
+    if (faces.width > FACE_NODES_MAX)
+        FAIL(err, ERROR_FILE, "faces have up to %d points", faces.width);
+
     TRY(plane->patches = NEW_ARRAY(ContactPatch, (int64_t)FACE_PATCHES_MAX * faces.count, err));
     TRY(plane->sides = NEW_ARRAY(ContactSide, (int64_t)FACE_CORNERS_MAX * faces.count, err));
     TRY(sides = NEW_ARRAY(KnownSide, (int64_t)FACE_CORNERS_MAX * faces.count, err));
     for (int32_t f = 0; f < faces.count; ++f) {
         TRY(take_face(plane, &faces, f, &face, err));
         add_patches(&face, plane);
-        add_sides(&face, sides, &count);
+        int32_t corners = element_corner_count(face.kind);
+        bool between = element_node_count(face.kind) > corners;
+        for (int32_t k = 0; k < corners; ++k) {
+            int32_t next = (k + 1) % corners, a = face.point[k], b = face.point[next];
+            KnownSide *side = &sides[count++];
+            side->low = a < b ? a : b;
+            side->high = a < b ? b : a;
+            memcpy(side->side.point[0], face.place[k], sizeof side->side.point[0]);
+            memcpy(side->side.point[2], face.place[next], sizeof side->side.point[2]);
+            middle_of(face.place[k], face.place[next], side->side.point[1]);
+            if (between) memcpy(side->side.point[1], face.place[corners + k], 2 * sizeof(double));
+        }
     }
 
     // Sides of one face alone.

@@ -186,28 +186,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// x and pads become those of the line; ascending x, as the nodes are.
-static bool line_read(ResultView *view, Error *err)
-{
-    double *of_line = NULL;
-    int32_t count = 0, all = view->nodes;
-    TRY(result_file_read_nodes(view->file, NODES_LINE, &of_line, &count, err));
-    if (count != all)
-        FAIL(err, ERROR_FILE, "%d contact nodes with %d marks of the line", all, count);
-    TRY(view->line = NEW_ARRAY(int32_t, all, err));
-    view->nodes = 0;
-    for (int32_t i = 0; i < all; ++i) {
-        if (!(of_line[i] > 0)) continue;
-        view->x[view->nodes] = view->x[i];
-        view->pad[view->nodes] = view->pad[i];
-        view->line[view->nodes++] = i;
-    }
-    if (view->nodes < 1) FAIL(err, ERROR_FILE, "no contact node is on the line");
-cleanup:
-    memory_free(of_line);
-    return error_is_clean(err);
-}
-
 // A text of several lines; "" where the history has none: no error.
 static bool lines_read(ResultView *view, const char *name, char **lines, Error *err)
 {
@@ -217,23 +195,8 @@ static bool lines_read(ResultView *view, const char *name, char **lines, Error *
     return true;
 }
 
-// Three columns of the file into a list of peaks.
-static bool peaks_read(ResultView *view, Error *err)
-{
-    static const ResultTable tables[3] = {PEAKS_U, PEAKS_MU, PEAKS_COUNTS};
-    double *column[3] = {0};
-    int32_t count = 0;
-    TRY(result_file_read_tables(view->file, tables, 3, column, &count, err));
-    TRY(view->peaks = NEW_ARRAY(ViewPeak, count, err));
-    for (int32_t k = 0; k < count; ++k)
-        view->peaks[k] = (ViewPeak){column[0][k], column[1][k], column[2][k] > 0.5};
-    view->peak_count = count;
-cleanup:
-    memory_free_list((void *const *)column, 3);
-    return error_is_clean(err);
-}
-
-// As peaks; a kind that this version does not know becomes -1 and is drawn by nobody.
+// Columns of the file into a list of events; a kind that this version does not know becomes -1 and
+// is drawn by nobody.
 static bool events_read(ResultView *view, Error *err)
 {
     static const ResultTable tables[4] = {EVENTS_KIND, EVENTS_U_START, EVENTS_U_STOP, EVENTS_REACH};
@@ -283,6 +246,8 @@ bool result_view_choose_state(ResultView *view, const char *name)
 // of the file.
 bool result_view_open(const char *folder, ResultView *view, Error *err)
 {
+    static const ResultTable tables[3] = {PEAKS_U, PEAKS_MU, PEAKS_COUNTS};
+    double *of_line = NULL, *column[3] = {0};
     char units[UNITS_SIZE] = "";
     *view = (ResultView){.rows = INT64_MAX};
     TRY(view->file = result_file_open(folder, err));
@@ -300,7 +265,23 @@ bool result_view_open(const char *folder, ResultView *view, Error *err)
     if (view->nodes < 1 || pads != view->nodes)
         FAIL(err, ERROR_FILE, "%d contact nodes with %d pad numbers", view->nodes, pads);
     view->all_nodes = view->nodes;
-    TRY(!result_file_has_nodes(view->file, NODES_LINE) || line_read(view, err));
+
+    // In space x and pads become those of the line; ascending x, as the nodes are.
+    int32_t all = view->nodes, marks = 0;
+    if (result_file_has_nodes(view->file, NODES_LINE)) {
+        TRY(result_file_read_nodes(view->file, NODES_LINE, &of_line, &marks, err));
+        if (marks != all)
+            FAIL(err, ERROR_FILE, "%d contact nodes with %d marks of the line", all, marks);
+        TRY(view->line = NEW_ARRAY(int32_t, all, err));
+        view->nodes = 0;
+        for (int32_t i = 0; i < all; ++i) {
+            if (!(of_line[i] > 0)) continue;
+            view->x[view->nodes] = view->x[i];
+            view->pad[view->nodes] = view->pad[i];
+            view->line[view->nodes++] = i;
+        }
+        if (view->nodes < 1) FAIL(err, ERROR_FILE, "no contact node is on the line");
+    }
 
     TRY(lines_read(view, "title", &view->title, err));
     TRY(lines_read(view, "pads", &view->pad_names, err));
@@ -315,10 +296,15 @@ bool result_view_open(const char *folder, ResultView *view, Error *err)
     view->probes = view->probe_names[0] != 0;
     for (const char *at = view->probe_names; *at; ++at) view->probes += *at == '\n';
     TRY(events_read(view, err));
-    TRY(peaks_read(view, err));
+    TRY(result_file_read_tables(view->file, tables, 3, column, &view->peak_count, err));
+    TRY(view->peaks = NEW_ARRAY(ViewPeak, view->peak_count, err));
+    for (int32_t k = 0; k < view->peak_count; ++k)
+        view->peaks[k] = (ViewPeak){column[0][k], column[1][k], column[2][k] > 0.5};
     for (int32_t k = 0; k < RESULT_NUMBERS_COUNT; ++k)
         view->number[k] = result_file_number(view->file, (ResultNumber)k);
 cleanup:
+    memory_free(of_line);
+    memory_free_list((void *const *)column, 3);
     if (!error_is_clean(err)) {
         error_context(err, "while reading the result in %s", folder);
         result_view_close(view);

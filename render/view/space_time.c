@@ -118,32 +118,10 @@ static void columns_mean(const SpaceTime *data, const PixelGrid *grid, float *by
     }
 }
 
-// Whether node i is seen in the pixels of height `pixel` around x.
-static bool node_is_at(const SpaceTime *data, int32_t i, double x, double pixel)
-{
-    double from = 0, to = 0;
-    node_extent(data, i, &from, &to);
-    return (x >= from && x < to) || (data->x[i] >= x - pixel / 2 && data->x[i] < x + pixel / 2);
-}
-
 // Nodes that are neighbours; none: last < first.
 typedef struct NodeRange {
     int32_t first, last;
 } NodeRange;
-
-// Those that row `row` shows.
-static NodeRange nodes_of_row(const SpaceTime *data, const PixelGrid *grid, int32_t row)
-{
-    double pixel = (grid->x_high - grid->x_low) / grid->rows;
-    double x = grid->x_high - (row + 0.5) * pixel;
-    NodeRange range = {0, -1};
-    for (int32_t i = 0; i < data->nodes; ++i) {
-        if (!node_is_at(data, i, x, pixel)) continue;
-        if (range.last < 0) range.first = i;
-        range.last = i;
-    }
-    return range;
-}
 
 // grid->values and band are made here; pixel_grid_destroy.
 bool space_time_to_pixels(const SpaceTime *data, PixelGrid *grid, Error *err)
@@ -159,7 +137,17 @@ bool space_time_to_pixels(const SpaceTime *data, PixelGrid *grid, Error *err)
     // Rows that show the same nodes are one; ranges: [rows] of which `bands` are filled.
     grid->bands = 0;
     for (int32_t row = 0; row < grid->rows; ++row) {
-        NodeRange range = nodes_of_row(data, grid, row);
+        // Nodes that are seen in the pixels of the row.
+        double pixel = (grid->x_high - grid->x_low) / grid->rows, from = 0, to = 0;
+        double x = grid->x_high - (row + 0.5) * pixel;
+        NodeRange range = {0, -1};
+        for (int32_t i = 0; i < data->nodes; ++i) {
+            node_extent(data, i, &from, &to);
+            bool near = data->x[i] >= x - pixel / 2 && data->x[i] < x + pixel / 2;
+            if (!near && !(x >= from && x < to)) continue;
+            if (range.last < 0) range.first = i;
+            range.last = i;
+        }
         const NodeRange *before = grid->bands > 0 ? &ranges[grid->bands - 1] : NULL;
         if (!before || range.first != before->first || range.last != before->last)
             ranges[grid->bands++] = range;

@@ -149,20 +149,6 @@ static bool add_outside(const SurfacePoint corner[3], const SpaceCut *cut, Surfa
     return true;
 }
 
-// Adds the part of a line between two points that the cut leaves.
-static bool add_line(const SurfacePoint *two, const SpaceCut *cut, SurfaceParts *lines, Error *err)
-{
-    SurfacePoint points[POLYGON_MAX];
-    if (cut->count == 0) return add(lines, two, 2, err);
-    for (int32_t k = 0; k < cut->count; ++k) {
-        memcpy(points, two, 2 * sizeof *points);
-        int32_t count = clip(cut, k, -1, points, 2);
-        for (int32_t j = 0; j < k && count == 2; ++j) count = clip(cut, j, 1, points, count);
-        if (count == 2 && !add(lines, points, 2, err)) return false;
-    }
-    return true;
-}
-
 // --- the section ---------------------------------------------------------------------------------
 
 // From a unit cube to the reference element.
@@ -324,8 +310,21 @@ static bool add_side(const Block *block, const FaceSide *side, const SpaceCut *c
     int32_t count = 1;
     if (side->through >= 0) line[count++] = node_point(block, side->through);
     line[count++] = node_point(block, side->high);
-    for (int32_t k = 0; k + 1 < count; ++k)
-        if (!add_line(&line[k], cut, lines, err)) return false;
+    if (cut->count == 0) {
+        for (int32_t i = 0; i + 1 < count; ++i)
+            if (!add(lines, &line[i], 2, err)) return false;
+        return true;
+    }
+
+    // The part of each line that the cut leaves.
+    for (int32_t i = 0; i + 1 < count; ++i)
+        for (int32_t k = 0; k < cut->count; ++k) {
+            SurfacePoint points[POLYGON_MAX];
+            memcpy(points, &line[i], 2 * sizeof *points);
+            int32_t left = clip(cut, k, -1, points, 2);
+            for (int32_t j = 0; j < k && left == 2; ++j) left = clip(cut, j, 1, points, left);
+            if (left == 2 && !add(lines, points, 2, err)) return false;
+        }
     return true;
 }
 

@@ -110,16 +110,6 @@ static double difference(const Levels *levels, int32_t level, AnswerKind kind)
                 level_value(&levels->list[level - 1], kind));
 }
 
-// The last level alone has an answer, or it is one that does not count: of the error that its mesh
-// leaves nothing is known. Coarser ones with other drops say that it is no coarse one: what is
-// usual of one level then tells its error.
-static bool is_alone(const Levels *levels, AnswerKind kind)
-{
-    const Level *first = levels->list, *last = &first[levels->count - 1];
-    while (first < last && !has_value(first, kind)) first++;
-    return !has_value(last, kind) || first->nodes_along == last->nodes_along;
-}
-
 // Part of the contact that slips where slow slip turns fast, from all meshes that resolve slip: on
 // one of them the smallest part may belong to an unusual event.
 static double slipping_part(const Levels *levels)
@@ -214,7 +204,13 @@ static ErrorBar bar_of(const Levels *levels, AnswerKind kind)
     const Level *last = &levels->list[levels->count - 1];
     double spread = spread_of_runs(levels, levels->count - 1, kind);
     if (isnan(level_value(last, kind))) return (ErrorBar){NAN, NAN, {NAN, NAN, NAN}, false};
-    bool alone = is_alone(levels, kind);
+
+    // The last level alone has an answer, or it is one that does not count: of the error that its
+    // mesh leaves nothing is known. Coarser ones with other drops say that it is no coarse one:
+    // what is usual of one level then tells its error.
+    const Level *first = levels->list;
+    while (first < last && !has_value(first, kind)) first++;
+    bool alone = !has_value(last, kind) || first->nodes_along == last->nodes_along;
     Limit limit = {.value = level_value(last, kind), .mesh = NAN};
     if (alone)
         add_level(last, kind, 1, spread, &limit);

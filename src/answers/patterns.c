@@ -24,19 +24,15 @@ void patterns_add_drops(Patterns *patterns, const Drops *drops, int32_t first)
     }
 }
 
-static bool has(const Patterns *patterns, uint64_t pads)
-{
-    for (int32_t k = 0; k < patterns->count; k++)
-        if (patterns->list[k].pads == pads) return true;
-    return patterns->count == PATTERNS_MAX;   // it may be one of those that are not listed
-}
-
 // All drops with a pattern are among those of `one`: the chance of that where both have it alike.
 static bool lacks(const Patterns *other, const Patterns *one)
 {
     for (int32_t k = 0; k < one->count; k++) {
         double chance = 1;
-        if (has(other, one->list[k].pads)) continue;
+        bool has = other->count == PATTERNS_MAX;   // it may be one of those that are not listed
+        for (int32_t i = 0; i < other->count; i++)
+            has = has || other->list[i].pads == one->list[k].pads;
+        if (has) continue;
         for (int32_t i = 0; i < one->list[k].drops; i++)
             chance *= (double)(one->drops - i) / (one->drops + other->drops - i);
         if (chance < CHANCE) return true;

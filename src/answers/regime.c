@@ -81,26 +81,6 @@ static void note_trend(const Drops *drops, const SeriesItem *last, int32_t count
     regime->drops_left = drops_left(drops, last->value, fading, regime);
 }
 
-// Over all load drops since every node has slipped, `count` of them, also those that agree with the
-// last no more: a slow rise is seen best from afar. As long as the later half of them shows for
-// certain that the trend has become less, what came before belongs to the run-in.
-static void find_trend(const Drops *drops, const SeriesItem *last, int32_t count, Regime *regime)
-{
-    int32_t round = regime->period > 0 ? regime->period : 1;
-    for (int32_t half = count; half > round; count = half) {
-        SeriesTrend all = trend_of_last(last, count, regime);
-        if (!series_trend_stands_out(&all)) break;
-        half = (count / 2 + round - 1) / round * round;
-        SeriesTrend later = trend_of_last(last, half, regime);
-        double most = fabs(later.slope) + student(later.freedoms) * later.error;
-        if (!(most < fabs(all.slope))) break;
-    }
-    note_trend(drops, last, count, regime);
-    if (count < regime->count) regime->count = count;
-    if (regime->ahead > drops->tolerance && regime->run_in == RUN_IN_OVER)
-        regime->run_in = RUN_IN_TREND;
-}
-
 Regime regime_of(const Drops *drops)
 {
     // The load drops up to the one in which the last node slipped for the first time do not count.
@@ -122,7 +102,26 @@ Regime regime_of(const Drops *drops)
         regime.period = found.period;
         regime.run_in = lags(drops, last + 1 - looked, looked, found.period > 0) ? RUN_IN_LAGS
                                                                                  : RUN_IN_OVER;
-        if (found.count > 2) find_trend(drops, last, count - 1, &regime);
+
+        // The trend over all load drops since every node has slipped, also those that agree with
+        // the last no more: a slow rise is seen best from afar. As long as the later half of them
+        // shows for certain that the trend has become less, what came before belongs to the run-in.
+        if (found.count > 2) {
+            int32_t looked_back = count - 1;
+            int32_t round = regime.period > 0 ? regime.period : 1;
+            for (int32_t half = looked_back; half > round; looked_back = half) {
+                SeriesTrend whole = trend_of_last(last, looked_back, &regime);
+                if (!series_trend_stands_out(&whole)) break;
+                half = (looked_back / 2 + round - 1) / round * round;
+                SeriesTrend later = trend_of_last(last, half, &regime);
+                double most = fabs(later.slope) + student(later.freedoms) * later.error;
+                if (!(most < fabs(whole.slope))) break;
+            }
+            note_trend(drops, last, looked_back, &regime);
+            if (looked_back < regime.count) regime.count = looked_back;
+            if (regime.ahead > drops->tolerance && regime.run_in == RUN_IN_OVER)
+                regime.run_in = RUN_IN_TREND;
+        }
         if (regime.run_in != RUN_IN_OVER) regime.period = 0;
     }
     int32_t before = all - regime.count;

@@ -236,8 +236,25 @@ static void print_first_loading(const RunSummary *summary)
     say("\n");
 }
 
-static void print_answers(const RunSummary *summary)
+// A filter for scandir.
+static int is_picture(const struct dirent *entry)
 {
+    const char *dot = strrchr(entry->d_name, '.');
+    return dot && strcmp(dot, ".png") == 0;
+}
+
+// A line for a file that is there.
+static void print_file(const char *folder, const char *name, const char *sentence)
+{
+    char path[AMONTONS_PATH_SIZE + 32];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    if (access(path, F_OK) == 0) say("  %-15s %s\n", name, sentence);
+}
+
+// title may be empty. Nothing about files where the run wrote none.
+void closing_print(const char *title, const RunSummary *summary)
+{
+    say("%s%sdone\n", title, *title ? ": " : "");
     print_mu_M(summary);
     if (!isnan(summary->mu_steady) && strcmp(summary->mu_M_is, STEADY) != 0)
         say("  mu_steady       %.3f: F_T/F_N at the end of the run, where the block slides "
@@ -308,28 +325,8 @@ static void print_answers(const RunSummary *summary)
         (long long)counters->rejected_uncertified, (long long)counters->unsolved_retries);
     say("  time taken      %.1f s (solving %.1f, output %.1f)\n", summary->seconds_total,
         summary->seconds_solve, summary->seconds_output);
-}
 
-// A filter for scandir.
-static int is_picture(const struct dirent *entry)
-{
-    const char *dot = strrchr(entry->d_name, '.');
-    return dot && strcmp(dot, ".png") == 0;
-}
-
-// A line for a file that is there.
-static void print_file(const char *folder, const char *name, const char *sentence)
-{
-    char path[AMONTONS_PATH_SIZE + 32];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    if (access(path, F_OK) == 0) say("  %-15s %s\n", name, sentence);
-}
-
-// title may be empty. Nothing about files where the run wrote none.
-void closing_print(const char *title, const RunSummary *summary)
-{
-    say("%s%sdone\n", title, *title ? ": " : "");
-    print_answers(summary);
+    // The files.
     if (!*summary->folder) return;
     char fields[80];
     snprintf(fields, sizeof fields, "%d times of the whole block; open it in ParaView",

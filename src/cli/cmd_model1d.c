@@ -23,48 +23,6 @@ static void show_point(const Model1dPoint *point, void *table)
     say("\n");
 }
 
-// Theory as in the paper, and with the terms that it neglects. Of the simulation the first sliding
-// starts from tau = mu_K p, as in theory; the periodic ones from the stress that sliding left, and
-// differ by that.
-static void print_answers(const Model1dSummary *summary)
-{
-    say("\nTheory, as in the paper (off-diagonal terms neglected)\n");
-    point_table_answer("l_sc/L", summary->l_sc, "Re omega_0 > 0: oscillations grow");
-    point_table_answer("l_c/L", summary->l_c,
-                       summary->l_c > 1
-                           ? "omega_0 real and > 0: longer than the line, never reached"
-                           : "omega_0 real and > 0: slow slip turns into sliding");
-    point_table_answer("l_c/L, l << L", summary->l_c_small, "the law (L P)^(-1/3)");
-    point_table_answer("mu_M", summary->mu_c, "mu_K + (mu_S - mu_K) l_c/L");
-    say("Theory, all terms kept\n");
-    point_table_answer("l_sc/L", summary->l_sc_full, "oscillations grow");
-    point_table_answer("l_c/L", summary->l_c_full,
-                       "a disturbance grows without oscillating, however slow the rod");
-    point_table_answer("l_c/L at V", summary->l_rod_full,
-                       "a disturbance grows from V to v_c in half an oscillation");
-    point_table_answer("mu_M, V -> 0", summary->mu_c_full, "mu at l_c; mu_S where there is none");
-    point_table_answer("mu_M at V", summary->mu_rod_full, "mu at l_c at V");
-    if (!summary->simulated) return;
-    say("Simulation\n");
-    point_table_answer("first l_sc/L", summary->first_l_sc, "the certificate is lost");
-    point_table_answer("first l_c/L", summary->first_l_c,
-                       "sliding begins; start from tau = mu_K p, as in theory");
-    point_table_answer("first mu_M", summary->first_mu, "its peak");
-    point_table_answer("periodic l_c/L", summary->l_c_seen,
-                       "later peaks start from the stress that sliding left");
-    point_table_answer("periodic mu_M", summary->mu_M, "");
-    point_table_answer("spread of mu_M", summary->mu_M_spread,
-                       "largest less smallest of the peaks that count");
-    say("  %-22s %d, of which %d count, period %d; %d bounded rapid events\n", "peaks",
-        summary->peaks, summary->peaks_counted, summary->period, summary->bounded);
-    say("  %-22s %-8.1e before the first rapid event\n", "mu against theory",
-        summary->quasi_static_error);
-    say("  %-22s %-8.1e complementarity %.1e\n", "energy ledger", summary->energy_error,
-        summary->contact_error);
-    say("  %-22s %lld accepted, %lld rejected\n", "steps", (long long)summary->accepted,
-        (long long)summary->rejected);
-}
-
 // The table is printed while it is made, answers when all is known.
 int command_model1d(const Command *command, int argc, char **argv)
 {
@@ -104,15 +62,52 @@ int command_model1d(const Command *command, int argc, char **argv)
     options.stop = stop_on_signals();
     bool done = amontons_model1d(scene, &options, &summary, &err);
     progress_end(&table.progress);
-    if (!done)
-        status = report_error(&err);
-    else if (!quiet) {
-        print_answers(&summary);
-        say("  %-22s %.1f s\n", "time taken", summary.seconds);
-        if (*summary.folder)
-            say("Results in %s: model1d.json, model1d.h5%s\n", summary.folder,
-                summary.simulated ? " and the steps in history.h5" : "");
-    }
     amontons_scene_destroy(scene);
-    return status;
+    if (!done) return report_error(&err);
+    if (quiet) return 0;
+
+    // Theory as in the paper, and with the terms that it neglects.
+    say("\nTheory, as in the paper (off-diagonal terms neglected)\n");
+    point_table_answer("l_sc/L", summary.l_sc, "Re omega_0 > 0: oscillations grow");
+    point_table_answer("l_c/L", summary.l_c,
+                       summary.l_c > 1 ? "omega_0 real and > 0: longer than the line, never reached"
+                                       : "omega_0 real and > 0: slow slip turns into sliding");
+    point_table_answer("l_c/L, l << L", summary.l_c_small, "the law (L P)^(-1/3)");
+    point_table_answer("mu_M", summary.mu_c, "mu_K + (mu_S - mu_K) l_c/L");
+    say("Theory, all terms kept\n");
+    point_table_answer("l_sc/L", summary.l_sc_full, "oscillations grow");
+    point_table_answer("l_c/L", summary.l_c_full,
+                       "a disturbance grows without oscillating, however slow the rod");
+    point_table_answer("l_c/L at V", summary.l_rod_full,
+                       "a disturbance grows from V to v_c in half an oscillation");
+    point_table_answer("mu_M, V -> 0", summary.mu_c_full, "mu at l_c; mu_S where there is none");
+    point_table_answer("mu_M at V", summary.mu_rod_full, "mu at l_c at V");
+
+    // In the simulation the first sliding starts from tau = mu_K p, as in theory; the periodic ones
+    // from the stress that sliding left, and differ by that.
+    if (summary.simulated) {
+        say("Simulation\n");
+        point_table_answer("first l_sc/L", summary.first_l_sc, "the certificate is lost");
+        point_table_answer("first l_c/L", summary.first_l_c,
+                           "sliding begins; start from tau = mu_K p, as in theory");
+        point_table_answer("first mu_M", summary.first_mu, "its peak");
+        point_table_answer("periodic l_c/L", summary.l_c_seen,
+                           "later peaks start from the stress that sliding left");
+        point_table_answer("periodic mu_M", summary.mu_M, "");
+        point_table_answer("spread of mu_M", summary.mu_M_spread,
+                           "largest less smallest of the peaks that count");
+        say("  %-22s %d, of which %d count, period %d; %d bounded rapid events\n", "peaks",
+            summary.peaks, summary.peaks_counted, summary.period, summary.bounded);
+        say("  %-22s %-8.1e before the first rapid event\n", "mu against theory",
+            summary.quasi_static_error);
+        say("  %-22s %-8.1e complementarity %.1e\n", "energy ledger", summary.energy_error,
+            summary.contact_error);
+        say("  %-22s %lld accepted, %lld rejected\n", "steps", (long long)summary.accepted,
+            (long long)summary.rejected);
+    }
+    say("  %-22s %.1f s\n", "time taken", summary.seconds);
+    if (*summary.folder)
+        say("Results in %s: model1d.json, model1d.h5%s\n", summary.folder,
+            summary.simulated ? " and the steps in history.h5" : "");
+    return 0;
 }

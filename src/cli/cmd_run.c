@@ -43,75 +43,7 @@ static double seconds_of(const char *word)
     return NAN;
 }
 
-// The words of the command line that become values of the scene or of the run.
-typedef struct RunWords {
-    const char *to, *within, *extend, *checkpoint;   // NULL: not given
-    bool resume, profile, dry;
-    char settings[3][SETTING_SIZE];
-} RunWords;
-
-// The error bar wanted and the time for it, and `--extend U=0.02`: the scene's end alone; whatever
-// else would end it does not. They become settings, behind those of --set. Status 0 or 2.
-static int ask_own(RunWords *own, SceneWords *words)
-{
-    OptionWords *settings = &words->settings;
-    const char *to = own->to, *within = own->within, *extend = own->extend;
-    if (settings->count + 3 > OPTION_WORDS_MAX) return report_misuse("too many --set");
-    if (own->checkpoint && !(seconds_of(own->checkpoint) > 0))
-        return report_misuse("--checkpoint: found `%.40s`; allowed: a time such as 30s or 5min",
-                             own->checkpoint);
-    if (within && !to)
-        return report_misuse("--within: needs --to, the error bar wanted (--to 1%%)");
-    if (within && !(seconds_of(within) > 0))
-        return report_misuse("--within: found `%.40s`; allowed: a time such as 300s, 5min or 1h",
-                             within);
-    char *end = (char *)to;
-    if (to && strtod(to, &end) == 0 && end != to)
-        return report_misuse("--to: found `%.40s`; allowed: an error bar above 0, such as 1%%; "
-                             "without --to the scene is run as it is",
-                             to);
-    if (extend && strncmp(extend, "U=", 2) != 0 && strncmp(extend, "t=", 2) != 0)
-        return report_misuse("--extend: found `%.40s`; allowed: where the run is to end, U=0.02 or "
-                             "t=500",
-                             extend);
-    own->resume = own->resume || extend;
-    if (own->resume && words->overwrite)
-        return report_misuse("--overwrite removes what --resume and --extend would go on from");
-
-    if (to) snprintf(own->settings[0], SETTING_SIZE, "accuracy.mu=%.50s", to);
-    if (within)
-        snprintf(own->settings[1], SETTING_SIZE, "accuracy.within=%.17g", seconds_of(within));
-    if (extend)
-        snprintf(own->settings[2], SETTING_SIZE, "time.until={%c: %.50s}", *extend, extend + 2);
-    for (int32_t k = 0; k < 3; k++)
-        if (*own->settings[k]) settings->list[settings->count++] = own->settings[k];
-    return 0;
-}
-
-// Warnings are printed also after a failure: they may explain it. The exit status.
-static int run_scene(const Scene *scene, const SceneWords *words, const RunWords *own)
-{
-    Error err = {0};
-    RunSummary summary = {0};
-    Progress progress = progress_begin(words->quiet);
-    RunOptions run = {.folder = words->folder,
-                      .overwrite = words->overwrite,
-                      .resume = own->resume,
-                      .checkpoint_every = own->checkpoint ? seconds_of(own->checkpoint) : 0,
-                      .on_step = progress_step,
-                      .on_level = words->quiet ? NULL : show_level,
-                      .on_stage = progress_stage,
-                      .context = &progress,
-                      .stop = stop_on_signals()};
-    bool done = amontons_run(scene, &run, &summary, &err);
-    progress_end(&progress);
-    report_warnings(&summary.warnings);
-    if (!done) return report_error(&err);
-    if (!words->quiet) closing_print(amontons_scene_title(scene), &summary);
-    if (own->profile) closing_print_profile(&summary);
-    return 0;
-}
-
+// Says how large the run would be. The exit status.
 static int show_forecast(const Scene *scene)
 {
     Error err = {0};
@@ -132,31 +64,88 @@ static int show_forecast(const Scene *scene)
 int command_run(const Command *command, int argc, char **argv)
 {
     SceneWords words = {0};
-    RunWords run = {0};
+    OptionWords *settings = &words.settings;
+    const char *to = NULL, *within = NULL, *extend = NULL, *checkpoint = NULL;   // NULL: not given
+    bool resume = false, profile = false, dry = false;
     Scene *scene = NULL;
-    char folder[256];
+    Error err = {0};
+    char folder[256], own_settings[3][SETTING_SIZE] = {"", "", ""};
     const Option own[] = {
         {"to", 0, "PERCENT", "Refine until the error bar of mu_M is at most this (--to 1%)",
-         .word = &run.to},
+         .word = &to},
         {"within", 0, "TIME",
-         "With --to: begin no mesh or run that would end later (300s, 5min, 1h)",
-         .word = &run.within},
-        {"resume", 0, NULL, "Go on with the run in DIR that was cut off", .flag = &run.resume},
+         "With --to: begin no mesh or run that would end later (300s, 5min, 1h)", .word = &within},
+        {"resume", 0, NULL, "Go on with the run in DIR that was cut off", .flag = &resume},
         {"extend", 0, "END", "Go on with the run in DIR beyond its end, to U=0.02 or t=500",
-         .word = &run.extend},
+         .word = &extend},
         {"dry-run", 0, NULL, "Make the mesh, say how large the run would be, and end",
-         .flag = &run.dry},
-        {"checkpoint", 0, "TIME", "Between two checkpoints (10s)", .word = &run.checkpoint},
+         .flag = &dry},
+        {"checkpoint", 0, "TIME", "Between two checkpoints (10s)", .word = &checkpoint},
         {"profile", 0, NULL, "Print at the end where the time went, and what was skipped and why",
-         .flag = &run.profile},
+         .flag = &profile},
         {0}};
     int status = scene_words_read(command, own, argc, argv, &words);
-    if (status == 0) status = ask_own(&run, &words);
-    if (status == 0) status = scene_words_open(&words, &scene);
     if (status != 0) return status;
+
+    // Options that contradict each other or make no sense are refused.
+    if (settings->count + 3 > OPTION_WORDS_MAX) return report_misuse("too many --set");
+    if (checkpoint && !(seconds_of(checkpoint) > 0))
+        return report_misuse("--checkpoint: found `%.40s`; allowed: a time such as 30s or 5min",
+                             checkpoint);
+    if (within && !to)
+        return report_misuse("--within: needs --to, the error bar wanted (--to 1%%)");
+    if (within && !(seconds_of(within) > 0))
+        return report_misuse("--within: found `%.40s`; allowed: a time such as 300s, 5min or 1h",
+                             within);
+    char *end = (char *)to;
+    if (to && strtod(to, &end) == 0 && end != to)
+        return report_misuse("--to: found `%.40s`; allowed: an error bar above 0, such as 1%%; "
+                             "without --to the scene is run as it is",
+                             to);
+    if (extend && strncmp(extend, "U=", 2) != 0 && strncmp(extend, "t=", 2) != 0)
+        return report_misuse("--extend: found `%.40s`; allowed: where the run is to end, U=0.02 or "
+                             "t=500",
+                             extend);
+    resume = resume || extend;
+    if (resume && words.overwrite)
+        return report_misuse("--overwrite removes what --resume and --extend would go on from");
+
+    // The error bar wanted, the time for it, and `--extend U=0.02` (the scene's end alone; whatever
+    // else would end it does not) become settings, behind those of --set.
+    if (to) snprintf(own_settings[0], SETTING_SIZE, "accuracy.mu=%.50s", to);
+    if (within)
+        snprintf(own_settings[1], SETTING_SIZE, "accuracy.within=%.17g", seconds_of(within));
+    if (extend)
+        snprintf(own_settings[2], SETTING_SIZE, "time.until={%c: %.50s}", *extend, extend + 2);
+    for (int32_t k = 0; k < 3; k++)
+        if (*own_settings[k]) settings->list[settings->count++] = own_settings[k];
+    status = scene_words_open(&words, &scene);
+    if (status != 0) return status;
+    if (dry) {
+        status = show_forecast(scene);
+        amontons_scene_destroy(scene);
+        return status;
+    }
+
+    // The run. Warnings are printed also after a failure: they may explain it.
     default_folder(words.scene, "-result", folder, sizeof folder);
-    if (!words.folder) words.folder = folder;
-    status = run.dry ? show_forecast(scene) : run_scene(scene, &words, &run);
+    RunSummary summary = {0};
+    Progress progress = progress_begin(words.quiet);
+    RunOptions run = {.folder = words.folder ? words.folder : folder,
+                      .overwrite = words.overwrite,
+                      .resume = resume,
+                      .checkpoint_every = checkpoint ? seconds_of(checkpoint) : 0,
+                      .on_step = progress_step,
+                      .on_level = words.quiet ? NULL : show_level,
+                      .on_stage = progress_stage,
+                      .context = &progress,
+                      .stop = stop_on_signals()};
+    bool done = amontons_run(scene, &run, &summary, &err);
+    progress_end(&progress);
+    report_warnings(&summary.warnings);
+    if (done && !words.quiet) closing_print(amontons_scene_title(scene), &summary);
+    if (done && profile) closing_print_profile(&summary);
+    if (!done) status = report_error(&err);
     amontons_scene_destroy(scene);
     return status;
 }

@@ -89,27 +89,6 @@ static int print_version(void)
     return 0;
 }
 
-// NULL: no command has that name.
-static const Command *find_command(const char *name)
-{
-    for (int32_t k = 0; k < COMMAND_COUNT; k++)
-        if (strcmp(commands[k].name, name) == 0) return &commands[k];
-    return NULL;
-}
-
-// With the name that was probably meant. The exit status.
-static int report_unknown(const char *name)
-{
-    const char *names[COMMAND_COUNT];
-    for (int32_t k = 0; k < COMMAND_COUNT; k++) names[k] = commands[k].name;
-    int32_t nearest = amontons_nearest_name(name, names, COMMAND_COUNT);
-    if (nearest >= 0)
-        return report_misuse("unknown command `%s`; did you mean `%s`? (`amontons --help` lists "
-                             "the commands)",
-                             name, names[nearest]);
-    return report_misuse("unknown command `%s` (`amontons --help` lists the commands)", name);
-}
-
 // The first word decides; everything behind it is the command's own to read. The exit status.
 static int run_command(int argc, char **argv)
 {
@@ -123,8 +102,20 @@ static int run_command(int argc, char **argv)
     // `amontons help COMMAND` is `amontons COMMAND --help`.
     const char *name = wants_help ? argv[2] : word;
     char help[] = "--help", *help_words[] = {(char *)name, help, NULL};
-    const Command *command = find_command(name);
-    if (!command) return report_unknown(name);
+    const Command *command = NULL;
+    const char *names[COMMAND_COUNT];
+    for (int32_t k = 0; k < COMMAND_COUNT; k++) {
+        names[k] = commands[k].name;
+        if (strcmp(names[k], name) == 0) command = &commands[k];
+    }
+    if (!command) {
+        int32_t nearest = amontons_nearest_name(name, names, COMMAND_COUNT);
+        if (nearest >= 0)
+            return report_misuse("unknown command `%s`; did you mean `%s`? (`amontons --help` "
+                                 "lists the commands)",
+                                 name, names[nearest]);
+        return report_misuse("unknown command `%s` (`amontons --help` lists the commands)", name);
+    }
     return wants_help ? command->run(command, 2, help_words)
                       : command->run(command, argc - 1, argv + 1);
 }

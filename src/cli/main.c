@@ -33,14 +33,6 @@ typedef struct Commands {
     const char *(*better_kernels)(void);
 } Commands;
 
-// A process may be started with standard streams closed; the first files that it opens would then
-// be taken for them, and progress lines written into a result.
-static void occupy_standard_streams(void)
-{
-    for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; stream++)
-        if (fcntl(stream, F_GETFD) < 0 && open("/dev/null", O_RDWR) < 0) _exit(1);
-}
-
 // With less room than the libraries take (ulimit -v) OpenBLAS would end the program with its own
 // words.
 static bool meets_limit(int asked, struct rlimit limit, rlim_t least, const char *what)
@@ -49,37 +41,6 @@ static bool meets_limit(int asked, struct rlimit limit, rlim_t least, const char
     fprintf(stderr, "amontons: error: only %lu kB of %s); to start takes %lu kB\n",
             (unsigned long)limit.rlim_cur >> 10, what, (unsigned long)least >> 10);
     return false;
-}
-
-// With fewer gmsh and others find nothing in a file that they cannot open, and blame that.
-static bool meets_open_files(void)
-{
-    enum { OPEN_LEAST = 16 };
-    struct rlimit limit;
-    if (getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur >= OPEN_LEAST) return true;
-    fprintf(stderr, "amontons: error: only %lu files may be open (ulimit -n); it takes %d\n",
-            (unsigned long)limit.rlim_cur, (int)OPEN_LEAST);
-    return false;
-}
-
-// In the build tree the module stands beside the program, else in the folder of the modules.
-static void *open_module(void)
-{
-    static const char *const places[] = {"", AMONTONS_MODULES_FROM_PROGRAM "/"};
-    char program[PATH_MAX] = {0}, path[2 * PATH_MAX];
-    void *module = NULL;
-    if (readlink("/proc/self/exe", program, sizeof program - 1) < 0) {
-        fprintf(stderr, "amontons: error: cannot tell where the program is (/proc/self/exe)\n");
-        return NULL;
-    }
-    const char *folder = dirname(program);
-    for (size_t k = 0; k < sizeof places / sizeof places[0]; k++) {
-        snprintf(path, sizeof path, "%s/%samontons_commands.so", folder, places[k]);
-        if (access(path, F_OK) == 0) break;
-    }
-    module = dlopen(path, RTLD_NOW | RTLD_LOCAL);
-    if (!module) fprintf(stderr, "amontons: error: %s\n", dlerror());
-    return module;
 }
 
 // POSIX: what dlsym gives may be a function.
@@ -101,7 +62,22 @@ static bool load_commands(Commands *commands)
         before[k] = value ? strdup(value) : NULL;
         setenv(ONE_THREAD[k], "1", 1);
     }
-    void *module = open_module();
+
+    // In the build tree the module stands beside the program, else in the folder of the modules.
+    static const char *const places[] = {"", AMONTONS_MODULES_FROM_PROGRAM "/"};
+    char program[PATH_MAX] = {0}, path[2 * PATH_MAX];
+    void *module = NULL;
+    if (readlink("/proc/self/exe", program, sizeof program - 1) < 0) {
+        fprintf(stderr, "amontons: error: cannot tell where the program is (/proc/self/exe)\n");
+    } else {
+        const char *folder = dirname(program);
+        for (size_t k = 0; k < sizeof places / sizeof places[0]; k++) {
+            snprintf(path, sizeof path, "%s/%samontons_commands.so", folder, places[k]);
+            if (access(path, F_OK) == 0) break;
+        }
+        module = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+        if (!module) fprintf(stderr, "amontons: error: %s\n", dlerror());
+    }
     for (int k = 0; k < VARIABLES; k++) {
         if (before[k])
             setenv(ONE_THREAD[k], before[k], 1);
@@ -116,41 +92,49 @@ static bool load_commands(Commands *commands)
     return commands->run && commands->better_kernels;
 }
 
-// OpenBLAS chooses its kernels while it is loaded, by family and model of the processor: 0.3.21
-// takes those for SSE3, a fifth as fast, where it does not know these. Then the program sets the
-// variable that chooses and executes itself, once. Where that fails it goes on as it is.
-static void take_better_kernels(const Commands *commands, char **argv)
-{
-    const char *better = getenv(KERNELS) ? NULL : commands->better_kernels();
-    char path[PATH_MAX] = {0}, number[32];
-    if (!better || readlink("/proc/self/exe", path, sizeof path - 1) < 0) return;
-    snprintf(number, sizeof number, "%ld", (long)getpid());
-    setenv(AGAIN, number, 1);
-    setenv(KERNELS, better, 1);
-    execv(path, argv);
-    unsetenv(AGAIN);
-    unsetenv(KERNELS);
-}
-
 int main(int argc, char **argv)
 {
     Commands commands;
     const char *by = getenv(AGAIN);   // the process that has executed itself
     bool again = by && atol(by) == (long)getpid();
     unsetenv(AGAIN);
-    occupy_standard_streams();
+
+    // A process may be started with standard streams closed; the first files that it opens would
+    // then be taken for them, and progress lines written into a result.
+    for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; stream++)
+        if (fcntl(stream, F_GETFD) < 0 && open("/dev/null", O_RDWR) < 0) _exit(1);
     signal(SIGXFSZ, SIG_IGN);   // a file that reaches its limit (ulimit -f) is an error with words
     signal(SIGCHLD, SIG_DFL);   // base/process; who starts this may ignore it
-    struct rlimit room = {0}, stack = {0};
+
+    // Limits of the system. Where few files may be open, gmsh and others find nothing in one that
+    // they cannot open, and blame that.
+    enum { OPEN_LEAST = 16 };
+    struct rlimit room = {0}, stack = {0}, files = {0};
     int asked_room = getrlimit(RLIMIT_AS, &room), asked_stack = getrlimit(RLIMIT_STACK, &stack);
     if (!meets_limit(asked_room, room, ROOM_LEAST, "memory are allowed (ulimit -v") ||
-        !meets_limit(asked_stack, stack, STACK_LEAST, "stack are allowed (ulimit -s") ||
-        !meets_open_files() || !load_commands(&commands))
+        !meets_limit(asked_stack, stack, STACK_LEAST, "stack are allowed (ulimit -s"))
         return 1;
-    if (again)
-        unsetenv(KERNELS);   // read by now; whoever chose it before would have kept us from it
-    else
-        take_better_kernels(&commands, argv);
+    if (getrlimit(RLIMIT_NOFILE, &files) == 0 && files.rlim_cur < OPEN_LEAST) {
+        fprintf(stderr, "amontons: error: only %lu files may be open (ulimit -n); it takes %d\n",
+                (unsigned long)files.rlim_cur, (int)OPEN_LEAST);
+        return 1;
+    }
+    if (!load_commands(&commands)) return 1;
+
+    // OpenBLAS chooses its kernels while it is loaded, by family and model of the processor: 0.3.21
+    // takes those for SSE3, a fifth as fast, where it does not know these. Then the program sets
+    // the variable that chooses and executes itself, once. Where that fails it goes on as it is.
+    char path[PATH_MAX] = {0}, number[32];
+    if (again) unsetenv(KERNELS);   // read by now; whoever had chosen it would have kept us from it
+    const char *better = again || getenv(KERNELS) ? NULL : commands.better_kernels();
+    if (better && readlink("/proc/self/exe", path, sizeof path - 1) >= 0) {
+        snprintf(number, sizeof number, "%ld", (long)getpid());
+        setenv(AGAIN, number, 1);
+        setenv(KERNELS, better, 1);
+        execv(path, argv);
+        unsetenv(AGAIN);
+        unsetenv(KERNELS);
+    }
     setenv("AMONTONS_APART", "yes",
            0);   // base/child_process; empty: in this process, for a debugger
     setenv("LP_NUM_THREADS", "0", 0);   // of OSMesa, which hangs where it may start none

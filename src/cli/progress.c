@@ -61,25 +61,6 @@ static double cycle_of(const Pace *pace)
     return pace->begun.fraction < CYCLE_MAX ? pace->begun.fraction : CYCLE_MAX;
 }
 
-// Follows what a run costs: the clock counts from its first rapid event on, as loading up to that
-// takes next to nothing; and steps that were all alike so far.
-static void follow_pace(Progress *progress, const StepView *view, double elapsed)
-{
-    Pace *pace = &progress->pace;
-    Mark now = {elapsed, view->fraction};
-    if (view->step_size > 0 && pace->step == 0) pace->step = view->step_size;
-    if (view->step_size > 0 && view->step_size != pace->step) pace->uneven = true;
-    if (!pace->counts && view->events > 0) {
-        pace->counts = true;
-        pace->begun = pace->older = pace->newer = now;
-    }
-    double doubled = 2 * pace->newer.elapsed - pace->begun.elapsed;
-    if (!pace->counts || elapsed < doubled || now.fraction - pace->newer.fraction < cycle_of(pace))
-        return;
-    pace->older = pace->newer;
-    pace->newer = now;
-}
-
 // Seconds left; NaN while that is not known. Once so much of the way has been gone again as before
 // the first event, the cost of slidings is known; measured from the start the time left would jump
 // with the first sliding. The later half of the time counts, or somewhat more, as runs grow dearer
@@ -97,36 +78,6 @@ static double seconds_left(const Progress *progress, double fraction, double ela
 static void draw_line(const char *line)
 {
     tell_over(line, terminal_width() - 1);
-}
-
-// On a terminal in place of the line before, in a log every now and then.
-static void show_member(Progress *progress, const StepView *view, const struct timespec *now)
-{
-    char line[WIDTH_MAX];
-    bool bar = progress->style == PROGRESS_BAR;
-    if (seconds_between(&progress->drawn, now) < (bar ? draw_interval : LOG_INTERVAL)) return;
-    bool first = progress->drawn.tv_sec == 0;
-    progress->drawn = *now;
-    if (first && !bar) return;   // short runs say nothing but what each mesh came to
-
-    // "mesh 2, run 1, 12 %  U 0.00123  3 events  mu_M so far 0.329  0:12 left": a
-    // run behind an error bar ends once its answer is known, sooner than the way that it may go.
-    char so_far[40] = "", left[40] = "", time[32];
-    bool slid = !isnan(view->mu_M);
-    double mu = slid ? view->mu_M : view->mu_hold;
-    if (!isnan(mu))
-        snprintf(so_far, sizeof so_far, "  %s so far %.3f", slid ? "mu_M" : "mu_hold", mu);
-    progress_format_left(view->seconds_left, time, sizeof time);
-    if (!isnan(view->seconds_left)) snprintf(left, sizeof left, "  %s left", time);
-    snprintf(line, sizeof line, "mesh %d, run %d, %.0f %%  U %.4g  %d event%s%s%s", view->mesh,
-             view->run, 100 * view->fraction, view->U, view->events, view->events == 1 ? "" : "s",
-             so_far, left);
-
-    if (bar)
-        draw_line(line);
-    else
-        tell("%s\n", line);
-    progress->bar_stands = bar;
 }
 
 // A bar on a terminal, a line each tenth of the way elsewhere, nothing with --quiet. All goes to
@@ -208,16 +159,52 @@ void progress_step(const StepView *view, void *context)
     stop_in_order();
     if (progress->style == PROGRESS_QUIET) return;
     clock_gettime(CLOCK_MONOTONIC, &now);
+    char left[40] = "", time[32], so_far[40] = "", end[32] = "";
     if (view->mesh > 0) {
-        show_member(progress, view, &now);
+        // A run behind an error bar, on a terminal in place of the line before, in a log every now
+        // and then: "mesh 2, run 1, 12 %  U 0.00123  3 events  mu_M so far 0.329  0:12 left". It
+        // ends once its answer is known, sooner than the way that it may go.
+        bool bar = progress->style == PROGRESS_BAR, first = progress->drawn.tv_sec == 0;
+        if (seconds_between(&progress->drawn, &now) < (bar ? draw_interval : LOG_INTERVAL)) return;
+        progress->drawn = now;
+        if (first && !bar) return;   // short runs say nothing but the result of each mesh
+        bool slid = !isnan(view->mu_M);
+        double mu = slid ? view->mu_M : view->mu_hold;
+        if (!isnan(mu))
+            snprintf(so_far, sizeof so_far, "  %s so far %.3f", slid ? "mu_M" : "mu_hold", mu);
+        progress_format_left(view->seconds_left, time, sizeof time);
+        if (!isnan(view->seconds_left)) snprintf(left, sizeof left, "  %s left", time);
+        snprintf(state, sizeof state, "mesh %d, run %d, %.0f %%  U %.4g  %d event%s%s%s",
+                 view->mesh, view->run, 100 * view->fraction, view->U, view->events,
+                 view->events == 1 ? "" : "s", so_far, left);
+        if (bar)
+            draw_line(state);
+        else
+            tell("%s\n", state);
+        progress->bar_stands = bar;
         return;
     }
+
+    // The pace of a run: the clock counts from its first rapid event on, as loading up to that
+    // takes next to nothing; and steps that were all alike so far.
     double elapsed = begin_clock(progress, &now);
-    follow_pace(progress, view, elapsed);
+    Pace *pace = &progress->pace;
+    Mark mark = {elapsed, view->fraction};
+    if (view->step_size > 0 && pace->step == 0) pace->step = view->step_size;
+    if (view->step_size > 0 && view->step_size != pace->step) pace->uneven = true;
+    if (!pace->counts && view->events > 0) {
+        pace->counts = true;
+        pace->begun = pace->older = pace->newer = mark;
+    }
+    double doubled = 2 * pace->newer.elapsed - pace->begun.elapsed;
+    if (pace->counts && elapsed >= doubled &&
+        mark.fraction - pace->newer.fraction >= cycle_of(pace)) {
+        pace->older = pace->newer;
+        pace->newer = mark;
+    }
     if (!is_due(progress, view->fraction, &now)) return;
 
     // "U 0.00123/0.006  mu 0.2034  dt 0.012  3 events  0:12 left", the last where it is known.
-    char left[40] = "", time[32], end[32] = "";
     double seconds = seconds_left(progress, view->fraction, elapsed);
     progress_format_left(seconds, time, sizeof time);
     if (!isnan(seconds)) snprintf(left, sizeof left, "  %s left", time);

@@ -19,40 +19,30 @@ static int read_character(const unsigned char *text, unsigned *code)
     return length;
 }
 
-static bool is_obeyed(unsigned code)
+// Prints what a terminal does not obey as it is, all else as bytes. In one piece: lines of
+// processes that write into one file do not mix.
+static int put_formatted(FILE *stream, const char *format, va_list arguments)
 {
-    bool control = code < 0x20 || (code >= 0x7F && code < 0xA0);
-    bool turns = (code >= 0x202A && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069);
-    return (control && code != '\n' && code != '\t') || turns;
-}
-
-// In one piece: lines of processes that write into one file do not mix.
-static void put(const char *text, FILE *stream)
-{
-    const unsigned char *next = (const unsigned char *)text;
-    char *shown = NULL;
+    char *text = NULL, *shown = NULL;
     size_t size = 0;
+    int written = vasprintf(&text, format, arguments);
+    if (written < 0) return fputs("amontons: no memory for what was to be said here\n", stream);
+    const unsigned char *next = (const unsigned char *)text;
     FILE *out = open_memstream(&shown, &size);
     while (out && *next) {
         unsigned code = 0;
         int length = read_character(next, &code);
-        bool harmless = length > 0 && !is_obeyed(code);
+        bool control = code < 0x20 || (code >= 0x7F && code < 0xA0);
+        bool turns = (code >= 0x202A && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069);
+        bool harmless = length > 0 && !turns && (!control || code == '\n' || code == '\t');
         for (int k = 0; k < (length > 0 ? length : 1); k++, next++)
             fprintf(out, harmless ? "%c" : "\\x%02x", *next);
     }
     if (out) fclose(out);
     if (out && shown) fwrite(shown, 1, size, stream);
     free(shown);
-}
-
-static int put_formatted(FILE *stream, const char *format, va_list arguments)
-{
-    char *text = NULL;
-    int length = vasprintf(&text, format, arguments);
-    if (length < 0) return fputs("amontons: no memory for what was to be said here\n", stream);
-    put(text, stream);
     free(text);
-    return length;
+    return written;
 }
 
 int say(const char *format, ...)

@@ -15,21 +15,6 @@
 
 enum { WORDS_SIZE = 700 };
 
-// Folders of one name are told apart by the end of their paths.
-static void name_runs(RunSource *runs, int32_t count)
-{
-    for (int32_t k = 1; k < count; ++k)
-        for (int32_t j = 0; j < k; ++j) {
-            if (strcmp(runs[j].name, runs[k].name) != 0) continue;
-            for (int32_t each = 0; each < count; ++each) {
-                size_t length = strlen(runs[each].folder);
-                size_t cut = length < RUN_NAME_SIZE ? 0 : length - RUN_NAME_SIZE + 1;
-                snprintf(runs[each].name, RUN_NAME_SIZE, "%s", runs[each].folder + cut);
-            }
-            return;
-        }
-}
-
 static bool write_curves(HtmlWriter *html, PageSource *source, Error *err)
 {
     const RunSource *runs = source->runs;
@@ -84,7 +69,18 @@ bool compare_page_write(HtmlWriter *html, const char *const *folders, int32_t co
         FAIL(err, ERROR_INPUT, "%d runs: a comparison takes up to %d; a sweep takes many", count,
              RENDER_CURVES_MAX);
     for (int32_t k = 0; k < count; ++k) TRY(run_source_open(folders[k], &runs[k], err));
-    name_runs(runs, count);
+
+    // Folders of one name are told apart by the end of their paths.
+    bool alike = false;
+    for (int32_t k = 1; k < count; ++k)
+        for (int32_t j = 0; j < k; ++j) alike = alike || strcmp(runs[j].name, runs[k].name) == 0;
+    for (int32_t k = 0; alike && k < count; ++k) {
+        size_t length = strlen(runs[k].folder);
+        size_t cut = length < RUN_NAME_SIZE ? 0 : length - RUN_NAME_SIZE + 1;
+        snprintf(runs[k].name, RUN_NAME_SIZE, "%s", runs[k].folder + cut);
+    }
+
+    // The head of the page: what is not complete, and what is to be doubted.
     snprintf(title, sizeof title, "Comparison of %d runs", count);
     sheet_begin(html, title, "Report by amontons", parts);
     for (int32_t k = 0; k < count; ++k) {

@@ -88,22 +88,6 @@ bool frames_write(HtmlWriter *html, PageSource *source, Error *err)
 
 enum { KIND, U_START, U_STOP, T_START, T_STOP, REACH, RATE, SPEED };
 
-// The first frame within the event, else the nearest one. *within: the former.
-static int32_t frame_of(const RenderFrames *frames, double U_start, double U_stop, bool *within)
-{
-    double slack = SLACK * fabs(U_stop), least = INFINITY;
-    int32_t best = 0;
-    for (int32_t k = 0; k < frames->count; ++k) {
-        double away = fmax(U_start - slack - frames->U[k], frames->U[k] - U_stop - slack);
-        if (!(away > 0)) away = 0;
-        if (!(away < least)) continue;
-        least = away;
-        best = k;
-    }
-    *within = least == 0;
-    return best + 1;
-}
-
 // A row an event; the last ones, where there are many: the first belong to the start.
 bool events_write(HtmlWriter *html, PageSource *source, Error *err)
 {
@@ -163,12 +147,22 @@ bool events_write(HtmlWriter *html, PageSource *source, Error *err)
             html_number(html, shown[c], c < 2 ? DIGITS : 3);
             html_markup(html, "</td>");
         }
-        bool within = false;
-        int32_t frame = frame_of(frames, column[U_START][k], column[U_STOP][k], &within);
+
+        // A link to the first frame within the event, else to the nearest one.
+        double begin = column[U_START][k], end = column[U_STOP][k];
+        double slack = SLACK * fabs(end), least = INFINITY;
+        int32_t frame = 0;
+        for (int32_t i = 0; i < frames->count; ++i) {
+            double away = fmax(begin - slack - frames->U[i], frames->U[i] - end - slack);
+            if (!(away > 0)) away = 0;
+            if (!(away < least)) continue;
+            least = away;
+            frame = i;
+        }
         html_markup(html, "<td class='number'>");
         if (frames->count > 0)
-            html_markup(html, "<a href='#frame-%d'>%s%d</a>", frame,
-                        within ? "" : "nearest: ", frame);
+            html_markup(html, "<a href='#frame-%d'>%s%d</a>", frame + 1,
+                        least == 0 ? "" : "nearest: ", frame + 1);
         html_markup(html, "</td></tr>\n");
     }
     html_markup(html, "</tbody></table></div>\n");
@@ -208,43 +202,34 @@ void film_find(PageSource *source)
     if (count >= 0) free(entries);
 }
 
-// *bytes: NULL where the film is too large to be inside of the page; else owned by the caller. The
-// page may be sent to somebody: of a stranger's result nothing goes into it but a film that lies
-// there, no file of ours that a link of that name leads to.
-static bool read_film(const char *path, const FilmKind *kind, uint8_t **bytes, int64_t *size,
-                      Error *err)
+// The page may be sent to somebody: of a stranger's result nothing goes into it but a film that
+// lies there, no file of ours that a link of that name leads to.
+bool film_write(HtmlWriter *html, PageSource *source, Error *err)
 {
-    char head[8] = "";
-    FILE *file = open_stream(path, err);
-    *bytes = NULL;
-    TRY(file);
+    const char *name = source->film;
+    char path[PATH_MAX], head[8] = "";
+    uint8_t *bytes = NULL;   // NULL: the film is too large to be inside of the page
+    int64_t size = 0;
+    FILE *file = NULL;
+    const FilmKind *kind = FILMS;
+    while (kind < FILMS + FILM_KINDS - 1 && !text_ends_with(name, kind->ending)) ++kind;
+    if (!folder_holds(source->runs->folder, name, path)) return true;
+    TRY(file = open_stream(path, err));
     if (!file_is_named(path, fileno(file)))
         FAIL(err, ERROR_INPUT, "%s is a link: what it leads to is not put into a page", path);
     if (fread(head, 1, sizeof head, file) < sizeof head ||
         memcmp(head + kind->at, kind->begins, strlen(kind->begins)) != 0)
         FAIL(err, ERROR_INPUT, "%s does not begin as %s does", path, kind->type);
-    if (fseek(file, 0, SEEK_END) != 0 || (*size = ftell(file)) < 0)
+    if (fseek(file, 0, SEEK_END) != 0 || (size = ftell(file)) < 0)
         FAIL(err, ERROR_FILE, "cannot read %s: %s", path, strerror(errno));
-    if (*size > FILM_MOST) goto cleanup;
-    rewind(file);
-    TRY(*bytes = memory_bytes(*size, err));
-    if (fread(*bytes, 1, (size_t)*size, file) != (size_t)*size)
-        FAIL(err, ERROR_FILE, "cannot read %s", path);
-cleanup:
-    if (file) fclose(file);
-    return error_is_clean(err);
-}
+    if (size <= FILM_MOST) {
+        rewind(file);
+        TRY(bytes = memory_bytes(size, err));
+        if (fread(bytes, 1, (size_t)size, file) != (size_t)size)
+            FAIL(err, ERROR_FILE, "cannot read %s", path);
+    }
 
-bool film_write(HtmlWriter *html, PageSource *source, Error *err)
-{
-    const char *name = source->film;
-    char path[PATH_MAX];
-    uint8_t *bytes = NULL;
-    int64_t size = 0;
-    const FilmKind *kind = FILMS;
-    while (kind < FILMS + FILM_KINDS - 1 && !text_ends_with(name, kind->ending)) ++kind;
-    if (!folder_holds(source->runs->folder, name, path)) return true;
-    TRY(read_film(path, kind, &bytes, &size, err));
+    // The film itself, then a link to its file.
     if (bytes) {
         bool moves = strncmp(kind->type, "video", 5) == 0;
         html_markup(html, moves ? "<video controls preload='metadata' src='"
@@ -264,6 +249,7 @@ bool film_write(HtmlWriter *html, PageSource *source, Error *err)
     html_text(html, name);
     html_markup(html, "</a> (%.1f MB)</p>\n", (double)size / (1 << 20));
 cleanup:
+    if (file) fclose(file);
     memory_free(bytes);
     return go_on_without(html, "film", err);
 }

@@ -14,7 +14,8 @@ static const double OLDER_KNOWN_TO = 0.01;   // of mu: what a mesh usually leave
 typedef enum NumberKind {
     NUMBER_ESTIMATE,   // has an error bar, or is known to so much
     NUMBER_LENGTH,   // over L, of which no error is computed
-    NUMBER_PLAIN   // a count, or an error itself
+    NUMBER_PLAIN,   // a count, or an error itself
+    NUMBER_EVENTS   // how many events of a kind the run has
 } NumberKind;
 
 typedef struct NumberRow {
@@ -43,10 +44,10 @@ static const NumberRow RESULTS[] = {
 };
 
 static const NumberRow EVENTS[] = {
-    {"quasi-static", NUMBER_PLAIN, "quasi-static precursors", "slow slip grew from an edge"},
-    {"bounded rapid", NUMBER_PLAIN, "bounded rapid precursors",
+    {"quasi-static", NUMBER_EVENTS, "quasi-static precursors", "slow slip grew from an edge"},
+    {"bounded rapid", NUMBER_EVENTS, "bounded rapid precursors",
      "rapid slip, faster than 2.5 V and over 5 % of the contact, stopped on its way"},
-    {"leading rapid", NUMBER_PLAIN, "slidings of the whole block",
+    {"leading rapid", NUMBER_EVENTS, "slidings of the whole block",
      "slip crossed the whole contact; the paper\u2019s leading rapid precursors"},
 };
 
@@ -94,35 +95,32 @@ double run_known_to(const RunSource *run, const char *path, double *bar)
     return known_to;
 }
 
-static void write_cell(HtmlWriter *html, const RunSource *run, const NumberRow *row)
-{
-    double value = run_number(run, row->path), bar = NAN;
-    html_markup(html, "<td class='number' data-path='%s'>", row->path);
-    if (row->kind != NUMBER_PLAIN) {
-        double known_to = run_known_to(run, row->path, &bar);
-        estimate_write(html, value, bar, row->kind == NUMBER_LENGTH ? LENGTH_KNOWN_TO : known_to);
-    } else if (isfinite(value)) {
-        html_number(html, value, fabs(value) >= 1 && value == floor(value) ? 12 : 3);
-    } else {
-        html_markup(html, "none");
-    }
-    html_markup(html, "</td>");
-}
-
-static void write_event_cell(HtmlWriter *html, const RunSource *run, const NumberRow *row)
-{
-    html_markup(html, "<td class='number' data-events='%s'>%d</td>", row->path,
-                run_events(run, row->path));
-}
-
-typedef void (*CellFunction)(HtmlWriter *html, const RunSource *run, const NumberRow *row);
-
-static void write_rows(HtmlWriter *html, const NumberRow *rows, size_t row_count, CellFunction cell,
+static void write_rows(HtmlWriter *html, const NumberRow *rows, size_t row_count,
                        const RunSource *runs, int32_t count)
 {
     for (size_t r = 0; r < row_count; ++r) {
         html_markup(html, "<tr><th scope='row'>%s</th>", rows[r].label);
-        for (int32_t k = 0; k < count; ++k) cell(html, &runs[k], &rows[r]);
+        for (int32_t k = 0; k < count; ++k) {
+            const RunSource *run = &runs[k];
+            const NumberRow *row = &rows[r];
+            if (row->kind == NUMBER_EVENTS) {
+                html_markup(html, "<td class='number' data-events='%s'>%d</td>", row->path,
+                            run_events(run, row->path));
+                continue;
+            }
+            double value = run_number(run, row->path), bar = NAN;
+            html_markup(html, "<td class='number' data-path='%s'>", row->path);
+            if (row->kind != NUMBER_PLAIN) {
+                double known_to = run_known_to(run, row->path, &bar);
+                estimate_write(html, value, bar,
+                               row->kind == NUMBER_LENGTH ? LENGTH_KNOWN_TO : known_to);
+            } else if (isfinite(value)) {
+                html_number(html, value, fabs(value) >= 1 && value == floor(value) ? 12 : 3);
+            } else {
+                html_markup(html, "none");
+            }
+            html_markup(html, "</td>");
+        }
         html_markup(html, "<td class='meaning'>%s</td></tr>\n", rows[r].meaning);
     }
 }
@@ -148,12 +146,12 @@ bool numbers_write(HtmlWriter *html, PageSource *source, Error *err)
                 "What was found. \u00b1 is 95 %; without it: down to the "
                 "first digit that finer meshes change as a rule.",
                 runs, count);
-    write_rows(html, RESULTS, sizeof RESULTS / sizeof *RESULTS, write_cell, runs, count);
-    write_rows(html, EVENTS, sizeof EVENTS / sizeof *EVENTS, write_event_cell, runs, count);
+    write_rows(html, RESULTS, sizeof RESULTS / sizeof *RESULTS, runs, count);
+    write_rows(html, EVENTS, sizeof EVENTS / sizeof *EVENTS, runs, count);
     html_markup(html, "</tbody></table></div>\n");
     begin_table(html, "Checks of the computation (largest of the run), and what it took", runs,
                 count);
-    write_rows(html, CHECKS, sizeof CHECKS / sizeof *CHECKS, write_cell, runs, count);
+    write_rows(html, CHECKS, sizeof CHECKS / sizeof *CHECKS, runs, count);
     html_markup(html, "</tbody></table></div>\n");
     return error_is_clean(err);
 }

@@ -13,52 +13,6 @@
 
 enum { PARTS_MAX = 9, WORDS_SIZE = 700 };
 
-// Writes the lead of the page, which says what was computed.
-static void write_lead(HtmlWriter *html, const RunSource *run)
-{
-    const char *unit = run->si ? "\u202fm" : "\u202f<i>L</i><sub>0</sub>";
-    if (run->state == RUN_UNFINISHED) return;
-    html_markup(html, "<p class='lead'>An elastic block, ");
-    html_number(html, run_number(run, "model.length"), 4);
-    html_markup(html, "%s long and ", unit);
-    html_number(html, run_number(run, "model.height"), 4);
-    html_markup(html,
-                "%s high, is pressed on a rigid floor and pushed by a rod until it slides. "
-                "Friction obeys Amontons\u2019 law at every point of the contact (law ",
-                unit);
-    char law[80] = "";
-    json_find_text(run->json, "scene.friction.law", law, sizeof law);
-    html_text(html, law);
-    double mu = run_number(run, "scene.friction.mu_static");
-    if (isfinite(mu)) {
-        html_markup(html, ", <i>\u03bc</i><sub>S</sub> = ");
-        html_number(html, mu, 4);
-    }
-    html_markup(html, ").");
-    double mu_M = run_number(run, "results.mu_M");
-    char is[160] = "";   // older results do not say
-    json_find_text(run->json, "results.mu_M_is", is, sizeof is);
-    bool steady = strcmp(is, "steady sliding") == 0;
-    if (isfinite(mu_M)) {
-        html_markup(html, " The block as a whole slides at <i>F</i><sub>T</sub>/<i>F</i>"
-                          "<sub>N</sub> = <strong><i>\u03bc</i><sub>M</sub> = ");
-        double bar = NAN, known_to = run_known_to(run, "results.mu_M", &bar);
-        estimate_write(html, mu_M, bar, known_to);
-        html_markup(
-            html, "</strong>%s.",
-            steady ? ", slowly and steadily: no sliding was fast"
-            : !isnan(bar)
-                ? ""
-                : " (down to the first digit that finer meshes change as a rule; there is no "
-                  "error bar)");
-    } else {
-        bool told = strncmp(is, "none: ", 6) == 0;
-        html_around(html, " There is no <i>\u03bc</i><sub>M</sub>: ",
-                    told ? is + 6 : "the block as a whole did not slide after the start", ".");
-    }
-    html_markup(html, "</p>\n");
-}
-
 // The scene's mesh is named as seen from the result folder, so the scene is to be saved there.
 static bool write_again(HtmlWriter *html, PageSource *source, Error *err)
 {
@@ -82,9 +36,12 @@ bool run_page_write(HtmlWriter *html, const char *folder, const char *cycle, Err
     PageSource source = {.runs = &run, .count = 1, .cycle = cycle};
     SheetPart parts[PARTS_MAX] = {0};
     char words[WORDS_SIZE + ERROR_MESSAGE_SIZE], message[ERROR_MESSAGE_SIZE] = "";
+    char law[80] = "", is[160] = "";   // older results do not say what mu_M is
+    const char *unit = "\u202f<i>L</i><sub>0</sub>";
     int32_t count = 0;
     TRY(run_source_open(folder, &run, err));
     film_find(&source);
+    if (run.si) unit = "\u202fm";
     bool ended = run.state != RUN_UNFINISHED, history = run.has_history;
     if (ended) parts[count++] = (SheetPart){"numbers", "Key numbers", numbers_write};
     if (history) parts[count++] = (SheetPart){"frames-part", "Frames", frames_write};
@@ -95,7 +52,47 @@ bool run_page_write(HtmlWriter *html, const char *folder, const char *cycle, Err
     if (ended) parts[count++] = (SheetPart){"again", "To reproduce", write_again};
     parts[count++] = SHEET_CITE;
     sheet_begin(html, run.title, "Report of a run, by amontons", parts);
-    write_lead(html, &run);
+
+    // The lead says what was computed, and the answer.
+    if (ended) {
+        html_markup(html, "<p class='lead'>An elastic block, ");
+        html_number(html, run_number(&run, "model.length"), 4);
+        html_markup(html, "%s long and ", unit);
+        html_number(html, run_number(&run, "model.height"), 4);
+        html_markup(html,
+                    "%s high, is pressed on a rigid floor and pushed by a rod until it slides. "
+                    "Friction obeys Amontons\u2019 law at every point of the contact (law ",
+                    unit);
+        json_find_text(run.json, "scene.friction.law", law, sizeof law);
+        html_text(html, law);
+        double mu = run_number(&run, "scene.friction.mu_static");
+        if (isfinite(mu)) {
+            html_markup(html, ", <i>\u03bc</i><sub>S</sub> = ");
+            html_number(html, mu, 4);
+        }
+        html_markup(html, ").");
+        double mu_M = run_number(&run, "results.mu_M");
+        json_find_text(run.json, "results.mu_M_is", is, sizeof is);
+        bool steady = strcmp(is, "steady sliding") == 0;
+        if (isfinite(mu_M)) {
+            html_markup(html, " The block as a whole slides at <i>F</i><sub>T</sub>/<i>F</i>"
+                              "<sub>N</sub> = <strong><i>\u03bc</i><sub>M</sub> = ");
+            double bar = NAN, known_to = run_known_to(&run, "results.mu_M", &bar);
+            estimate_write(html, mu_M, bar, known_to);
+            html_markup(
+                html, "</strong>%s.",
+                steady ? ", slowly and steadily: no sliding was fast"
+                : !isnan(bar)
+                    ? ""
+                    : " (down to the first digit that finer meshes change as a rule; there is no "
+                      "error bar)");
+        } else {
+            bool told = strncmp(is, "none: ", 6) == 0;
+            html_around(html, " There is no <i>\u03bc</i><sub>M</sub>: ",
+                        told ? is + 6 : "the block as a whole did not slide after the start", ".");
+        }
+        html_markup(html, "</p>\n");
+    }
 
     // Boxes say what is not complete, and what is to be doubted.
     if (!ended) {

@@ -187,24 +187,6 @@ static int32_t column_beside(const CsvTable *table, int32_t column, const char *
     return csv_column(table, name);
 }
 
-// A number with its error bar, where there is one, or in the digits that are known; or a text.
-static void write_cell(HtmlWriter *html, const CsvTable *table, int32_t row, int32_t column)
-{
-    double value = csv_value(table, row, column);
-    int32_t beside = column_beside(table, column, "error");
-    int32_t known = column_beside(table, column, "known_to");
-    if (isfinite(value) || (beside >= 0 && !*csv_cell(table, row, column))) {
-        double error = csv_value(table, row, beside);
-        double known_to = known >= 0 ? csv_value(table, row, known) : beside >= 0 ? error : 0;
-        html_markup(html, "<td class='number'>");
-        estimate_write(html, value, error == known_to ? error : (double)NAN, known_to);
-    } else {
-        html_markup(html, "<td>");
-        html_text(html, csv_cell(table, row, column));
-    }
-    html_markup(html, "</td>");
-}
-
 // Errors stand beside their values; what a run took and how exact it was is for sweep.csv.
 static bool is_shown(const SweepSource *sweep, const CsvTable *table, int32_t column)
 {
@@ -228,6 +210,8 @@ static bool is_shown(const SweepSource *sweep, const CsvTable *table, int32_t co
     return true;
 }
 
+// Each cell is a number with its error bar, where there is one, or in the digits that are known; or
+// a text.
 static void write_table(HtmlWriter *html, const SweepSource *sweep, const CsvTable *table,
                         int32_t most, const char *caption)
 {
@@ -239,8 +223,24 @@ static void write_table(HtmlWriter *html, const SweepSource *sweep, const CsvTab
     html_markup(html, "</tr></thead><tbody>\n");
     for (int32_t row = 0; row < table->rows && row < most; ++row) {
         html_markup(html, "<tr>");
-        for (int32_t k = 0; k < table->columns; ++k)
-            if (is_shown(sweep, table, k)) write_cell(html, table, row, k);
+        for (int32_t k = 0; k < table->columns; ++k) {
+            if (!is_shown(sweep, table, k)) continue;
+            double value = csv_value(table, row, k);
+            int32_t beside = column_beside(table, k, "error");
+            int32_t known = column_beside(table, k, "known_to");
+            if (isfinite(value) || (beside >= 0 && !*csv_cell(table, row, k))) {
+                double error = csv_value(table, row, beside);
+                double known_to = known >= 0    ? csv_value(table, row, known)
+                                  : beside >= 0 ? error
+                                                : 0;
+                html_markup(html, "<td class='number'>");
+                estimate_write(html, value, error == known_to ? error : (double)NAN, known_to);
+            } else {
+                html_markup(html, "<td>");
+                html_text(html, csv_cell(table, row, k));
+            }
+            html_markup(html, "</td>");
+        }
         html_markup(html, "</tr>\n");
     }
     html_markup(html, "</tbody></table></div>\n");

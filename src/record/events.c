@@ -184,32 +184,6 @@ static double sum_slipping(const PadSum *pads, int32_t count)
     return sum;
 }
 
-// Slip has turned fast in this step: where, and how much slipped there before.
-static bool start_rapid(Events *events, const Observation *seen, Error *err)
-{
-    if (!start_event(events, EVENT_SLIGHT, seen, &events->rapid, err)) return false;
-    Event *event = &events->list[events->rapid];
-    event->reach = interface_line_x(seen->interface, 0);   // slow slip of other pads is none of it
-    event->pad = 0;
-    for (int32_t p = 1; p < seen->interface->pad_count; p++)
-        if (events->pads[p].fastest > events->pads[event->pad].fastest) event->pad = p;
-    // How much slipped in the step before, on the event's pad and in all. A cell in space is as
-    // long as the root of its mean area.
-    const Interface *interface = seen->interface;
-    const PadSum *before = &events->pads_before[event->pad];
-    PadSize size = pad_size(interface, event->pad);
-    event->slip_length = before->slipping / size.breadth;
-    event->slip_cells = interface->dim == 2 ? before->slipping_cells
-                                            : event->slip_length / sqrt(size.weight / size.nodes);
-    event->slip_before = sum_slipping(events->pads_before, interface->pad_count);
-    events->began = true;
-    front_path_restart(seen->interface, &events->path);
-    memset(events->slipped, 0, (size_t)seen->interface->contact_count);
-    events->fast_front_start = fast_front(events, seen, event->pad);
-    events->fast_t_start = seen->t;
-    return true;
-}
-
 // Slip was rapid over LEAST_RAPID of the contact by now, and has run as far from the trailing end
 // of the block or of a pad; or a pad has slid over all its length. What rings behind a precursor,
 // about the place where that stopped, is not connected with a trailing end.
@@ -310,27 +284,49 @@ static void follow_rapid(Events *events, const Observation *seen)
 static bool follow_step(Events *events, const Observation *seen, Error *err)
 {
     events->began = events->ended = events->crossed = false;
-    if (events->rapid < 0 && seen->max_slip_rate > events->rate_start &&
-        !start_rapid(events, seen, err))
-        return false;
+    const Interface *interface = seen->interface;
+    if (events->rapid < 0 && seen->max_slip_rate > events->rate_start) {
+        // Slip has turned fast in this step: where, and how much slipped there before.
+        if (!start_event(events, EVENT_SLIGHT, seen, &events->rapid, err)) return false;
+        Event *event = &events->list[events->rapid];
+        event->reach = interface_line_x(interface, 0);   // slow slip of other pads is none of it
+        event->pad = 0;
+        for (int32_t p = 1; p < interface->pad_count; p++)
+            if (events->pads[p].fastest > events->pads[event->pad].fastest) event->pad = p;
+
+        // How much slipped in the step before, on the event's pad and in all. A cell in space is as
+        // long as the root of its mean area.
+        const PadSum *before = &events->pads_before[event->pad];
+        PadSize size = pad_size(interface, event->pad);
+        event->slip_length = before->slipping / size.breadth;
+        event->slip_cells = interface->dim == 2
+                                ? before->slipping_cells
+                                : event->slip_length / sqrt(size.weight / size.nodes);
+        event->slip_before = sum_slipping(events->pads_before, interface->pad_count);
+        events->began = true;
+        front_path_restart(interface, &events->path);
+        memset(events->slipped, 0, (size_t)interface->contact_count);
+        events->fast_front_start = fast_front(events, seen, event->pad);
+        events->fast_t_start = seen->t;
+    }
     if (events->rapid >= 0) {
         follow_rapid(events, seen);
         if (seen->max_slip_rate < events->rate_stop) {
-            end_rapid(events, seen->interface);
+            end_rapid(events, interface);
             events->ended = true;
         }
         return true;
     }
-    bool slips = seen->front > interface_line_x(seen->interface, 0) && seen->max_slip_rate > 0;
+    bool slips = seen->front > interface_line_x(interface, 0) && seen->max_slip_rate > 0;
     if (events->slow < 0 && slips) {
         if (!start_event(events, EVENT_QUASI_STATIC, seen, &events->slow, err)) return false;
-        for (int32_t i = 0; i < seen->interface->contact_count; i++) events->slow_arrival[i] = NAN;
+        for (int32_t i = 0; i < interface->contact_count; i++) events->slow_arrival[i] = NAN;
     }
     if (events->slow < 0) return true;
     Event *event = &events->list[events->slow];
     extend_event(event, seen, seen->front);
-    event->slipped = fmax(event->slipped, sum_slipping(events->pads, seen->interface->pad_count));
-    for (int32_t i = 0; events->in_space && i < seen->interface->contact_count; i++)
+    event->slipped = fmax(event->slipped, sum_slipping(events->pads, interface->pad_count));
+    for (int32_t i = 0; events->in_space && i < interface->contact_count; i++)
         if (isnan(events->slow_arrival[i]) && status_slips(seen_status(seen, i)))
             events->slow_arrival[i] = seen->t;
     return true;

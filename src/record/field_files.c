@@ -27,9 +27,28 @@ static bool make_cells(int64_t points, int64_t cells, int64_t corners, FieldCell
     return error_is_clean(err);
 }
 
-static bool fill_bulk_grid(FieldFiles *files, Error *err)
+enum { VTK_LINE_CELL = 3, VTK_TRIANGLE_CELL = 5, VTK_QUAD_CELL = 9, FACE_CELLS_MAX = 4 };
+
+// Adds a cell of points by their numbers among those of a face; whole: in their order.
+static void add_cell(FieldCells *line, const int32_t *points, const uint8_t *which, int32_t count)
 {
-    const Mesh *mesh = files->mesh;
+    static const uint8_t types[] = {[2] = VTK_LINE_CELL, VTK_TRIANGLE_CELL, VTK_QUAD_CELL};
+    int64_t cell = line->cell_count++, first = line->offsets[cell];
+    for (int32_t k = 0; k < count; k++) line->connectivity[first + k] = points[which[k]];
+    line->offsets[cell + 1] = first + count;
+    line->types[cell] = types[count];
+}
+
+bool field_files_create(const Mesh *mesh, const Interface *interface, FieldFiles *files, Error *err)
+{
+    const ContactFaces *faces = &interface->faces;
+    *files = (FieldFiles){.mesh = mesh,
+                          .contact_count = interface->contact_count,
+                          .tangents = mesh->dim - 1,
+                          .faces = faces};
+
+    // The grid of the block.
+    if (!nodal_stress_create(mesh, &files->stress, err)) return false;
     FieldCells *bulk = &files->bulk;
     int32_t cells = mesh->element_count;
     int64_t points = files->stress.point_count;
@@ -49,32 +68,16 @@ static bool fill_bulk_grid(FieldFiles *files, Error *err)
         bulk->offsets[e + 1] = mesh->first_node[e + 1];
         bulk->types[e] = ELEMENTS[kind].vtk_type;
     }
-    return true;
-}
 
-enum { VTK_LINE_CELL = 3, VTK_TRIANGLE_CELL = 5, VTK_QUAD_CELL = 9, FACE_CELLS_MAX = 4 };
-
-// Adds a cell of points by their numbers among those of a face; whole: in their order.
-static void add_cell(FieldCells *line, const int32_t *points, const uint8_t *which, int32_t count)
-{
-    static const uint8_t types[] = {[2] = VTK_LINE_CELL, VTK_TRIANGLE_CELL, VTK_QUAD_CELL};
-    int64_t cell = line->cell_count++, first = line->offsets[cell];
-    for (int32_t k = 0; k < count; k++) line->connectivity[first + k] = points[which[k]];
-    line->offsets[cell + 1] = first + count;
-    line->types[cell] = types[count];
-}
-
-// In the plane one segment between neighbours of the same pad: gaps between pads stay gaps.
-static bool fill_line_grid(FieldFiles *files, const Interface *interface, Error *err)
-{
-    const ContactFaces *faces = files->faces;
+    // The grid of the contact: in the plane one segment between neighbours of the same pad, so that
+    // gaps between pads stay gaps.
     FieldCells *line = &files->line;
     int32_t count = interface->contact_count;
-    int64_t points = (int64_t)count + faces->corner_count;
-    int64_t cells = interface->y ? (int64_t)FACE_CELLS_MAX * faces->count : count;
-    files->line_values = NEW_ARRAY(double, 3 * FIELD_LINE_ARRAYS * points, err);
-    if (!make_cells(points, cells, 4 * cells, line, err)) return false;
-    for (int32_t i = 0; i < points; i++) {
+    int64_t line_points = (int64_t)count + faces->corner_count;
+    int64_t line_cells = interface->y ? (int64_t)FACE_CELLS_MAX * faces->count : count;
+    files->line_values = NEW_ARRAY(double, 3 * FIELD_LINE_ARRAYS * line_points, err);
+    if (!make_cells(line_points, line_cells, 4 * line_cells, line, err)) return false;
+    for (int32_t i = 0; i < line_points; i++) {
         const double *corner = i < count ? NULL : &faces->corner[2 * (i - count)];
         line->points[3 * i] = corner ? corner[0] : interface->x[i];
         if (interface->y) line->points[3 * i + 1] = corner ? corner[1] : interface->y[i];
@@ -98,15 +101,6 @@ static bool fill_line_grid(FieldFiles *files, const Interface *interface, Error 
         if (interface->pad[i] == interface->pad[i - 1])
             add_cell(line, (int32_t[]){i - 1, i}, (uint8_t[]){0, 1}, 2);
     return true;
-}
-
-bool field_files_create(const Mesh *mesh, const Interface *interface, FieldFiles *files, Error *err)
-{
-    *files = (FieldFiles){
-        .mesh = mesh, .contact_count = interface->contact_count, .tangents = mesh->dim - 1};
-    files->faces = &interface->faces;
-    return nodal_stress_create(mesh, &files->stress, err) && fill_bulk_grid(files, err) &&
-           fill_line_grid(files, interface, err);
 }
 
 static void cells_destroy(FieldCells *cells)
@@ -166,35 +160,6 @@ bool field_files_write_bulk(FieldFiles *files, const FieldState *state, const ch
     return field_file_write(path, &grid, err);
 }
 
-// From columns to an array of points, vectors with three components. values: [line_point_count *
-// components].
-static FieldArray line_array(const FieldFiles *files, const char *name, const double *columns,
-                             int32_t count, double *values)
-{
-    int32_t components = count > 1 ? 3 : 1;
-    for (int64_t i = 0; i < files->contact_count; i++)
-        for (int32_t d = 0; d < components; d++)
-            values[components * i + d] = d < count ? columns[d * (int64_t)files->contact_count + i]
-                                                   : 0;
-
-    // Each corner that touches nothing has the mean of the two points beside it, on the last face
-    // that has it.
-    const ContactFaces *faces = files->faces;
-    for (int32_t f = 0; f < faces->count; f++) {
-        const int32_t *points = faces->point + (int64_t)f * faces->width;
-        int32_t corners = contact_face_points(faces, f) / 2;   // of a face with mid-sides
-        for (int32_t k = 0; k < corners; k++) {
-            int64_t beside = points[corners + k],
-                    before = points[corners + (k + corners - 1) % corners];
-            if (points[k] < files->contact_count) continue;
-            for (int32_t d = 0; d < components; d++)
-                values[components * points[k] + d] =
-                    (values[components * beside + d] + values[components * before + d]) / 2;
-        }
-    }
-    return (FieldArray){.name = name, .components = components, .values = values};
-}
-
 // line: [field_line_columns][contact_count]; names and order are those of docs/results.md.
 bool field_files_write_line(FieldFiles *files, const double *line, double time, const char *path,
                             Error *err)
@@ -211,11 +176,32 @@ bool field_files_write_line(FieldFiles *files, const double *line, double time, 
                                  {"contact_density", 1},
                                  {"contact_area", 1}};
     FieldArray arrays[FIELD_LINE_ARRAYS];
-    int64_t count = files->line.point_count;
+    int64_t count = files->line.point_count, nodes = files->contact_count;
     for (int k = 0; k < FIELD_LINE_ARRAYS; k++) {
-        arrays[k] = line_array(files, rows[k].name, line, rows[k].columns,
-                               files->line_values + 3 * k * count);
-        line += rows[k].columns * (int64_t)files->contact_count;
+        // From columns to an array of points, vectors with three components.
+        int32_t components = rows[k].columns > 1 ? 3 : 1;
+        double *values = files->line_values + 3 * k * count;
+        arrays[k] = (FieldArray){.name = rows[k].name, .components = components, .values = values};
+        for (int64_t i = 0; i < nodes; i++)
+            for (int32_t d = 0; d < components; d++)
+                values[components * i + d] = d < rows[k].columns ? line[d * nodes + i] : 0;
+
+        // Each corner that touches nothing has the mean of the two points beside it, on the last
+        // face that has it.
+        const ContactFaces *faces = files->faces;
+        for (int32_t f = 0; f < faces->count; f++) {
+            const int32_t *points = faces->point + (int64_t)f * faces->width;
+            int32_t corners = contact_face_points(faces, f) / 2;   // of a face with mid-sides
+            for (int32_t c = 0; c < corners; c++) {
+                int64_t beside = points[corners + c],
+                        before = points[corners + (c + corners - 1) % corners];
+                if (points[c] < nodes) continue;
+                for (int32_t d = 0; d < components; d++)
+                    values[components * points[c] + d] =
+                        (values[components * beside + d] + values[components * before + d]) / 2;
+            }
+        }
+        line += rows[k].columns * nodes;
     }
     FieldGrid grid = grid_of(&files->line, arrays, FIELD_LINE_ARRAYS, time);
     return field_file_write(path, &grid, err);

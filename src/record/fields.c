@@ -119,35 +119,6 @@ static bool make_room(Fields *fields, Error *err)
     return memory_grow(&fields->times, fields->written, &fields->room, sizeof(double), err);
 }
 
-// line: [field_line_columns][contact_count]; the law is asked here: a plug-in need not be safe
-// elsewhere.
-static void copy_line(const Fields *fields, const Observation *seen, double *line)
-{
-    const Interface *interface = seen->interface;
-    const State *state = seen->state;
-    const int32_t *dofs = seen->system->interface_dofs;
-    int64_t count = interface->contact_count, tangents = interface->dim - 1;
-    double *rate = line, *moved = rate + tangents * count, *gap = moved + tangents * count;
-    double *pressure = gap + count, *shear = pressure + count, *density = shear + tangents * count;
-    double *area = density + count;
-    for (int32_t i = 0; i < count; i++) {
-        int32_t n = interface_normal(interface, i);
-        for (int32_t d = 0; d < tangents; d++) {
-            int32_t t = interface_tangent(interface, i) + d;
-            rate[d * count + i] = state->slip_rate[t];
-            moved[d * count + i] = state->displacement[dofs[t]];
-            shear[d * count + i] = -state->reaction[t] / interface->weight[i];
-        }
-        gap[i] = state->displacement[dofs[n]] + interface_gap(interface, i);
-        pressure[i] = state->reaction[n] / interface->weight[i];
-        density[i] = state->status[i] == CONTACT_OPEN
-                         ? 0
-                         : friction_contact_density(friction_at(fields->friction, i),
-                                                    slip_size(interface, i, state->slip_rate));
-        area[i] = seen_contact_area(seen, fields->friction, i);
-    }
-}
-
 // A multiple of `every` was reached or passed: *next is the one beyond. 0: not by this.
 static bool passes(double every, double at, double *next)
 {
@@ -226,7 +197,31 @@ bool fields_record(void *self, const Observation *seen, Error *err)
             for (int32_t d = 0; d < state->dof_count; d++)
                 sum[d] += spectrum->share[k][j] * state->stretch[(int64_t)k * state->dof_count + d];
     }
-    copy_line(fields, seen, copy->line);
+
+    // The line of the contact, [field_line_columns][contact_count]. The law is asked here: a
+    // plug-in need not be safe elsewhere.
+    const Interface *interface = seen->interface;
+    const int32_t *dofs = seen->system->interface_dofs;
+    int64_t count = interface->contact_count, tangents = interface->dim - 1;
+    double *rate = copy->line, *moved = rate + tangents * count, *gap = moved + tangents * count;
+    double *pressure = gap + count, *shear = pressure + count, *density = shear + tangents * count;
+    double *area = density + count;
+    for (int32_t i = 0; i < count; i++) {
+        int32_t n = interface_normal(interface, i);
+        for (int32_t d = 0; d < tangents; d++) {
+            int32_t t = interface_tangent(interface, i) + d;
+            rate[d * count + i] = state->slip_rate[t];
+            moved[d * count + i] = state->displacement[dofs[t]];
+            shear[d * count + i] = -state->reaction[t] / interface->weight[i];
+        }
+        gap[i] = state->displacement[dofs[n]] + interface_gap(interface, i);
+        pressure[i] = state->reaction[n] / interface->weight[i];
+        density[i] = state->status[i] == CONTACT_OPEN
+                         ? 0
+                         : friction_contact_density(friction_at(fields->friction, i),
+                                                    slip_size(interface, i, state->slip_rate));
+        area[i] = seen_contact_area(seen, fields->friction, i);
+    }
     worker_submit(fields->writer);
     fields->written++;
     fields->seconds += clock_seconds() - started;

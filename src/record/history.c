@@ -146,37 +146,32 @@ void history_end_archive(HistoryEnd *end, Archive *archive)
     archive_numbers(archive, end->last, RESULT_SERIES_COUNT);
 }
 
-// One series; its bits, as NaN stands in some.
-static bool has_last(ArrayFile *file, const HistoryEnd *end, ResultSeries series, Error *err)
+// The bits of each series are compared, as NaN stands in some.
+bool history_has_end(ArrayFile *file, const HistoryEnd *end, Error *err)
 {
     double *values = NULL;
-    int64_t rows = 0;
-    int32_t width = 0;
-    TRY(result_file_read_series(file, series, &values, &rows, &width, err));
-    if (rows < end->rows || width != 1)
-        FAIL(err, ERROR_INPUT,
-             "the history does not go as far as the saved state: it is that of another run, or was "
-             "cut off while it was written");
-    const double *found = &values[end->rows - 1];
-    if (memcmp(found, &end->last[series], sizeof *found) != 0)
-        FAIL(err, ERROR_INPUT,
-             "the history is that of another run than the saved state: in row %lld of %s it has "
-             "%.17g, not %.17g",
-             (long long)end->rows - 1, result_series_name(series), *found, end->last[series]);
+    for (ResultSeries series = 0; end->rows > 0 && series < RESULT_SERIES_COUNT; series++) {
+        bool one = result_series_columns(series) == COLUMNS_ONE;
+        int64_t rows = 0;
+        int32_t width = 0;
+        if (!one || !array_file_has(file, result_series_name(series))) continue;
+        memory_free(values);
+        values = NULL;
+        TRY(result_file_read_series(file, series, &values, &rows, &width, err));
+        if (rows < end->rows || width != 1)
+            FAIL(err, ERROR_INPUT,
+                 "the history does not go as far as the saved state: it is that of another run, or "
+                 "was cut off while it was written");
+        const double *found = &values[end->rows - 1];
+        if (memcmp(found, &end->last[series], sizeof *found) != 0)
+            FAIL(err, ERROR_INPUT,
+                 "the history is that of another run than the saved state: in row %lld of %s it "
+                 "has %.17g, not %.17g",
+                 (long long)end->rows - 1, result_series_name(series), *found, end->last[series]);
+    }
 cleanup:
     memory_free(values);
     return error_is_clean(err);
-}
-
-bool history_has_end(ArrayFile *file, const HistoryEnd *end, Error *err)
-{
-    for (ResultSeries series = 0; end->rows > 0 && series < RESULT_SERIES_COUNT; series++) {
-        bool one = result_series_columns(series) == COLUMNS_ONE;
-        if (one && array_file_has(file, result_series_name(series)) &&
-            !has_last(file, end, series, err))
-            return false;
-    }
-    return true;
 }
 
 bool history_take_back(History *history, const HistoryEnd *end, Error *err)
@@ -198,29 +193,6 @@ bool history_sync(History *history, Error *err)
     return done;
 }
 
-// Entry number k of a table, of peaks or of events. false: that drop is no peak, a bulk sliding.
-static bool table_entry(const Drops *drops, int32_t counted, int32_t k, ResultTable table,
-                        double *value)
-{
-    const Event *event = &drops->events->list[k];
-    bool of_peaks = table == PEAKS_U || table == PEAKS_MU || table == PEAKS_COUNTS;
-    if (of_peaks && (k >= drops->count || !drop_is(&drops->list[k], DROP_BULK))) return false;
-    Drop peak = of_peaks ? drops_as(drops, DROP_BULK, k) : (Drop){0};
-    *value = (const double[RESULT_TABLES_COUNT]){[PEAKS_U] = peak.U,
-                                                 [PEAKS_MU] = peak.mu,
-                                                 [PEAKS_COUNTS] = k >= counted,
-                                                 [EVENTS_KIND] = event->kind,
-                                                 [EVENTS_U_START] = event->U_start,
-                                                 [EVENTS_U_STOP] = event->U_stop,
-                                                 [EVENTS_T_START] = event->t_start,
-                                                 [EVENTS_T_STOP] = event->t_stop,
-                                                 [EVENTS_REACH] = event->reach,
-                                                 [EVENTS_SLIPPED] = event->slipped,
-                                                 [EVENTS_PEAK_RATE] = event->peak_slip_rate,
-                                                 [EVENTS_FRONT_SPEED] = event->front_speed}[table];
-    return true;
-}
-
 // Tables of peaks and events, mu_M and l_c where there are any, then the file gets its final name.
 // After a failure the file is no longer `history`'s.
 bool history_finish(History *history, const Drops *drops, int32_t counted, double mu_M, double l_c,
@@ -232,8 +204,26 @@ bool history_finish(History *history, const Drops *drops, int32_t counted, doubl
     for (ResultTable table = 0; table < RESULT_TABLES_COUNT; table++) {
         int32_t count = 0;
         if (table == EVENTS_SLIPPED && !events->in_space) continue;
-        for (int32_t k = 0; k < events->count; k++)
-            count += table_entry(drops, counted, k, table, &column[count]);
+        bool of_peaks = table == PEAKS_U || table == PEAKS_MU || table == PEAKS_COUNTS;
+        for (int32_t k = 0; k < events->count; k++) {
+            const Event *event = &events->list[k];
+            bool is_peak = k < drops->count && drop_is(&drops->list[k], DROP_BULK);
+            if (of_peaks && !is_peak) continue;   // no sliding of the whole block
+            Drop peak = of_peaks ? drops_as(drops, DROP_BULK, k) : (Drop){0};
+            column[count++] = (const double[RESULT_TABLES_COUNT]){
+                [PEAKS_U] = peak.U,
+                [PEAKS_MU] = peak.mu,
+                [PEAKS_COUNTS] = k >= counted,
+                [EVENTS_KIND] = event->kind,
+                [EVENTS_U_START] = event->U_start,
+                [EVENTS_U_STOP] = event->U_stop,
+                [EVENTS_T_START] = event->t_start,
+                [EVENTS_T_STOP] = event->t_stop,
+                [EVENTS_REACH] = event->reach,
+                [EVENTS_SLIPPED] = event->slipped,
+                [EVENTS_PEAK_RATE] = event->peak_slip_rate,
+                [EVENTS_FRONT_SPEED] = event->front_speed}[table];
+        }
         TRY(result_file_write_table(history->file, table, column, count, err));
     }
     if (!isnan(mu_M))

@@ -15,35 +15,6 @@
 
 #include "base/memory.h"
 
-// Evenly spaced nodes, all of them contact; the trapezoid rule's weights (half at the ends). The
-// rod is one more unknown, behind the nodes'.
-static bool build_interface(const Model1d *model, int32_t points, Interface *interface, Error *err)
-{
-    double element = model->length / (points - 1);
-    *interface = (Interface){.dim = 2, .contact_count = points, .pad_count = 1, .rod_count = 1};
-    interface->count = interface_rod(interface, 1);
-    interface->node = NEW_ARRAY(int32_t, points, err);
-    interface->x = NEW_ARRAY(double, points, err);
-    interface->weight = NEW_ARRAY(double, points, err);
-    interface->pad = NEW_ARRAY(int32_t, points, err);
-    interface->rod_node = NEW_ARRAY(int32_t, 1, err);
-    interface->rod_z = NEW_ARRAY(double, 1, err);
-    interface->rod_share = NEW_ARRAY(double, 1, err);
-    interface->dofs = NEW_ARRAY(int32_t, interface->count, err);
-    if (!error_is_clean(err)) return false;
-    for (int32_t i = 0; i < points; i++) {
-        bool end = i == 0 || i == points - 1;
-        interface->node[i] = i;
-        interface->x[i] = i == points - 1 ? model->length : i * element;
-        interface->weight[i] = end ? element / 2 : element;
-    }
-    interface->rod_node[0] = points;
-    interface->rod_z[0] = model->drive;
-    interface->rod_share[0] = 1;
-    for (int32_t k = 0; k < interface->count; k++) interface->dofs[k] = k;
-    return true;
-}
-
 // Adds `value` to the coupling of unknowns a and b: [ value -value; -value value ].
 static void add_spring(double *matrix, int64_t size, int32_t a, int32_t b, double value)
 {
@@ -71,11 +42,42 @@ static void fill_matrix(const Model1d *model, const Interface *interface, double
     }
 }
 
-// M, C, K and the load as a reduced bulk with nothing inside: all unknowns are the interface's. The
-// normals carry the node's mass too, so that A stays definite; they never move.
-static bool build_matrices(const Model1d *model, const Interface *interface, ReducedBulk *reduced,
-                           Error *err)
+// The line as a Block: from here on the steppers cannot tell it from a block of elements. The rod
+// is bonded: s_xz follows U - u whatever its sign.
+bool chain_build(const Model1d *model, int32_t points, Chain *chain, Error *err)
 {
+    *chain = (Chain){.law = model->law};
+    chain->friction = friction_everywhere(friction_node(&chain->law, 1));
+
+    // Evenly spaced nodes, all of them contact; the trapezoid rule's weights (half at the ends).
+    // The rod is one more unknown, behind the nodes'.
+    Interface *interface = &chain->interface;
+    double element = model->length / (points - 1);
+    *interface = (Interface){.dim = 2, .contact_count = points, .pad_count = 1, .rod_count = 1};
+    interface->count = interface_rod(interface, 1);
+    interface->node = NEW_ARRAY(int32_t, points, err);
+    interface->x = NEW_ARRAY(double, points, err);
+    interface->weight = NEW_ARRAY(double, points, err);
+    interface->pad = NEW_ARRAY(int32_t, points, err);
+    interface->rod_node = NEW_ARRAY(int32_t, 1, err);
+    interface->rod_z = NEW_ARRAY(double, 1, err);
+    interface->rod_share = NEW_ARRAY(double, 1, err);
+    interface->dofs = NEW_ARRAY(int32_t, interface->count, err);
+    if (!error_is_clean(err)) return false;
+    for (int32_t i = 0; i < points; i++) {
+        bool end = i == 0 || i == points - 1;
+        interface->node[i] = i;
+        interface->x[i] = i == points - 1 ? model->length : i * element;
+        interface->weight[i] = end ? element / 2 : element;
+    }
+    interface->rod_node[0] = points;
+    interface->rod_z[0] = model->drive;
+    interface->rod_share[0] = 1;
+    for (int32_t k = 0; k < interface->count; k++) interface->dofs[k] = k;
+
+    // M, C, K and the load as a reduced bulk with nothing inside: all unknowns are the interface's.
+    // The normals carry the node's mass too, so that A stays definite; they never move.
+    ReducedBulk *reduced = &chain->reduced;
     int64_t count = interface->count;
     *reduced = (ReducedBulk){.dim = interface->dim,
                              .interface_count = interface->count,
@@ -106,24 +108,14 @@ static bool build_matrices(const Model1d *model, const Interface *interface, Red
         reduced->load[interface_normal(interface, i)] =
             -(interface->weight[i] * model1d_pressure(model, x));
     }
-    return true;
-}
 
-// The line as a Block: from here on the steppers cannot tell it from a block of elements. The rod
-// is bonded: s_xz follows U - u whatever its sign.
-bool chain_build(const Model1d *model, int32_t points, Chain *chain, Error *err)
-{
-    *chain = (Chain){.law = model->law};
-    chain->friction = friction_everywhere(friction_node(&chain->law, 1));
-    if (!build_interface(model, points, &chain->interface, err)) return false;
-    if (!build_matrices(model, &chain->interface, &chain->reduced, err)) return false;
-    double mass = model->density * model->alpha * model->height * model->length;
-    if (!bulk_operator_reduce(&chain->reduced, model->length, mass, &chain->system, err))
+    // The block.
+    double whole = model->density * model->alpha * model->height * model->length;
+    if (!bulk_operator_reduce(&chain->reduced, model->length, whole, &chain->system, err))
         return false;
-    if (!rod_build(&chain->interface, ROD_IS_BONDED, model->velocity, &chain->rod, err))
-        return false;
+    if (!rod_build(interface, ROD_IS_BONDED, model->velocity, &chain->rod, err)) return false;
     chain->block = (Block){.system = &chain->system,
-                           .interface = &chain->interface,
+                           .interface = interface,
                            .friction = &chain->friction,
                            .rod = &chain->rod};
     return true;

@@ -28,9 +28,9 @@ Model1dOptions amontons_model1d_options(void)
     return (Model1dOptions){.alpha = 0.2, .nodes = 81};
 }
 
-// Refuses a scene that the model has no terms for, rather than leave parts out. ERROR_INPUT names
-// the key.
-static bool check_scene(const Scene *scene, Error *err)
+// Refuses a scene that the model has no terms for, rather than leave parts out, and options that it
+// cannot take. ERROR_INPUT names the key.
+static bool check_scene(const Scene *scene, const Model1dOptions *options, Error *err)
 {
     const char *path = scene->path;
     if (scene->rod.kind == ROD_NONE || !(scene->rod.velocity > 0))
@@ -90,12 +90,8 @@ static bool check_scene(const Scene *scene, Error *err)
                       "%s: the 1D model has a pressure on top and a rod only, no load.tractions or "
                       "load.supports",
                       path);
-    return true;
-}
 
-// alpha is the paper's fit (0.2); a line of fewer than three nodes has no inside.
-static bool check_options(const Scene *scene, const Model1dOptions *options, Error *err)
-{
+    // Options: alpha is the paper's fit (0.2); a line of fewer than three nodes has no inside.
     if (!(options->alpha > 0 && options->alpha <= 10))
         return REFUSE(err, "alpha is %g; above 0 up to 10 is allowed", options->alpha);
     if (options->theory_only) return true;
@@ -106,10 +102,10 @@ static bool check_options(const Scene *scene, const Model1dOptions *options, Err
         return REFUSE(err,
                       "%s: the 1D model is stepped implicitly: --set time.scheme=sdirk2, or ask "
                       "for its theory only",
-                      scene->path);
+                      path);
     if (!(scene->time.until_U > 0) && !(scene->time.until_t > 0))
-        return REFUSE(err, "%s: says not when to stop (time.until)", scene->path);
-    return error_is_clean(err);
+        return REFUSE(err, "%s: says not when to stop (time.until)", path);
+    return true;
 }
 
 // Elastic and viscous constants of the line from the block's, L and H from the mesh, which is read
@@ -164,8 +160,8 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Theory at evenly spaced fronts up to l = L.
-static bool fill_points(Model1dSimulation *simulation, Error *err)
+// Theory at evenly spaced fronts up to l = L, and where it loses stability.
+static bool find_theory(Model1dSimulation *simulation, Model1dSummary *summary, Error *err)
 {
     const Model1d *model = &simulation->model;
     double *work = NEW_ARRAY(double, model1d_rates_work(MODEL1D_MODES), err);
@@ -191,19 +187,13 @@ static bool fill_points(Model1dSimulation *simulation, Error *err)
             point.growing += model1d_omega(model, n, l).re > 0;
         simulation->points[simulation->point_count++] = point;
     }
-cleanup:
-    memory_free(work);
-    return error_is_clean(err);
-}
 
-// Lengths over L and mu there, thrice: by the paper's formula (which may give l_c beyond L: mu_S
-// then), with all terms, and with all terms at the scene's V. A front that reaches the end without
-// a loss slides there, at mu_M = mu(L).
-static bool summarise_theory(const Model1d *model, Model1dSummary *summary, Error *err)
-{
+    // Lengths over L and mu there, thrice: by the paper's formula (which may give l_c beyond L:
+    // mu_S then), with all terms, and with all terms at the scene's V. A front that reaches the end
+    // without a loss slides there, at mu_M = mu(L).
     double length = model->length;
     Model1dLosses losses;
-    if (!model1d_losses(model, &losses, err)) return false;
+    TRY(model1d_losses(model, &losses, err));
     summary->range = model1d_range(model) / length;
     summary->l_sc = model1d_l_sc(model, 0) / length;
     summary->l_c = model1d_l_c(model) / length;
@@ -214,40 +204,9 @@ static bool summarise_theory(const Model1d *model, Model1dSummary *summary, Erro
     summary->l_rod_full = losses.l_rod / length;
     summary->mu_c_full = model1d_mu(model, isnan(losses.l_c) ? length : losses.l_c);
     summary->mu_rod_full = model1d_mu(model, isnan(losses.l_rod) ? length : losses.l_rod);
-    return true;
-}
-
-// The first peak is kept apart: it starts from u_0, as in theory; later ones from the stress that
-// sliding left.
-static void summarise_steps(Model1dSimulation *simulation, Model1dSummary *summary)
-{
-    const StepCounters *steps = &simulation->control.counters;
-    const Drops *drops = &simulation->drops;
-    Answers answers = answers_of(drops);
-    double length = simulation->model.length;
-    summary->simulated = true;
-    for (int32_t k = drops->count - 1; k >= 0; k--) {
-        if (!drops->list[k].bulk) continue;
-        Drop peak = drops_as(drops, DROP_BULK, k);
-        summary->first_mu = peak.mu;
-        summary->first_l_sc = peak.front_uncertified / length;
-        summary->first_l_c = peak.critical_length / length;
-    }
-    summary->mu_M = answers.mu_M.value;
-    summary->mu_M_spread = answers.mu_M_spread;
-    summary->l_sc_seen = answers.subcritical_length / length;
-    summary->l_c_seen = answers.critical_length / length;
-    summary->period = answers.period;
-    summary->peaks = answers.peaks;
-    summary->peaks_counted = answers.peaks_counted;
-    summary->bounded = simulation->events.kinds[EVENT_BOUNDED];
-    summary->leading = simulation->events.kinds[EVENT_LEADING];
-    summary->quasi_static_error = simulation->quasi_static_error;
-    summary->energy_error = simulation->energy_error;
-    summary->contact_error = simulation->contact_error;
-    summary->accepted = steps->accepted;
-    summary->rejected = steps->rejected_error + steps->rejected_energy +
-                        steps->rejected_uncertified + steps->unsolved;
+cleanup:
+    memory_free(work);
+    return error_is_clean(err);
 }
 
 // Theory always, steps unless options say otherwise; results last, so that a failed simulation
@@ -267,16 +226,43 @@ bool amontons_model1d(const Scene *scene, const Model1dOptions *options, Model1d
                                 .l_sc_seen = NAN,
                                 .l_c_seen = NAN};
     TRY(dense_begin(err));
-    TRY(check_scene(scene, err));
-    TRY(check_options(scene, options, err));
+    TRY(check_scene(scene, options, err));
     TRY(result_folder_claim(options->folder, options->overwrite, &folder, err));
     TRY(translate_scene(scene, options, &simulation.model, err));
     TRY(result_folder_clear(&folder, err));
-    TRY(fill_points(&simulation, err));
-    TRY(summarise_theory(&simulation.model, summary, err));
+    TRY(find_theory(&simulation, summary, err));
     if (!options->theory_only) {
         TRY(model1d_simulate(&simulation, err));
-        summarise_steps(&simulation, summary);
+        const StepCounters *steps = &simulation.control.counters;
+
+        // The first peak is kept apart: it starts from u_0, as in theory; later ones from the
+        // stress that sliding left.
+        const Drops *drops = &simulation.drops;
+        Answers answers = answers_of(drops);
+        double length = simulation.model.length;
+        summary->simulated = true;
+        for (int32_t k = drops->count - 1; k >= 0; k--) {
+            if (!drops->list[k].bulk) continue;
+            Drop peak = drops_as(drops, DROP_BULK, k);
+            summary->first_mu = peak.mu;
+            summary->first_l_sc = peak.front_uncertified / length;
+            summary->first_l_c = peak.critical_length / length;
+        }
+        summary->mu_M = answers.mu_M.value;
+        summary->mu_M_spread = answers.mu_M_spread;
+        summary->l_sc_seen = answers.subcritical_length / length;
+        summary->l_c_seen = answers.critical_length / length;
+        summary->period = answers.period;
+        summary->peaks = answers.peaks;
+        summary->peaks_counted = answers.peaks_counted;
+        summary->bounded = simulation.events.kinds[EVENT_BOUNDED];
+        summary->leading = simulation.events.kinds[EVENT_LEADING];
+        summary->quasi_static_error = simulation.quasi_static_error;
+        summary->energy_error = simulation.energy_error;
+        summary->contact_error = simulation.contact_error;
+        summary->accepted = steps->accepted;
+        summary->rejected = steps->rejected_error + steps->rejected_energy +
+                            steps->rejected_uncertified + steps->unsolved;
     }
     summary->seconds = clock_seconds() - started;
     if (options->folder) {

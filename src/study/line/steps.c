@@ -68,34 +68,6 @@ static bool open_simulation(Model1dSimulation *simulation, Error *err)
                           &simulation->history, err);
 }
 
-// As long as nothing was rapid: what the theory's points look like here, and how far off mu is.
-static void compare_step(Model1dSimulation *simulation, const Observation *seen)
-{
-    const Model1d *model = &simulation->model;
-    const Events *events = &simulation->events;
-    bool rapid = events->count > events->kinds[EVENT_QUASI_STATIC];
-    if (rapid || seen->U > model1d_rod(model, model->length)) {
-        simulation->next_point = simulation->point_count;
-        return;
-    }
-    double low = 0, high = model->length;   // l for a rod at U, by halving
-    while (high - low > 1e-12 * model->length) {
-        double middle = 0.5 * (low + high);
-        *(model1d_rod(model, middle) < seen->U ? &low : &high) = middle;
-    }
-    double mu = model1d_mu(model, high);
-    simulation->quasi_static_error = fmax(simulation->quasi_static_error, fabs(seen->mu - mu));
-    const Observation *last = &simulation->last;
-    while (simulation->next_point < simulation->point_count) {
-        Model1dPoint *point = &simulation->points[simulation->next_point];
-        if (seen->U < point->U) break;
-        double part = seen->U > last->U ? (point->U - last->U) / (seen->U - last->U) : 1;
-        point->mu_seen = last->mu + part * (seen->mu - last->mu);
-        point->front_seen = seen->front;
-        simulation->next_point++;
-    }
-}
-
 // Each accepted step, the start's state included. ERROR_COMPUTE: the energy ledger does not close.
 static bool record_step(Model1dSimulation *simulation, Error *err)
 {
@@ -104,7 +76,32 @@ static bool record_step(Model1dSimulation *simulation, Error *err)
     if (!drops_record(&simulation->drops, &seen, err)) return false;
     if (!contact_arrays_record(&simulation->contact, &seen, err)) return false;
     if (simulation->history.file && !history_record(&simulation->history, &seen, err)) return false;
-    compare_step(simulation, &seen);
+
+    // As long as nothing was rapid: what the theory's points look like here, and how far off mu is.
+    const Model1d *model = &simulation->model;
+    const Events *events = &simulation->events;
+    const Observation *last = &simulation->last;
+    bool rapid = events->count > events->kinds[EVENT_QUASI_STATIC];
+    if (rapid || seen.U > model1d_rod(model, model->length)) {
+        simulation->next_point = simulation->point_count;
+    } else {
+        double low = 0, high = model->length;   // l for a rod at U, by halving
+        while (high - low > 1e-12 * model->length) {
+            double middle = 0.5 * (low + high);
+            *(model1d_rod(model, middle) < seen.U ? &low : &high) = middle;
+        }
+        double mu = model1d_mu(model, high);
+        simulation->quasi_static_error = fmax(simulation->quasi_static_error, fabs(seen.mu - mu));
+    }
+    while (simulation->next_point < simulation->point_count) {
+        Model1dPoint *point = &simulation->points[simulation->next_point];
+        if (seen.U < point->U) break;
+        double part = seen.U > last->U ? (point->U - last->U) / (seen.U - last->U) : 1;
+        point->mu_seen = last->mu + part * (seen.mu - last->mu);
+        point->front_seen = seen.front;
+        simulation->next_point++;
+    }
+
     const Model1dOptions *options = simulation->options;
     StepView view = step_view(&seen, &simulation->events, &simulation->contact, simulation->t_end);
     if (options->on_step) options->on_step(&view, options->context);

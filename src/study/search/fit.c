@@ -110,52 +110,7 @@ static bool add_place(Fit *fit, const double *place, Error *err)
     return search_add(&fit->search, x, &added, err);
 }
 
-// Designs at the best place and at the ends of the regions, where polynomials would be guesses.
-static bool refine_regions(Fit *fit, Error *err)
-{
-    bool stays = false;
-    fit->widened = 1;
-    for (int32_t round = 0; round <= ROUNDS_MAX; round++) {
-        int32_t first = fit->search.designs.count;
-        if (!find_best(fit, err)) return false;
-        fit_find_regions(fit, &stays);
-        if ((stays && round > 0) || round == ROUNDS_MAX) break;
-        for (int32_t k = 0; k < fit->response.keys; k++)
-            fit->search.designs.near[k] = NEAR_IN_REGION *
-                                          (fit->regions[k].high - fit->regions[k].low);
-        if (!add_place(fit, fit->best, err)) return false;
-        for (int32_t k = 0; k < fit->response.keys; k++) {
-            if (!add_place(fit, fit->regions[k].low_place, err)) return false;
-            if (!add_place(fit, fit->regions[k].high_place, err)) return false;
-        }
-        if (fit->search.designs.count == first) break;
-        if (!search_compute_from(&fit->search, first, err)) return false;
-    }
-    return true;
-}
-
 // --- the whole ----------------------------------------------------------------------------------
-
-static bool open_fit(Fit *fit, const char *path, const SweepOptions *options, Error *err)
-{
-    Search *search = &fit->search;
-    if (!search_open(search, path, options, true, err)) return false;
-    if (!measurements_read(search->study, &fit->measured, err)) return false;
-    if (fit->measured.count < search->study->search.key_count)
-        return REFUSE(err, "%s: %d measurements cannot tell %d keys", path, fit->measured.count,
-                      search->study->search.key_count);
-    search->judge = (SearchJudge){take_results, judge_misfit, fit};
-    if (!search_begin(search, fit->measured.condition_count, fit->measured.conditions, err))
-        return false;
-    search->designs.origins = fit->measured.origins;
-    for (int32_t k = 0; k < search->study->search.key_count; k++)
-        search->designs.near[k] = NEAR_IN_RANGE;
-    int64_t room = (int64_t)DESIGNS_MAX * fit->measured.count;
-    if (!(fit->found = NEW_ARRAY(double, room, err))) return false;
-    if (!(fit->own = NEW_ARRAY(double, room, err))) return false;
-    search->planned += search->designs.conditions * 2 * (1 + 2 * search->study->search.key_count);
-    return true;
-}
 
 bool amontons_fit(const char *path, const SweepOptions *options, FitSummary *summary, Error *err)
 {
@@ -163,12 +118,46 @@ bool amontons_fit(const char *path, const SweepOptions *options, FitSummary *sum
     *summary = (FitSummary){.misfit = NAN};
     Fit *fit = NEW_ARRAY(Fit, 1, err);
     TRY(fit);
-    TRY(open_fit(fit, path, options, err));
-    TRY(search_designs(&fit->search, fit->search.study->search.designs, err));
-    TRY(refine_regions(fit, err));
 
-    const Search *search = &fit->search;
+    // The study and its measurements.
+    Search *search = &fit->search;
+    TRY(search_open(search, path, options, true, err));
+    const StudySearch *keys = &search->study->search;
+    TRY(measurements_read(search->study, &fit->measured, err));
     int32_t data = fit->measured.count;
+    if (data < keys->key_count)
+        FAIL(err, ERROR_INPUT, "%s: %d measurements cannot tell %d keys", path, data,
+             keys->key_count);
+    search->judge = (SearchJudge){take_results, judge_misfit, fit};
+    TRY(search_begin(search, fit->measured.condition_count, fit->measured.conditions, err));
+    search->designs.origins = fit->measured.origins;
+    for (int32_t k = 0; k < keys->key_count; k++) search->designs.near[k] = NEAR_IN_RANGE;
+    TRY(fit->found = NEW_ARRAY(double, (int64_t)DESIGNS_MAX *data, err));
+    TRY(fit->own = NEW_ARRAY(double, (int64_t)DESIGNS_MAX *data, err));
+    search->planned += search->designs.conditions * 2 * (1 + 2 * keys->key_count);
+
+    TRY(search_designs(search, keys->designs, err));
+
+    // The regions of the keys, with designs at the best place and at the ends of the regions, where
+    // polynomials would be guesses.
+    bool stays = false;
+    fit->widened = 1;
+    for (int32_t round = 0; round <= ROUNDS_MAX; round++) {
+        int32_t first = search->designs.count;
+        TRY(find_best(fit, err));
+        fit_find_regions(fit, &stays);
+        if ((stays && round > 0) || round == ROUNDS_MAX) break;
+        for (int32_t k = 0; k < fit->response.keys; k++)
+            search->designs.near[k] = NEAR_IN_REGION * (fit->regions[k].high - fit->regions[k].low);
+        TRY(add_place(fit, fit->best, err));
+        for (int32_t k = 0; k < fit->response.keys; k++) {
+            TRY(add_place(fit, fit->regions[k].low_place, err));
+            TRY(add_place(fit, fit->regions[k].high_place, err));
+        }
+        if (search->designs.count == first) break;
+        TRY(search_compute_from(search, first, err));
+    }
+
     *summary = (FitSummary){.parameter_count = fit->response.keys,
                             .measurements = data,
                             .computed = search->computed,
@@ -178,7 +167,7 @@ bool amontons_fit(const char *path, const SweepOptions *options, FitSummary *sum
     for (int32_t k = 0; k < fit->response.keys; k++) {
         const Region *region = &fit->regions[k];
         FitParameter *parameter = &summary->parameters[k];
-        snprintf(parameter->key, sizeof parameter->key, "%s", search->study->search.keys[k].key);
+        snprintf(parameter->key, sizeof parameter->key, "%s", keys->keys[k].key);
         parameter->value = fit_unscaled(fit, k, fit->best[k]);
         parameter->low = fit_unscaled(fit, k, region->low);
         parameter->high = fit_unscaled(fit, k, region->high);

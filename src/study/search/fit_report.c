@@ -76,9 +76,30 @@ static void print_combinations(const Fit *fit, FILE *out)
 
 // --- words --------------------------------------------------------------------------------------
 
-// The worst first.
-static void print_worst(const Fit *fit, FILE *out)
+static void print_answer(const Fit *fit, const FitSummary *summary, FILE *out)
 {
+    int32_t freedom = fit_freedom(fit), best = designs_best(&fit->search.designs);
+    char words[OPTIMISE_WORDS_SIZE];
+    fprintf(out, "%d measurements, %d keys, %d designs: misfit %.4g", summary->measurements,
+            summary->parameter_count, summary->designs, summary->misfit);
+    if (freedom > 0)
+        fprintf(out, " (%d +- %.1f where scene and errors are right)", freedom,
+                sqrt(2.0 * freedom));
+    fprintf(out, "\n");
+    for (int32_t k = 0; k < summary->parameter_count; k++) {
+        const FitParameter *parameter = &summary->parameters[k];
+        bool open = parameter->low_open || parameter->high_open;
+        if (parameter->low_open && parameter->high_open)
+            fprintf(out, "  %s: anything from %.4g to %.4g fits\n", parameter->key, parameter->low,
+                    parameter->high);
+        else
+            fprintf(out, "  %s: %.4g, %.0f %% from %.4g to %.4g%s\n", parameter->key,
+                    parameter->value, 100 * fit->search.study->search.sure, parameter->low,
+                    parameter->high, open ? ", an end of the range: it may be beyond" : "");
+    }
+    print_combinations(fit, out);
+
+    // The measurements that are off, the worst first.
     double before = INFINITY;
     int32_t count = 0, off = 0;
     for (int32_t k = 0; k < fit->measured.count; k++) off += fabs(fit_errors_off(fit, k)) > OFF;
@@ -104,31 +125,7 @@ static void print_worst(const Fit *fit, FILE *out)
         before = fabs(fit_errors_off(fit, worst));
         count++;
     }
-}
 
-static void print_answer(const Fit *fit, const FitSummary *summary, FILE *out)
-{
-    int32_t freedom = fit_freedom(fit), best = designs_best(&fit->search.designs);
-    char words[OPTIMISE_WORDS_SIZE];
-    fprintf(out, "%d measurements, %d keys, %d designs: misfit %.4g", summary->measurements,
-            summary->parameter_count, summary->designs, summary->misfit);
-    if (freedom > 0)
-        fprintf(out, " (%d +- %.1f where scene and errors are right)", freedom,
-                sqrt(2.0 * freedom));
-    fprintf(out, "\n");
-    for (int32_t k = 0; k < summary->parameter_count; k++) {
-        const FitParameter *parameter = &summary->parameters[k];
-        bool open = parameter->low_open || parameter->high_open;
-        if (parameter->low_open && parameter->high_open)
-            fprintf(out, "  %s: anything from %.4g to %.4g fits\n", parameter->key, parameter->low,
-                    parameter->high);
-        else
-            fprintf(out, "  %s: %.4g, %.0f %% from %.4g to %.4g%s\n", parameter->key,
-                    parameter->value, 100 * fit->search.study->search.sure, parameter->low,
-                    parameter->high, open ? ", an end of the range: it may be beyond" : "");
-    }
-    print_combinations(fit, out);
-    print_worst(fit, out);
     if (summary->widened > 1)
         fprintf(out, "  regions are %.2g times as wide as the errors make them, as the misfit is\n",
                 summary->widened);
@@ -147,34 +144,6 @@ static void print_answer(const Fit *fit, const FitSummary *summary, FILE *out)
     design_words(fit->search.study, &fit->search.designs.list[best], words);
     fprintf(out, "  nearest design: %s; its first run again: amontons run %s/best.yaml -o fitted\n",
             words, fit->search.options->folder);
-}
-
-// --- fit.csv ------------------------------------------------------------------------------------
-
-static bool write_table(const Fit *fit, Error *err)
-{
-    static const char *const names[] = {"condition", "name",  "along",     "at", "measured",
-                                        "error",     "found", "own_error", "off"};
-    char path[POINT_PATH_SIZE];
-    snprintf(path, sizeof path, "%s/fit.csv", fit->search.options->folder);
-    CsvWriter *csv = csv_create(path, err);
-    if (!csv) return false;
-    for (size_t k = 0; k < sizeof names / sizeof *names; k++) csv_text(csv, names[k]);
-    csv_end_row(csv);
-    for (int32_t k = 0; k < fit->measured.count; k++) {
-        const Datum *datum = &fit->measured.list[k];
-        csv_text(csv, fit->measured.conditions[datum->condition]);
-        csv_text(csv, datum->name);
-        csv_text(csv, datum->along);
-        csv_number(csv, *datum->along ? datum->at : (double)NAN);
-        csv_number(csv, datum->value);
-        csv_number(csv, datum->error);
-        csv_number(csv, response_at(&fit->response, k, fit->best));
-        csv_number(csv, fit->response.own[k]);
-        csv_number(csv, fit_errors_off(fit, k));
-        csv_end_row(csv);
-    }
-    return csv_finish(csv, err);
 }
 
 // --- profiles -----------------------------------------------------------------------------------
@@ -287,33 +256,30 @@ static bool draw_region(const Fit *fit, const int32_t keys[2], Error *err)
 
 // --- found beside measured ----------------------------------------------------------------------
 
-// Where a datum was measured: along its curve, or by the one key that is its condition. key: out,
-// what that is. false: it is neither.
-static bool find_place(const Fit *fit, int32_t datum, double *x, char key[STUDY_NAME_SIZE])
-{
-    const Datum *one = &fit->measured.list[datum];
-    const char *condition = fit->measured.conditions[one->condition];
-    const char *colon = strstr(condition, ": ");
-    *x = one->at;
-    snprintf(key, STUDY_NAME_SIZE, "%s", one->along);
-    if (*one->along) return true;
-    if (!colon || strchr(condition, ',') || colon - condition >= STUDY_NAME_SIZE) return false;
-    snprintf(key, STUDY_NAME_SIZE, "%.*s", (int)(colon - condition), condition);
-    int32_t length = text_number(colon + 2, x);
-    const char *unit = colon + 2 + length + strspn(colon + 2 + length, " ");
-    return length > 0 && (!*unit || unit_to_si(unit, NULL, x));
-}
-
-// One result over the one thing that differs; curves under one condition.
+// Whether one result was measured over the one thing that differs: along a curve under one
+// condition, or by the one key that is its condition. x, key: out, where each was measured, and
+// what that is.
 static bool has_places(const Fit *fit, double *x, char key[STUDY_NAME_SIZE])
 {
-    char other[STUDY_NAME_SIZE];
     const Measurements *measured = &fit->measured;
     for (int32_t k = 0; k < measured->count; k++) {
-        if (!find_place(fit, k, &x[k], k ? other : key)) return false;
-        if (strcmp(measured->list[k].name, measured->list[0].name) != 0) return false;
-        if (k && strcmp(key, other) != 0) return false;
-        if (*measured->list[k].along && measured->condition_count > 1) return false;
+        const Datum *one = &measured->list[k];
+        const char *condition = measured->conditions[one->condition];
+        char other[STUDY_NAME_SIZE];
+        x[k] = one->at;
+        snprintf(other, sizeof other, "%s", one->along);
+        if (!*one->along) {
+            const char *colon = strstr(condition, ": ");
+            if (!colon || strchr(condition, ',') || colon - condition >= STUDY_NAME_SIZE)
+                return false;
+            snprintf(other, sizeof other, "%.*s", (int)(colon - condition), condition);
+            int32_t length = text_number(colon + 2, &x[k]);
+            const char *unit = colon + 2 + length + strspn(colon + 2 + length, " ");
+            if (length <= 0 || (*unit && !unit_to_si(unit, NULL, &x[k]))) return false;
+        }
+        if (k == 0) snprintf(key, STUDY_NAME_SIZE, "%s", other);
+        if (strcmp(one->name, measured->list[0].name) != 0 || strcmp(key, other) != 0) return false;
+        if (*one->along && measured->condition_count > 1) return false;
     }
     return measured->count > 0;
 }
@@ -457,7 +423,33 @@ bool fit_report(const Fit *fit, const FitSummary *summary, Error *err)
     SearchAnswer answer;
     if (!search_answer_begin(&answer, err)) return false;
     print_answer(fit, summary, answer.out);
-    if (!search_answer_end(&fit->search, &answer, err) || !write_table(fit, err)) return false;
+    if (!search_answer_end(&fit->search, &answer, err)) return false;
+
+    // fit.csv: each measurement, and what was found.
+    static const char *const names[] = {"condition", "name",  "along",     "at", "measured",
+                                        "error",     "found", "own_error", "off"};
+    char path[POINT_PATH_SIZE];
+    snprintf(path, sizeof path, "%s/fit.csv", fit->search.options->folder);
+    CsvWriter *csv = csv_create(path, err);
+    if (!csv) return false;
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++) csv_text(csv, names[k]);
+    csv_end_row(csv);
+    for (int32_t k = 0; k < fit->measured.count; k++) {
+        const Datum *datum = &fit->measured.list[k];
+        csv_text(csv, fit->measured.conditions[datum->condition]);
+        csv_text(csv, datum->name);
+        csv_text(csv, datum->along);
+        csv_number(csv, *datum->along ? datum->at : (double)NAN);
+        csv_number(csv, datum->value);
+        csv_number(csv, datum->error);
+        csv_number(csv, response_at(&fit->response, k, fit->best));
+        csv_number(csv, fit->response.own[k]);
+        csv_number(csv, fit_errors_off(fit, k));
+        csv_end_row(csv);
+    }
+    if (!csv_finish(csv, err)) return false;
+
+    // Figures.
     if (!draw_measured(fit, err) || !draw_fitted(fit, err)) return false;
     for (int32_t k = 0; k < n; k++)
         if (!draw_profile(fit, k, err)) return false;

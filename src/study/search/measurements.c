@@ -66,10 +66,24 @@ static int32_t find_name(const Table *table, const char *name)
     return -1;
 }
 
-// Names and units, each name once.
-static bool read_names(Table *table, Error *err)
+// Read at a place of its own: along a series, or after a hold.
+static bool is_curve(const Table *table, const char *name)
+{
+    return is_series(name) || (find_name(table, HOLD) >= 0 && is_after_hold(name));
+}
+
+static bool is_result(const Table *table, const char *name)
+{
+    return is_curve(table, name) || study_record_path(name) != NULL;
+}
+
+static bool read_columns(Table *table, Error *err)
 {
     const CsvTable *csv = &table->csv;
+    int32_t along = 0, results = 0, curves = 0, held = 0;
+    if (!(table->columns = NEW_ARRAY(Column, csv->columns, err))) return false;
+
+    // Names and units, each name once.
     for (int32_t k = 0; k < csv->columns; k++) {
         Column *column = &table->columns[k];
         CsvUnit unit;
@@ -94,24 +108,8 @@ static bool read_names(Table *table, Error *err)
                               before + 1);
         snprintf(column->name, sizeof column->name, "%s", name);
     }
-    return true;
-}
 
-// Read at a place of its own: along a series, or after a hold.
-static bool is_curve(const Table *table, const char *name)
-{
-    return is_series(name) || (find_name(table, HOLD) >= 0 && is_after_hold(name));
-}
-
-static bool is_result(const Table *table, const char *name)
-{
-    return is_curve(table, name) || study_record_path(name) != NULL;
-}
-
-// Finds the errors of each result, in the result's unit where they have none.
-static bool find_errors(Table *table, Error *err)
-{
-    const CsvTable *csv = &table->csv;
+    // The errors of each result, in the result's unit where they have none.
     for (int32_t k = 0; k < csv->columns; k++) table->columns[k].error = -1;
     for (int32_t k = 0; k < csv->columns; k++) {
         Column *column = &table->columns[k];
@@ -127,15 +125,9 @@ static bool find_errors(Table *table, Error *err)
         error->kind = COLUMN_ERROR;
         if (unit.length == 0) error->factor = column->factor;
     }
-    return true;
-}
 
-static bool read_columns(Table *table, Error *err)
-{
-    int32_t along = 0, results = 0, curves = 0, held = 0;
-    if (!(table->columns = NEW_ARRAY(Column, table->csv.columns, err))) return false;
-    if (!read_names(table, err) || !find_errors(table, err)) return false;
-    for (int32_t k = 0; k < table->csv.columns; k++) {
+    // The kind of each column, and whether all of them make a table.
+    for (int32_t k = 0; k < csv->columns; k++) {
         Column *column = &table->columns[k];
         const char *name = column->name;
         if (column->kind == COLUMN_ERROR) continue;
@@ -145,12 +137,12 @@ static bool read_columns(Table *table, Error *err)
         bool is_place = is_series(name) || strcmp(name, HOLD) == 0;
         if (!is_place && !is_result(table, name))
             return csv_refuse(
-                &table->csv, -1, k, err,
+                csv, -1, k, err,
                 "is neither a key of the scene nor a result, as `record` of a study names it, nor "
                 "a "
                 "series of history.h5, as in series/mu, nor `hold` with `mu` or `healing`");
         if (!is_place && column->error < 0)
-            return csv_refuse(&table->csv, -1, k, err,
+            return csv_refuse(csv, -1, k, err,
                               "has no error: a column %s_error has one standard deviation of it",
                               name);
         along += column->kind == COLUMN_ALONG;
@@ -234,42 +226,6 @@ static bool read_number(const Table *table, int32_t row, int32_t column, double 
     return true;
 }
 
-static bool read_row(Measurements *measured, const Table *table, int32_t row, Error *err)
-{
-    Datum datum = {0};
-    int32_t along = -1;
-    if (!find_condition(measured, table, row, &datum.condition, err)) return false;
-    for (int32_t k = 0; k < table->csv.columns; k++)
-        if (table->columns[k].kind == COLUMN_ALONG) along = k;
-    if (along >= 0 && !read_number(table, row, along, &datum.at, err)) return false;
-    for (int32_t k = 0; k < table->csv.columns; k++) {
-        const char *name = table->columns[k].name;
-        if (table->columns[k].kind != COLUMN_RESULT || !*csv_cell(&table->csv, row, k)) continue;
-        snprintf(datum.name, sizeof datum.name, "%s", name);
-        snprintf(datum.along, sizeof datum.along, "%s",
-                 is_curve(table, name) ? table->columns[along].name : "");
-        if (!read_number(table, row, k, &datum.value, err)) return false;
-        if (!read_number(table, row, table->columns[k].error, &datum.error, err)) return false;
-        if (!(datum.error > 0))
-            return csv_refuse(&table->csv, row, table->columns[k].error, err,
-                              "`%.40s`: an error is above 0",
-                              csv_cell(&table->csv, row, table->columns[k].error));
-        if (fabs(datum.value) > LARGEST || datum.error > LARGEST)
-            return csv_refuse(&table->csv, row, k, err,
-                              "%g with an error of %g; allowed: at most %g", datum.value,
-                              datum.error, LARGEST);
-        if (datum.error < SMALLEST || datum.error < DIGITS * fabs(datum.value))
-            return csv_refuse(&table->csv, row, table->columns[k].error, err,
-                              "%g beside %s = %g: nothing is measured to so many digits",
-                              datum.error, name, datum.value);
-        if (!memory_grow(&measured->list, measured->count, &measured->room, sizeof *measured->list,
-                         err))
-            return false;
-        measured->list[measured->count++] = datum;
-    }
-    return true;
-}
-
 static bool read_named(const Study *study, YamlNode node, Measurements *measured, Error *err)
 {
     char path[2 * SCENE_TEXT_SIZE];
@@ -280,7 +236,40 @@ static bool read_named(const Study *study, YamlNode node, Measurements *measured
     Table table = {.path = path};
     TRY(csv_read(path, &table.csv, err));
     TRY(read_columns(&table, err));
-    for (int32_t row = 0; row < table.csv.rows; row++) TRY(read_row(measured, &table, row, err));
+    int32_t along = -1;
+    for (int32_t k = 0; k < table.csv.columns; k++)
+        if (table.columns[k].kind == COLUMN_ALONG) along = k;
+
+    // Rows: a datum for each result that is there.
+    const CsvTable *csv = &table.csv;
+    for (int32_t row = 0; row < csv->rows; row++) {
+        Datum datum = {0};
+        TRY(find_condition(measured, &table, row, &datum.condition, err));
+        if (along >= 0) TRY(read_number(&table, row, along, &datum.at, err));
+        for (int32_t k = 0; k < csv->columns; k++) {
+            const char *name = table.columns[k].name;
+            int32_t beside = table.columns[k].error;
+            if (table.columns[k].kind != COLUMN_RESULT || !*csv_cell(csv, row, k)) continue;
+            snprintf(datum.name, sizeof datum.name, "%s", name);
+            snprintf(datum.along, sizeof datum.along, "%s",
+                     is_curve(&table, name) ? table.columns[along].name : "");
+            TRY(read_number(&table, row, k, &datum.value, err));
+            TRY(read_number(&table, row, beside, &datum.error, err));
+            if (!(datum.error > 0))
+                TRY(csv_refuse(csv, row, beside, err, "`%.40s`: an error is above 0",
+                               csv_cell(csv, row, beside)));
+            if (fabs(datum.value) > LARGEST || datum.error > LARGEST)
+                TRY(csv_refuse(csv, row, k, err, "%g with an error of %g; allowed: at most %g",
+                               datum.value, datum.error, LARGEST));
+            if (datum.error < SMALLEST || datum.error < DIGITS * fabs(datum.value))
+                TRY(csv_refuse(csv, row, beside, err,
+                               "%g beside %s = %g: nothing is measured to so many digits",
+                               datum.error, name, datum.value));
+            TRY(memory_grow(&measured->list, measured->count, &measured->room,
+                            sizeof *measured->list, err));
+            measured->list[measured->count++] = datum;
+        }
+    }
 cleanup:
     memory_free(table.columns);
     csv_destroy(&table.csv);
@@ -344,34 +333,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// mu or its rise after a hold of this duration, of the run's own holds: linear over the logarithm
-// of the time held. NaN: no holds as short or as long.
-static void find_after_hold(const Datum *datum, const char *report, double *value, double *error)
-{
-    double before[3] = {NAN, NAN, NAN};   // the longest of shorter ones: ln duration, value, error
-    double behind[3] = {NAN, NAN, NAN};
-    for (int32_t k = 0;; k++) {
-        double found[4];
-        static const char *const names[] = {"duration", "healing", "healing_error", "mu_before"};
-        for (int32_t n = 0; n < 4; n++) {
-            char path[STUDY_NAME_SIZE];
-            snprintf(path, sizeof path, "results.program.holds.%d.%s", k, names[n]);
-            if (!json_find_number(report, path, &found[n])) found[n] = n == 0 ? -1 : NAN;
-        }
-        if (found[0] < 0) break;
-        if (isnan(found[1])) continue;
-        double at = log(found[0] / datum->at);
-        if (strcmp(datum->name, PEAK) == 0) found[1] += found[3];
-        double *side = at <= DIGITS ? before : behind;
-        if (at > DIGITS ? !(at > behind[0]) : !(at < before[0]))
-            memcpy(side, (double[]){at, found[1], found[2]}, sizeof before);
-    }
-    if (fabs(before[0]) <= DIGITS) memcpy(behind, before, sizeof before);
-    double width = behind[0] - before[0], part = width > 0 ? -before[0] / width : 0;
-    *value = before[1] + part * (behind[1] - before[1]);
-    *error = fmax(before[2], behind[2]) / 2;
-}
-
 bool measurements_find(const Datum *datum, const char *report, const char *history, double *value,
                        double *error, Error *err)
 {
@@ -379,7 +340,32 @@ bool measurements_find(const Datum *datum, const char *report, const char *histo
     *error = 0;
     if (!report) return true;
     if (strcmp(datum->along, HOLD) == 0) {
-        find_after_hold(datum, report, value, error);
+        // mu or its rise after a hold of this duration, of the run's own holds: linear over the
+        // logarithm of the time held. NaN: no holds as short or as long.
+        // ln duration, value and error of the longest of shorter ones, of the shortest of longer.
+        double before[3] = {NAN, NAN, NAN};
+        double behind[3] = {NAN, NAN, NAN};
+        for (int32_t k = 0;; k++) {
+            double found[4];
+            static const char *const names[] = {"duration", "healing", "healing_error",
+                                                "mu_before"};
+            for (int32_t n = 0; n < 4; n++) {
+                char path[STUDY_NAME_SIZE];
+                snprintf(path, sizeof path, "results.program.holds.%d.%s", k, names[n]);
+                if (!json_find_number(report, path, &found[n])) found[n] = n == 0 ? -1 : NAN;
+            }
+            if (found[0] < 0) break;
+            if (isnan(found[1])) continue;
+            double at = log(found[0] / datum->at);
+            if (strcmp(datum->name, PEAK) == 0) found[1] += found[3];
+            double *side = at <= DIGITS ? before : behind;
+            if (at > DIGITS ? !(at > behind[0]) : !(at < before[0]))
+                memcpy(side, (double[]){at, found[1], found[2]}, sizeof before);
+        }
+        if (fabs(before[0]) <= DIGITS) memcpy(behind, before, sizeof before);
+        double width = behind[0] - before[0], part = width > 0 ? -before[0] / width : 0;
+        *value = before[1] + part * (behind[1] - before[1]);
+        *error = fmax(before[2], behind[2]) / 2;
         if (isnan(*error)) *error = 0;
         return true;
     }

@@ -84,21 +84,6 @@ static bool next_accuracy(const Search *search, Design *design, double limit, Er
     return true;
 }
 
-// Returns, among the designs not in `taken` that a smaller bar alone could make the best, the one
-// whose bar reaches furthest; -1: none. A design that would need a better value, too, is left out.
-static int32_t next_leader(const Search *search, int32_t best, const bool *taken)
-{
-    double sign = search->designs.lowest ? -1 : 1, top = -INFINITY;
-    int32_t leader = -1;
-    for (int32_t d = 0; d < search->designs.count; d++) {
-        const Design *one = &search->designs.list[d];
-        double reach = sign * one->value + one->bar;
-        if (taken[d] || !designs_may_lead(&search->designs, best, d)) continue;
-        if (reach > top) top = reach, leader = d;
-    }
-    return leader;
-}
-
 // Rounds of smaller errors, as long as another design may be as good as the best. A design that
 // comes to nothing with a smaller error keeps what it had.
 static bool decide(Search *search, Error *err)
@@ -114,7 +99,19 @@ static bool decide(Search *search, Error *err)
         if (!open) break;
         memory_free(taken);
         TRY(taken = NEW_ARRAY(bool, DESIGNS_MAX, err));
-        for (int32_t d; count < LEADERS && (d = next_leader(search, best, taken)) >= 0;) {
+        while (count < LEADERS) {
+            // Among the designs not in `taken` that a smaller bar alone could make the best, the
+            // one whose bar reaches furthest. A design that would need a better value, too, is left
+            // out.
+            double sign = search->designs.lowest ? -1 : 1, top = -INFINITY;
+            int32_t d = -1;
+            for (int32_t i = 0; i < search->designs.count; i++) {
+                const Design *one = &search->designs.list[i];
+                double reach = sign * one->value + one->bar;
+                if (taken[i] || !designs_may_lead(&search->designs, best, i)) continue;
+                if (reach > top) top = reach, d = i;
+            }
+            if (d < 0) break;
             Design *design = &search->designs.list[d];
             taken[d] = true;
             before[count] = *design;
@@ -135,30 +132,28 @@ cleanup:
     return error_is_clean(err);
 }
 
-// The best design, or if that was computed once more the next one, where its value is now the
-// better one; -1: neither is left to be computed once more.
-static int32_t next_to_confirm(const Designs *designs)
-{
-    int32_t best = designs_best(designs), next = -1;
-    const Design *list = designs->list;
-    for (int32_t d = 0; d < designs->count; d++)
-        if (!list[d].confirmed && !isnan(list[d].value) &&
-            (next < 0 || design_is_better(designs, &list[d], &list[next])))
-            next = d;
-    if (next < 0 || next == best) return next;
-    double ahead = list[next].value - list[best].value;
-    return (designs->lowest ? -ahead : ahead) > 0 ? next : -1;
-}
-
 // The best of many is so by its luck, too: it is computed once more with half its bar. One whose
 // bar comes out no shorter, as the time for a run makes it, keeps what it had.
 static bool confirm(Search *search, Error *err)
 {
-    for (int32_t d; (d = next_to_confirm(&search->designs)) >= 0;) {
-        Design *design = &search->designs.list[d], before = *design;
+    const Designs *designs = &search->designs;
+    for (;;) {
+        // The best design or, if that was computed once more, the next one where its value is now
+        // the better one.
+        int32_t best = designs_best(designs), next = -1;
+        const Design *list = designs->list;
+        for (int32_t d = 0; d < designs->count; d++)
+            if (!list[d].confirmed && !isnan(list[d].value) &&
+                (next < 0 || design_is_better(designs, &list[d], &list[next])))
+                next = d;
+        if (next < 0) break;
+        double ahead = list[next].value - list[best].value;
+        if (next != best && !((designs->lowest ? -ahead : ahead) > 0)) break;
+
+        Design *design = &search->designs.list[next], before = *design;
         design->confirmed = before.confirmed = before.settled = true;
         if (!next_accuracy(search, design, 0, err)) continue;
-        if (!search_compute(search, &d, 1, err)) return false;
+        if (!search_compute(search, &next, 1, err)) return false;
         design->is_finer = design->has_bar && design->bar < before.bar;
         if (!design->is_finer) *design = before;
     }
@@ -178,30 +173,7 @@ static void set_aim(Search *search, int32_t aim)
     for (int32_t d = 0; d < search->designs.count; d++) designs_judge(&search->designs, d);
 }
 
-// Number of parts of the search: a front has one for the mean of its aims and one for each aim.
-static int32_t count_parts(const Search *search)
-{
-    return has_front(search) ? 1 + search->designs.aims : PARTS;
-}
-
 // --- the whole ----------------------------------------------------------------------------------
-
-static bool open_study(Search *search, const char *path, const SweepOptions *options, Error *err)
-{
-    if (!search_open(search, path, options, false, err)) return false;
-    const StudyRank *rank = &search->study->rank;
-    if (!rank->wanted) return REFUSE(err, "%s: what is best? say `rank: {by: mu_hold}`", path);
-    if (search->study->search.over == OVER_DEVIATION && !rank->lowest)
-        return REFUSE(
-            err, "%s: best: of a deviation the least is best: say `order: lowest` in `rank`", path);
-    if (search->study->search.over == OVER_FRONT && rank->refine > 0)
-        return REFUSE(err, "%s: best: `over: front` does not go with `refine`", path);
-    search->judge = (SearchJudge){take_value, judge_design, NULL};
-    if (!search_begin(search, 0, NULL, err)) return false;
-    search->planned += search->designs.conditions * count_parts(search) * (SECTION_POINTS - 1) *
-                       search->study->search.key_count;
-    return true;
-}
 
 bool amontons_optimise(const char *path, const SweepOptions *options, OptimiseSummary *summary,
                        Error *err)
@@ -210,11 +182,26 @@ bool amontons_optimise(const char *path, const SweepOptions *options, OptimiseSu
     *summary = (OptimiseSummary){.value = NAN, .bar = NAN, .start_value = NAN, .start_bar = NAN};
     Search *search = NEW_ARRAY(Search, 1, err);
     TRY(search);
-    TRY(open_study(search, path, options, err));
+
+    // The study must say which design is best.
+    TRY(search_open(search, path, options, false, err));
+    const StudyRank *rank = &search->study->rank;
+    const StudySearch *keys = &search->study->search;
+    if (!rank->wanted) FAIL(err, ERROR_INPUT, "%s: what is best? say `rank: {by: mu_hold}`", path);
+    if (keys->over == OVER_DEVIATION && !rank->lowest)
+        FAIL(err, ERROR_INPUT,
+             "%s: best: of a deviation the least is best: say `order: lowest` in `rank`", path);
+    if (keys->over == OVER_FRONT && rank->refine > 0)
+        FAIL(err, ERROR_INPUT, "%s: best: `over: front` does not go with `refine`", path);
+    search->judge = (SearchJudge){take_value, judge_design, NULL};
+    TRY(search_begin(search, 0, NULL, err));
     Designs *designs = &search->designs;
+    int32_t chosen = 0, wanted = keys->designs;
+    // A front has a part for the mean of its aims and one for each aim.
+    int32_t parts = has_front(search) ? 1 + designs->aims : PARTS;
+    search->planned += designs->conditions * parts * (SECTION_POINTS - 1) * keys->key_count;
 
     // Parts of the search, and between them designs along the keys through the best.
-    int32_t chosen = 0, wanted = search->study->search.designs, parts = count_parts(search);
     for (int32_t part = 1; part <= parts; part++) {
         int32_t until = wanted * part / parts;
         if (has_front(search)) set_aim(search, part - 2);
@@ -236,8 +223,7 @@ bool amontons_optimise(const char *path, const SweepOptions *options, OptimiseSu
     }
     if (best < 0)
         FAIL(err, ERROR_COMPUTE, "%s: no design of %d came to a value of %s; see sweep.csv",
-             search->study->path, designs->count,
-             search->study->records[search->study->rank.record].name);
+             search->study->path, designs->count, search->study->records[rank->record].name);
 
     *summary = (OptimiseSummary){.computed = search->computed,
                                  .value = designs->list[best].value,

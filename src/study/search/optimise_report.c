@@ -99,27 +99,6 @@ static void print_open(const Search *search, int32_t best, FILE *out)
                      "until they are told apart\n");
 }
 
-static void print_section(const Search *search, int32_t best, int32_t k, FILE *out)
-{
-    const SearchKey *key = &search->study->search.keys[k];
-    const Designs *designs = &search->designs;
-    double last = -INFINITY;
-    fprintf(out, "  along %s:", key->key);
-    for (;;) {   // by value: the next larger one each time
-        int32_t next = -1;
-        for (int32_t d = 0; d < designs->count; d++)
-            if (is_on_section(search, best, k, d) && designs->list[d].x[k] > last &&
-                (next < 0 || designs->list[d].x[k] < designs->list[next].x[k]))
-                next = d;
-        if (next < 0) break;
-        fprintf(out, "%s %.4g: ", isinf(last) ? "" : ",", designs->list[next].x[k]);
-        print_estimate(&designs->list[next], out);
-        last = designs->list[next].x[k];
-    }
-    bool edge = designs->list[best].x[k] == key->least || designs->list[best].x[k] == key->most;
-    fprintf(out, "%s\n", edge ? "; the best is at the edge of the range: look beyond" : "");
-}
-
 static void print_answer(const Search *search, const OptimiseSummary *summary, int32_t best,
                          FILE *out)
 {
@@ -163,8 +142,26 @@ static void print_answer(const Search *search, const OptimiseSummary *summary, i
             fprintf(out, " +- %.1f %%\n", 100 * error);
     }
     print_open(search, best, out);
-    for (int32_t k = 0; k < search->study->search.key_count; k++)
-        print_section(search, best, k, out);
+
+    // The designs that differ from the best in one key alone.
+    for (int32_t k = 0; k < search->study->search.key_count; k++) {
+        const SearchKey *key = &search->study->search.keys[k];
+        double last = -INFINITY;
+        fprintf(out, "  along %s:", key->key);
+        for (;;) {   // by value: the next larger one each time
+            int32_t next = -1;
+            for (int32_t d = 0; d < designs->count; d++)
+                if (is_on_section(search, best, k, d) && designs->list[d].x[k] > last &&
+                    (next < 0 || designs->list[d].x[k] < designs->list[next].x[k]))
+                    next = d;
+            if (next < 0) break;
+            fprintf(out, "%s %.4g: ", isinf(last) ? "" : ",", designs->list[next].x[k]);
+            print_estimate(&designs->list[next], out);
+            last = designs->list[next].x[k];
+        }
+        bool edge = designs->list[best].x[k] == key->least || designs->list[best].x[k] == key->most;
+        fprintf(out, "%s\n", edge ? "; the best is at the edge of the range: look beyond" : "");
+    }
     search_print_exhausted(search, out);
     if (search->refused > 0)
         fprintf(out, "  %d more have no scene, the first: %s\n", search->refused,
@@ -175,73 +172,58 @@ static void print_answer(const Search *search, const OptimiseSummary *summary, i
             search->options->folder);
 }
 
-// --- figures ------------------------------------------------------------------------------------
-
-// Every design in the order of its choice, and the best so far.
-static bool draw_course(const Search *search, Error *err)
-{
-    const Designs *designs = &search->designs;
-    int32_t count = designs->count;
-    double *x = NEW_ARRAY(double, 4 * (int64_t)count, err);
-    TRY(x);
-    double *y = x + count, *error = y + count, *so_far = error + count;
-    const Design *best = NULL;
-    for (int32_t d = 0; d < count; d++) {
-        const Design *one = &designs->list[d];
-        if (!isnan(one->value) && (!best || design_is_better(designs, one, best))) best = one;
-        x[d] = d + 1, y[d] = one->value, error[d] = one->bar;
-        so_far[d] = best ? best->value : (double)NAN;
-    }
-    Curve curves[] = {search_dots("designs", count, x, y),
-                      search_line("best so far", count, x, so_far)};
-    curves[0].error = error;
-    Frame frame = {
-        "course", "linear", "linear", {.words = "design"}, label_of_record(quantity(search))};
-    TRY(search_draw(search, &frame, curves, 2, err));
-cleanup:
-    memory_free(x);
-    return error_is_clean(err);
-}
-
-static bool draw_section(const Search *search, int32_t best, int32_t k, Error *err)
-{
-    const Designs *designs = &search->designs;
-    const SearchKey *key = &search->study->search.keys[k];
-    const Design *top = &designs->list[best];
-    char name[STUDY_NAME_SIZE + 8];
-    int32_t count = 0;
-    double *x = NEW_ARRAY(double, 3 * (int64_t)designs->count, err);
-    TRY(x);
-    double *y = x + designs->count, *error = y + designs->count;
-    for (int32_t d = 0; d < designs->count; d++) {
-        if (!is_on_section(search, best, k, d)) continue;
-        x[count] = designs->list[d].x[k], y[count] = designs->list[d].value;
-        error[count++] = designs->list[d].bar;
-    }
-    snprintf(name, sizeof name, "along_%s", key->key);
-    Frame frame = {name, search_key_scale(search, k), "linear", search_key_label(search, k),
-                   label_of_record(quantity(search))};
-    Curve curves[] = {search_dots("others as in the best", count, x, y),
-                      search_dots("the best", 1, &top->x[k], &top->value)};
-    curves[0].error = error;
-    curves[1].marker = "square";
-    curves[1].color = COLOR_BEST;
-    TRY(search_draw(search, &frame, curves, 2, err));
-cleanup:
-    memory_free(x);
-    return error_is_clean(err);
-}
+// --- the whole ----------------------------------------------------------------------------------
 
 bool optimise_report(const Search *search, const OptimiseSummary *summary, Error *err)
 {
-    int32_t best = designs_best(&search->designs);
+    const Designs *designs = &search->designs;
+    int32_t best = designs_best(designs), all = designs->count;
+    double *x = NEW_ARRAY(double, 4 * (int64_t)all, err);
     SearchAnswer answer;
-    if (!search_answer_begin(&answer, err)) return false;
+    TRY(x);
+    double *y = x + all, *error = y + all, *so_far = error + all;
+    TRY(search_answer_begin(&answer, err));
     print_answer(search, summary, best, answer.out);
-    if (!search_answer_end(search, &answer, err)) return false;
-    if (!draw_course(search, err)) return false;
-    if (search->study->search.over == OVER_FRONT && !pareto_front_draw(search, err)) return false;
-    for (int32_t k = 0; k < search->study->search.key_count; k++)
-        if (!draw_section(search, best, k, err)) return false;
-    return search_leave_best(search, best, search->designs.list[best].deciding, err);
+    TRY(search_answer_end(search, &answer, err));
+
+    // Every design in the order of its choice, and the best so far.
+    const Design *leader = NULL;
+    for (int32_t d = 0; d < all; d++) {
+        const Design *one = &designs->list[d];
+        if (!isnan(one->value) && (!leader || design_is_better(designs, one, leader))) leader = one;
+        x[d] = d + 1, y[d] = one->value, error[d] = one->bar;
+        so_far[d] = leader ? leader->value : (double)NAN;
+    }
+    Curve course[] = {search_dots("designs", all, x, y),
+                      search_line("best so far", all, x, so_far)};
+    course[0].error = error;
+    Frame over_designs = {
+        "course", "linear", "linear", {.words = "design"}, label_of_record(quantity(search))};
+    TRY(search_draw(search, &over_designs, course, 2, err));
+    if (search->study->search.over == OVER_FRONT) TRY(pareto_front_draw(search, err));
+
+    // The designs that differ from the best in one key alone, over that key.
+    for (int32_t k = 0; k < search->study->search.key_count; k++) {
+        const Design *top = &designs->list[best];
+        char name[STUDY_NAME_SIZE + 8];
+        int32_t count = 0;
+        for (int32_t d = 0; d < all; d++) {
+            if (!is_on_section(search, best, k, d)) continue;
+            x[count] = designs->list[d].x[k], y[count] = designs->list[d].value;
+            error[count++] = designs->list[d].bar;
+        }
+        snprintf(name, sizeof name, "along_%s", search->study->search.keys[k].key);
+        Frame frame = {name, search_key_scale(search, k), "linear", search_key_label(search, k),
+                       label_of_record(quantity(search))};
+        Curve curves[] = {search_dots("others as in the best", count, x, y),
+                          search_dots("the best", 1, &top->x[k], &top->value)};
+        curves[0].error = error;
+        curves[1].marker = "square";
+        curves[1].color = COLOR_BEST;
+        TRY(search_draw(search, &frame, curves, 2, err));
+    }
+    TRY(search_leave_best(search, best, designs->list[best].deciding, err));
+cleanup:
+    memory_free(x);
+    return error_is_clean(err);
 }

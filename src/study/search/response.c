@@ -200,43 +200,41 @@ void response_curvature(const Response *r, const double *place, double *curvatur
     derive(r, place, curvature, gradient);
 }
 
-// One step from `place`, and its misfit; next: where it leads.
-static double step_from(const Response *r, const bool *fixed, const double *place, double damped,
-                        double *next)
-{
-    double matrix[RESPONSE_KEYS_MAX * RESPONSE_KEYS_MAX], step[RESPONSE_KEYS_MAX];
-    int32_t n = r->keys;
-    derive(r, place, matrix, step);
-    for (int32_t k = 0; k < n; k++) step[k] = -step[k];
-
-    // Rows and columns of keys that do not move become those of 1: fixed ones, and such at an end
-    // of their range that would go beyond.
-    for (int32_t k = 0; k < n; k++) {
-        bool out = (place[k] <= 0 && step[k] < 0) || (place[k] >= 1 && step[k] > 0);
-        if (!out && !(fixed && fixed[k]) && matrix[k * n + k] > 0) continue;
-        for (int32_t i = 0; i < n; i++) matrix[i * n + k] = matrix[k * n + i] = 0;
-        matrix[k * n + k] = 1;
-        step[k] = 0;
-    }
-    for (int32_t k = 0; k < n; k++) matrix[k * n + k] *= 1 + damped;
-    if (!dense_cholesky(matrix, n)) return INFINITY;
-    dense_lower_solve(matrix, n, step);
-    dense_lower_solve_transposed(matrix, n, step);
-    for (int32_t k = 0; k < n; k++) next[k] = fmin(fmax(place[k] + step[k], 0), 1);
-    return response_misfit(r, next);
-}
-
+// Levenberg's method: damped steps of Gauss and Newton.
 double response_least(const Response *r, const bool *fixed, double *place)
 {
     double least = response_misfit(r, place), damped = DAMPED, next[RESPONSE_KEYS_MAX];
-    for (int32_t k = 0; k < STEPS_MAX && damped < DAMPED_MAX; k++) {
-        double misfit = step_from(r, fixed, place, damped, next);
+    double matrix[RESPONSE_KEYS_MAX * RESPONSE_KEYS_MAX], step[RESPONSE_KEYS_MAX];
+    int32_t n = r->keys;
+    for (int32_t round = 0; round < STEPS_MAX && damped < DAMPED_MAX; round++) {
+        derive(r, place, matrix, step);
+        for (int32_t k = 0; k < n; k++) step[k] = -step[k];
+
+        // Rows and columns of keys that do not move become those of 1: fixed ones, and such at an
+        // end of their range that would go beyond.
+        for (int32_t k = 0; k < n; k++) {
+            bool out = (place[k] <= 0 && step[k] < 0) || (place[k] >= 1 && step[k] > 0);
+            if (!out && !(fixed && fixed[k]) && matrix[k * n + k] > 0) continue;
+            for (int32_t i = 0; i < n; i++) matrix[i * n + k] = matrix[k * n + i] = 0;
+            matrix[k * n + k] = 1;
+            step[k] = 0;
+        }
+        for (int32_t k = 0; k < n; k++) matrix[k * n + k] *= 1 + damped;
+        double misfit = INFINITY;
+        if (dense_cholesky(matrix, n)) {
+            dense_lower_solve(matrix, n, step);
+            dense_lower_solve_transposed(matrix, n, step);
+            for (int32_t k = 0; k < n; k++) next[k] = fmin(fmax(place[k] + step[k], 0), 1);
+            misfit = response_misfit(r, next);
+        }
+
+        // Less damping after a step that helps, more after one that does not.
         if (!(misfit < least)) {
             damped *= 4;
             continue;
         }
         bool settled = least - misfit <= SETTLED * (1 + least);
-        memcpy(place, next, (size_t)r->keys * sizeof *place);
+        memcpy(place, next, (size_t)n * sizeof *place);
         least = misfit;
         damped = fmax(damped / 4, SETTLED);
         if (settled) break;

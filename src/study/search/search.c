@@ -158,26 +158,20 @@ static double on_scale(const Search *search, double value)
     return search->study->search.fits ? log1p(value) : value;
 }
 
-// Value that the chooser is told for a design that is refused or has no result. It is also the
-// lower limit for a design whose bar is nearly as large as its value.
-static double below_the_worst(const Search *search)
+// Value that the chooser is told for a design; -1: none. One that is refused, has no result, or a
+// bar nearly as large as its value, counts as below the worst.
+static double told_of(const Search *search, int32_t design)
 {
-    double low = INFINITY, high = -INFINITY, sign = search->designs.lowest ? -1 : 1;
+    double sure = NAN, low = INFINITY, high = -INFINITY, sign = search->designs.lowest ? -1 : 1;
     for (int32_t d = 0; d < search->designs.count; d++) {
         double value = search->designs.list[d].value;
         if (isnan(value)) continue;
         low = fmin(low, sign * on_scale(search, value));
         high = fmax(high, sign * on_scale(search, value));
     }
-    return low <= high ? low - REFUSED * (high - low) : 0;
-}
-
-// design: -1: none.
-static double told_of(const Search *search, int32_t design)
-{
-    double sure = NAN, sign = search->designs.lowest ? -1 : 1;
+    double below_the_worst = low <= high ? low - REFUSED * (high - low) : 0;
     if (design >= 0) sure = design_sure(&search->designs, &search->designs.list[design]);
-    return fmax(sign * on_scale(search, sure), below_the_worst(search));
+    return fmax(sign * on_scale(search, sure), below_the_worst);
 }
 
 static bool tell(Search *search, int32_t choice, int32_t design, Error *err)

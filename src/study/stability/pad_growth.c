@@ -202,49 +202,6 @@ static void take_pad(PadWork *work, int32_t p)
         if (interface->pad[i] == p) work->nodes[work->count++] = i;
 }
 
-// All of one pad, p; nodes of the others stay out. ERROR_COMPUTE: no eigenvalue was found.
-static bool measure_pad(PadWork *work, int32_t p, StabilityPad *pad, Error *err)
-{
-    const StabilityPath *path = work->path;
-    const Interface *interface = work->interface;
-    const State *state = &path->runaway;
-    const double *re = path->modes + 2 * (int64_t)path->at_rod * interface->contact_count;
-    const double *im = re + interface->contact_count;
-    double spring = 0;
-    take_pad(work, p);
-    *pad = (StabilityPad){0};
-    snprintf(pad->name, sizeof pad->name, "%s", interface->pad_name[p]);
-
-    // Loads, lengths and the mode's share: means over the nodes by their weights, which lengths
-    // keep until they are divided by the pad's breadth.
-    for (int32_t a = 0; a < work->count; a++) {
-        int32_t i = work->nodes[a];
-        double weight = interface->weight[i];
-        pad->length += weight;
-        pad->pressure += state->reaction[interface_normal(interface, i)];
-        if (state->status[i] != CONTACT_STICK) pad->slipping += weight;
-        pad->mode += weight * hypot(re[i], im[i]);
-    }
-    pad->pressure /= pad->length;
-    pad->mode /= pad->length;
-    for (int32_t a = 0; a < work->count; a++) {
-        int32_t i = work->nodes[a];
-        spring += interface->weight[i] * stability_critical_spring(path, i, pad->pressure);
-    }
-    TRY(softest_slip(work, path->control.certificate.damping, &pad->drag, err));
-    TRY(softest_slip(work, work->stiffness, &pad->stiffness, err));
-    pad->load = ratio_of(work, work->count);
-    pad->critical_stiffness = spring / pad->length;
-    pad->l_c = critical_length(work);
-    pad->mu_fall = fall_of_mu(work);
-    double breadth = pad_size(interface, p).breadth;
-    pad->length /= breadth;
-    pad->slipping /= breadth;
-    pad->l_c /= breadth;
-cleanup:
-    return error_is_clean(err);
-}
-
 bool stability_measure_pads(StabilityPath *path, StabilitySummary *summary, Error *err)
 {
     const Interface *interface = &path->model->interface;
@@ -269,8 +226,43 @@ bool stability_measure_pads(StabilityPath *path, StabilitySummary *summary, Erro
     TRY((work.values = NEW_ARRAY(double, count, err)));
     TRY((work.work = NEW_ARRAY(double, DENSE_EIGEN_WORK(count), err)));
 
+    // Each pad with what runs away; nodes of the others stay out.
+    const State *state = &path->runaway;
+    const double *re = path->modes + 2 * (int64_t)path->at_rod * interface->contact_count;
+    const double *im = re + interface->contact_count;
     for (int32_t p = 0; p < interface->pad_count && p < STABILITY_PADS_MAX; p++) {
-        TRY(measure_pad(&work, p, &summary->pads[p], err));
+        StabilityPad *pad = &summary->pads[p];
+        double spring = 0;
+        take_pad(&work, p);
+        *pad = (StabilityPad){0};
+        snprintf(pad->name, sizeof pad->name, "%s", interface->pad_name[p]);
+
+        // Loads, lengths and the mode's share: means over the nodes by their weights, which lengths
+        // keep until they are divided by the pad's breadth.
+        for (int32_t a = 0; a < work.count; a++) {
+            int32_t i = work.nodes[a];
+            double weight = interface->weight[i];
+            pad->length += weight;
+            pad->pressure += state->reaction[interface_normal(interface, i)];
+            if (state->status[i] != CONTACT_STICK) pad->slipping += weight;
+            pad->mode += weight * hypot(re[i], im[i]);
+        }
+        pad->pressure /= pad->length;
+        pad->mode /= pad->length;
+        for (int32_t a = 0; a < work.count; a++) {
+            int32_t i = work.nodes[a];
+            spring += interface->weight[i] * stability_critical_spring(path, i, pad->pressure);
+        }
+        TRY(softest_slip(&work, path->control.certificate.damping, &pad->drag, err));
+        TRY(softest_slip(&work, work.stiffness, &pad->stiffness, err));
+        pad->load = ratio_of(&work, work.count);
+        pad->critical_stiffness = spring / pad->length;
+        pad->l_c = critical_length(&work);
+        pad->mu_fall = fall_of_mu(&work);
+        double breadth = pad_size(interface, p).breadth;
+        pad->length /= breadth;
+        pad->slipping /= breadth;
+        pad->l_c /= breadth;
         if (summary->pads[p].mode > most) summary->pad = p;
         most = fmax(most, summary->pads[p].mode);
         summary->pad_count = p + 1;

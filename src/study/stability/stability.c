@@ -36,29 +36,6 @@ enum {
     POINTS_BEYOND = 2   // front positions that are shown beyond l_c
 };
 
-static bool check_scene(const Scene *scene, const StabilityOptions *options, Error *err)
-{
-    bool driven = scene->rod.kind != ROD_NONE && scene->rod.velocity > 0;
-    if (!options->at_end && !driven)
-        FAIL(err, ERROR_INPUT,
-             "%s: stability follows the slip that a rod drives: rod.velocity must be above 0 and "
-             "rod.kind push or bonded",
-             scene->path);
-    if (!options->at_end && (scene->rod.program.factor.count || scene->load.program.factor.count))
-        FAIL(err, ERROR_INPUT,
-             "%s: %s.program: the quasi-static path is that of one load and of a rod that gets on",
-             scene->path, scene->rod.program.factor.count > 0 ? "rod" : "load");
-    if (scene->time.scheme == SCHEME_EXPLICIT)
-        FAIL(err, ERROR_INPUT,
-             "%s: the quasi-static path needs implicit steps: --set time.scheme=sdirk2",
-             scene->path);
-    if (!scene_law_waits(scene) && !(scene->friction.mu_static > 0))
-        FAIL(err, ERROR_INPUT, "%s: without friction (friction.mu_static = 0) nothing can grow",
-             scene->path);
-cleanup:
-    return error_is_clean(err);
-}
-
 // True where the caller has asked to stop, with ERROR_INTERRUPT in err.
 static bool stop_wanted(const StabilityPath *path, Error *err)
 {
@@ -232,28 +209,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// The one state in which the scene's run ends.
-static bool take_end(StabilityPath *path, Error *err)
-{
-    Simulation *simulation = path->simulation;
-    bool finished = false;
-    while (!finished) {
-        if (stop_wanted(path, err)) goto cleanup;
-        TRY(amontons_simulation_step(simulation, NULL, &finished, err));
-    }
-    Observation seen = simulation->seen;
-    TRY(open_path(path, err));
-    state_copy(&simulation->control.now, &path->last);
-    seen.creep = 0;   // what creeps may grow
-    if (count_slipping(&seen) == 0)
-        FAIL(err, ERROR_INPUT, "%s: nothing slips at the scene's end, t = %g: nothing can grow",
-             simulation->scene.path, seen.t);
-    seen.U = 0;   // add_point counts from where the path begins
-    TRY(add_point(path, &seen, err));
-cleanup:
-    return error_is_clean(err);
-}
-
 // Steps until the front has reached the end (whose own state is the last point), or is some
 // positions beyond l_c. A node that goes SNAP_LIMIT times as far in one step as the rod has jumped:
 // where a pad rests on its leading edge, slow slip has no state to go on to once the edge reaches
@@ -312,7 +267,23 @@ bool amontons_stability(const Scene *scene, const StabilityOptions *options,
     ResultFolder folder = {0};
     double started = clock_seconds();
     *summary = (StabilitySummary){.l_c = NAN, .mu_c = NAN};
-    TRY(check_scene(scene, options, err));
+    bool driven = scene->rod.kind != ROD_NONE && scene->rod.velocity > 0;
+    if (!options->at_end && !driven)
+        FAIL(err, ERROR_INPUT,
+             "%s: stability follows the slip that a rod drives: rod.velocity must be above 0 and "
+             "rod.kind push or bonded",
+             scene->path);
+    if (!options->at_end && (scene->rod.program.factor.count || scene->load.program.factor.count))
+        FAIL(err, ERROR_INPUT,
+             "%s: %s.program: the quasi-static path is that of one load and of a rod that gets on",
+             scene->path, scene->rod.program.factor.count > 0 ? "rod" : "load");
+    if (scene->time.scheme == SCHEME_EXPLICIT)
+        FAIL(err, ERROR_INPUT,
+             "%s: the quasi-static path needs implicit steps: --set time.scheme=sdirk2",
+             scene->path);
+    if (!scene_law_waits(scene) && !(scene->friction.mu_static > 0))
+        FAIL(err, ERROR_INPUT, "%s: without friction (friction.mu_static = 0) nothing can grow",
+             scene->path);
     TRY(result_folder_claim(options->folder, options->overwrite, &folder, err));
     RunOptions run = {.on_step = options->on_step, .context = options->context};
     TRY(amontons_simulation_create(scene, &run, &path.simulation, err));
@@ -336,7 +307,20 @@ bool amontons_stability(const Scene *scene, const StabilityOptions *options,
 
     double before = clock_seconds();
     if (options->at_end) {
-        TRY(take_end(&path, err));
+        // The one state in which the scene's run ends.
+        while (!finished) {
+            if (stop_wanted(&path, err)) goto cleanup;
+            TRY(amontons_simulation_step(simulation, NULL, &finished, err));
+        }
+        Observation seen = simulation->seen;
+        TRY(open_path(&path, err));
+        state_copy(&simulation->control.now, &path.last);
+        seen.creep = 0;   // what creeps may grow
+        if (count_slipping(&seen) == 0)
+            FAIL(err, ERROR_INPUT, "%s: nothing slips at the scene's end, t = %g: nothing can grow",
+                 simulation->scene.path, seen.t);
+        seen.U = 0;   // add_point counts from where the path begins
+        TRY(add_point(&path, &seen, err));
     } else {
         TRY(open_path(&path, err));
         TRY(follow_path(&path, err));

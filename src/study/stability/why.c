@@ -26,71 +26,66 @@ static const char *name_of(const StabilitySummary *summary, int32_t pad)
     return summary->pad_count > 1 ? summary->pads[pad].name : "the contact";
 }
 
-// Which pad runs away, at which mu, and, unless friction remembers, whether it does so alone.
-static void say_what_decides(const StabilityPath *path, StabilitySummary *summary)
-{
-    const StabilityPad *pad = &summary->pads[summary->pad];
-    const char *name = name_of(summary, summary->pad);
-    double slips = pad->slipping / pad->length, steady = summary->steady_contact;
-    char others[160] = "";
-    size_t used = 0;
-    if (summary->pad_count == 1 && path->model->interface.dim > 2)
-        say(summary,
-            "Slip runs away when %.2f of the contact slips, its front at %.3f L along the middle, "
-            "at mu %.4f.",
-            summary->area_c_rod, summary->l_c_rod, summary->mu_rod);
-    else if (summary->pad_count == 1)
-        say(summary, "Slip runs away when its front has come to %.3f L, at mu %.4f.",
-            summary->l_c_rod, summary->mu_rod);
-    else if (slips > 1 - 1e-9)
-        say(summary, "Slip runs away once all of %s slips, at mu %.4f.", name, summary->mu_rod);
-    else
-        say(summary, "Slip runs away on %s when %.2f of it slips, at mu %.4f.", name, slips,
-            summary->mu_rod);
-    if (path->nodes) return;
-
-    // Names of all that take part in the mode but the one that decides: "contact_1, contact_3".
-    for (int32_t p = 0; p < summary->pad_count && used < sizeof others; p++) {
-        if (p == summary->pad || summary->pads[p].mode < TAKES_PART) continue;
-        used += (size_t)snprintf(others + used, sizeof others - used, "%s%s", used > 0 ? ", " : "",
-                                 summary->pads[p].name);
-    }
-    if (!(pad->load >= 1) && *others)
-        say(summary,
-            "It cannot run away alone (weakening is %.2f of what it resists): slip of %s takes "
-            "part.",
-            pad->load, others);
-    else if (!(pad->load >= 1))
-        say(summary,
-            "With pressures held weakening would be only %.2f of what it resists: it runs away as "
-            "slip takes pressure off it.",
-            pad->load);
-    else if (steady >= pad->length)   // it runs away alone: on which contact it would not
-        say(summary,
-            "With its load spread evenly, slip on this pad would be steady: a part of it carries "
-            "more than its mean pressure of %.3g.",
-            pad->pressure);
-    else if (steady > 0)
-        say(summary,
-            "A contact shorter than %.2g (%.2f of this pad) at the same mean pressure, %.3g, would "
-            "not run away: nothing grows on it.",
-            steady, steady / pad->length, pad->pressure);
-}
-
 void stability_explain(const StabilityPath *path, StabilitySummary *summary)
 {
     const Interface *interface = &path->model->interface;
     const StabilityPad *pad = &summary->pads[summary->pad];
-    char length[120] = "";
+    const char *name = name_of(summary, summary->pad);
+    double slips = pad->slipping / pad->length, steady = summary->steady_contact;
+    char length[120] = "", others[160] = "";
+    size_t used = 0;
     if (path->options->at_end) return;
-    if (path->grows)
-        say_what_decides(path, summary);
+
+    // Which pad runs away, and at which mu.
+    if (path->grows && summary->pad_count == 1 && interface->dim > 2)
+        say(summary,
+            "Slip runs away when %.2f of the contact slips, its front at %.3f L along the middle, "
+            "at mu %.4f.",
+            summary->area_c_rod, summary->l_c_rod, summary->mu_rod);
+    else if (path->grows && summary->pad_count == 1)
+        say(summary, "Slip runs away when its front has come to %.3f L, at mu %.4f.",
+            summary->l_c_rod, summary->mu_rod);
+    else if (path->grows && slips > 1 - 1e-9)
+        say(summary, "Slip runs away once all of %s slips, at mu %.4f.", name, summary->mu_rod);
+    else if (path->grows)
+        say(summary, "Slip runs away on %s when %.2f of it slips, at mu %.4f.", name, slips,
+            summary->mu_rod);
     else if (path->at_end)
         say(summary,
             "Nothing runs away before all of the contact slips: it then slides, at mu %.4f.",
             summary->mu_rod);
     else
         say(summary, "The path ended before anything ran away.");
+
+    // Whether it runs away alone, unless friction remembers.
+    if (path->grows && !path->nodes) {
+        // Names of all that take part in the mode but the one that decides: "contact_1, contact_3".
+        for (int32_t p = 0; p < summary->pad_count && used < sizeof others; p++) {
+            if (p == summary->pad || summary->pads[p].mode < TAKES_PART) continue;
+            used += (size_t)snprintf(others + used, sizeof others - used, "%s%s",
+                                     used > 0 ? ", " : "", summary->pads[p].name);
+        }
+        if (!(pad->load >= 1) && *others)
+            say(summary,
+                "It cannot run away alone (weakening is %.2f of what it resists): slip of %s takes "
+                "part.",
+                pad->load, others);
+        else if (!(pad->load >= 1))
+            say(summary,
+                "With pressures held weakening would be only %.2f of what it resists: it runs away "
+                "as slip takes pressure off it.",
+                pad->load);
+        else if (steady >= pad->length)   // it runs away alone: on which contact it would not
+            say(summary,
+                "With its load spread evenly, slip on this pad would be steady: a part of it "
+                "carries more than its mean pressure of %.3g.",
+                pad->pressure);
+        else if (steady > 0)
+            say(summary,
+                "A contact shorter than %.2g (%.2f of this pad) at the same mean pressure, %.3g, "
+                "would not run away: nothing grows on it.",
+                steady, steady / pad->length, pad->pressure);
+    }
 
     // Friction that remembers: how stiff a body must be, and on which length slip begins.
     if (!isnan(summary->nucleation_length))

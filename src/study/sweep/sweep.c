@@ -29,52 +29,6 @@
 static const double LOCK_WAIT = 1;
 static const double SMALLER = 0.9;   // of the error before: a round of refinement was of use
 
-// Scenes and hashes of the points that the study has more than before: what is wrong with any of
-// them shows before the first is run.
-static bool plan_points(Sweep *sweep, Error *err)
-{
-    const Study *study = &sweep->study;
-    int32_t count = study->point_count;
-    bool found = false;
-    TRY(memory_resize(&sweep->points, sweep->point_count, count, sizeof *sweep->points, err));
-    for (int32_t k = sweep->point_count; k < count; k++) {
-        const Scene *scene = point_scene(sweep, k, err);
-        TRY(scene && point_hash(sweep, scene, sweep->points[k].hash, err));
-
-        // `keep: table` keeps nothing but numbers, and cannot do what needs more.
-        if (study->keep_table &&
-            (scene->output.history || scene->output.fields || scene->output.figures.count > 0))
-            FAIL(err, ERROR_INPUT,
-                 "%s: keep: with `table` points have no folder for a history, fields or figures: "
-                 "say `keep: points`",
-                 study->path);
-        if (study->keep_table && study->rank.refine > 0)
-            FAIL(err, ERROR_INPUT, "%s: keep: `table` does not go with `refine`", study->path);
-        if (study->rank.refine > 0 && !(scene->accuracy.mu > 0))
-            FAIL(err, ERROR_INPUT,
-                 "%s: rank: `refine` halves accuracy.mu, which must be given to begin with, as in "
-                 "`set: {accuracy.mu: 3%%}`",
-                 study->path);
-    }
-    TRY(points_find_same(sweep, err));
-
-    // The baseline of each point: the one whose scene is its own with the keys of `rank.against`.
-    // Where no point at all has one the ranking would have no gains.
-    for (int32_t k = 0; study->rank.against == AGAINST_KEYS && k < count; k++) {
-        char hash[HASH_TEXT_SIZE];
-        TRY(study_scene(study, &(PointChoice){.point = k, .baseline = true}, sweep->scene, err));
-        TRY(point_hash(sweep, sweep->scene, hash, err));
-        sweep->points[k].baseline = points_look_up(sweep, hash);
-        found = found || sweep->points[k].baseline >= 0;
-    }
-    if (study->rank.against == AGAINST_KEYS && !found)
-        TRY(yaml_error(study->file, study->rank.baseline, err,
-                       "against: no point of the study has these values"));
-    sweep->point_count = sweep->planned = count;
-cleanup:
-    return error_is_clean(err);
-}
-
 // Makes the sweep's folder and takes its lock, which the system removes when the process ends,
 // however it ends. A file of somebody's with the name of one of the sweep's tables or figures is
 // told before hours of computing, not behind them.
@@ -119,18 +73,60 @@ static bool make_folder(Sweep *sweep, Error *err)
     return !study->keep_table || reports_open(&sweep->reports, path, sweep->options->fresh, err);
 }
 
-// Plans the points that the study has more than before: what was finished earlier is found and
-// reported. The folder is made when the study has turned out to be right. Reports of an earlier
-// sweep are listed, also of points that the study no longer has, or not yet.
+// Plans the points that the study has more than before: scenes and hashes, so that what is wrong
+// with any of them shows before the first is run; then the folder; then what was finished earlier
+// is found and reported.
 static bool sweep_plan(Sweep *sweep, Error *err)
 {
-    int32_t first = sweep->point_count;
-    if (!plan_points(sweep, err)) return false;
-    if (!sweep->folder[0] && !make_folder(sweep, err)) return false;
-    if (sweep->study.keep_table && !(reports_list(&sweep->reports, points_note_place, sweep, err) &&
-                                     share_take_all(sweep, err)))
-        return false;
-    return sweep_take_finished(sweep, first, err);
+    const Study *study = &sweep->study;
+    int32_t first = sweep->point_count, count = study->point_count;
+    bool found = false;
+    TRY(memory_resize(&sweep->points, first, count, sizeof *sweep->points, err));
+    for (int32_t k = first; k < count; k++) {
+        const Scene *scene = point_scene(sweep, k, err);
+        TRY(scene && point_hash(sweep, scene, sweep->points[k].hash, err));
+
+        // `keep: table` keeps nothing but numbers, and cannot do what needs more.
+        if (study->keep_table &&
+            (scene->output.history || scene->output.fields || scene->output.figures.count > 0))
+            FAIL(err, ERROR_INPUT,
+                 "%s: keep: with `table` points have no folder for a history, fields or figures: "
+                 "say `keep: points`",
+                 study->path);
+        if (study->keep_table && study->rank.refine > 0)
+            FAIL(err, ERROR_INPUT, "%s: keep: `table` does not go with `refine`", study->path);
+        if (study->rank.refine > 0 && !(scene->accuracy.mu > 0))
+            FAIL(err, ERROR_INPUT,
+                 "%s: rank: `refine` halves accuracy.mu, which must be given to begin with, as in "
+                 "`set: {accuracy.mu: 3%%}`",
+                 study->path);
+    }
+    TRY(points_find_same(sweep, err));
+
+    // The baseline of each point: the one whose scene is its own with the keys of `rank.against`.
+    // Where no point at all has one the ranking would have no gains.
+    for (int32_t k = 0; study->rank.against == AGAINST_KEYS && k < count; k++) {
+        char hash[HASH_TEXT_SIZE];
+        TRY(study_scene(study, &(PointChoice){.point = k, .baseline = true}, sweep->scene, err));
+        TRY(point_hash(sweep, sweep->scene, hash, err));
+        sweep->points[k].baseline = points_look_up(sweep, hash);
+        found = found || sweep->points[k].baseline >= 0;
+    }
+    if (study->rank.against == AGAINST_KEYS && !found)
+        TRY(yaml_error(study->file, study->rank.baseline, err,
+                       "against: no point of the study has these values"));
+    sweep->point_count = sweep->planned = count;
+
+    // The folder is made when the study has turned out to be right. Reports of an earlier sweep are
+    // listed, also of points that the study no longer has, or not yet.
+    if (!sweep->folder[0]) TRY(make_folder(sweep, err));
+    if (study->keep_table) {
+        TRY(reports_list(&sweep->reports, points_note_place, sweep, err));
+        TRY(share_take_all(sweep, err));
+    }
+    TRY(sweep_take_finished(sweep, first, err));
+cleanup:
+    return error_is_clean(err);
 }
 
 bool sweep_show(const Sweep *sweep, bool whole, Error *err)

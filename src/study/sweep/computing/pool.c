@@ -51,37 +51,7 @@ typedef struct Pool {
     int32_t next, step;   // point to look at for the next child; to the one behind it
 } Pool;
 
-// --- in the child -------------------------------------------------------------------------------
-
-// Never returns. The child dies with its parent, and by the signals that the parent handles.
-static void be_child(const Sweep *sweep, int socket, pid_t parent)
-{
-    int32_t point;
-    signal(SIGTERM, SIG_DFL);
-    signal(SIGINT, SIG_IGN);   // of the terminal: the parent decides
-    system_end_with_parent();
-    if (getppid() != parent) _exit(1);
-    mallopt(M_TRIM_THRESHOLD, MEMORY_KEPT);   // the next point needs what the last one gave back
-    mallopt(M_MMAP_THRESHOLD, MEMORY_KEPT);
-    while (transfer_read(socket, &point, sizeof point, -1) == sizeof point) {
-        Error err = {0};
-        Reply reply = {0};
-        char *report = NULL;
-        if (!point_run(sweep, point, &report, &err))
-            memcpy(reply.message, err.message, sizeof reply.message), reply.code = err.code;
-        reply.size = report ? (int32_t)strlen(report) : 0;
-        bool sent = transfer_write(socket, &reply, sizeof reply, -1) == 0 &&
-                    transfer_write(socket, report, reply.size, -1) == 0;
-        memory_free(report);
-        if (!sent) _exit(1);
-    }
-    _exit(0);
-}
-
-// --- in the parent ------------------------------------------------------------------------------
-
-// The child's pid is compared with ours after the fork (be_child): a parent that died in between
-// would leave it without one. What streams hold is written before: the child has a copy of them.
+// Streams are flushed before the fork, as the child has a copy of them.
 static bool start_child(Pool *pool, PoolChild *child, Error *err)
 {
     int ends[2] = {-1, -1};
@@ -91,8 +61,31 @@ static bool start_child(Pool *pool, PoolChild *child, Error *err)
     fflush(NULL);
     *child = (PoolChild){.process = fork(), .socket = ends[0], .point = -1};
     if (child->process == 0) {
+        // In the child, which never returns. It dies with its parent, and by the signals that the
+        // parent handles; a parent that died since the fork would leave it without one.
+        int32_t point;
         close(ends[0]);
-        be_child(pool->sweep, ends[1], parent);
+        signal(SIGTERM, SIG_DFL);
+        signal(SIGINT, SIG_IGN);   // of the terminal: the parent decides
+        system_end_with_parent();
+        if (getppid() != parent) _exit(1);
+        mallopt(M_TRIM_THRESHOLD, MEMORY_KEPT);   // the next point needs what the last gave back
+        mallopt(M_MMAP_THRESHOLD, MEMORY_KEPT);
+        while (transfer_read(ends[1], &point, sizeof point, -1) == sizeof point) {
+            Error failure = {0};
+            Reply reply = {0};
+            char *report = NULL;
+            if (!point_run(pool->sweep, point, &report, &failure)) {
+                memcpy(reply.message, failure.message, sizeof reply.message);
+                reply.code = failure.code;
+            }
+            reply.size = report ? (int32_t)strlen(report) : 0;
+            bool sent = transfer_write(ends[1], &reply, sizeof reply, -1) == 0 &&
+                        transfer_write(ends[1], report, reply.size, -1) == 0;
+            memory_free(report);
+            if (!sent) _exit(1);
+        }
+        _exit(0);
     }
     close(ends[1]);
     if (child->process < 0) {

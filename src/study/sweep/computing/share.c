@@ -60,26 +60,6 @@ cleanup:
 
 // --- in the process of the element --------------------------------------------------------------
 
-// Marks the point of a line as waiting. Its scene must have the hash that it had when the sweep
-// began: a study that was changed meanwhile would answer another question.
-static bool add_point(Sweep *sweep, const char *line, Error *err)
-{
-    char hash[HASH_TEXT_SIZE] = "";
-    int point = -1;
-    double accuracy = 0;
-    if (sscanf(line, "%d %32s %lf", &point, hash, &accuracy) < 2 || point < 0 ||
-        point >= sweep->study.point_count)
-        return REFUSE(err, "%s has fewer points than when the sweep began", sweep->study.path);
-    SweepPoint *at = &sweep->points[point];
-    at->accuracy = accuracy;
-    const Scene *scene = point_scene(sweep, point, err);
-    if (!scene || !point_hash(sweep, scene, at->hash, err)) return false;
-    if (strcmp(hash, at->hash) != 0)
-        return REFUSE(err, "the study, its scene or a mesh was changed after the sweep began");
-    at->same_as = point;
-    return true;
-}
-
 bool share_run(Sweep *sweep, int32_t share, Error *err)
 {
     char path[SHARE_PATH_SIZE], *designs = NULL, *text = NULL, *rest = NULL;
@@ -95,8 +75,26 @@ bool share_run(Sweep *sweep, int32_t share, Error *err)
     TRY((sweep->points = NEW_ARRAY(SweepPoint, sweep->study.point_count, err)));
     for (int32_t k = 0; k < sweep->study.point_count; k++) sweep->points[k].same_as = -1;
     TRY(text_file_read(path, SHARE_BYTES_MAX, &text, &size, err));
-    for (const char *line = strtok_r(text, "\n", &rest); line; line = strtok_r(NULL, "\n", &rest))
-        TRY(add_point(sweep, line, err));
+
+    // Each line names a point that waits. Its scene must have the hash that it had when the sweep
+    // began: a study that was changed meanwhile would answer another question.
+    for (const char *line = strtok_r(text, "\n", &rest); line; line = strtok_r(NULL, "\n", &rest)) {
+        char hash[HASH_TEXT_SIZE] = "";
+        int point = -1;
+        double accuracy = 0;
+        if (sscanf(line, "%d %32s %lf", &point, hash, &accuracy) < 2 || point < 0 ||
+            point >= sweep->study.point_count)
+            FAIL(err, ERROR_INPUT, "%s has fewer points than when the sweep began",
+                 sweep->study.path);
+        SweepPoint *at = &sweep->points[point];
+        at->accuracy = accuracy;
+        const Scene *scene = point_scene(sweep, point, err);
+        TRY(scene && point_hash(sweep, scene, at->hash, err));
+        if (strcmp(hash, at->hash) != 0)
+            FAIL(err, ERROR_INPUT,
+                 "the study, its scene or a mesh was changed after the sweep began");
+        at->same_as = point;
+    }
 
     share_path(sweep, share, "reports", path);
     if (sweep->study.keep_table) TRY(reports_open(&sweep->reports, path, true, err));

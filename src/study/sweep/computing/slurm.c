@@ -100,36 +100,6 @@ static bool take_points(SlurmRun *run, int32_t k, int32_t *undone, int32_t *firs
     return true;
 }
 
-// Takes what element `k`, which has ended, came to, once it can be seen or need not be waited for.
-static bool take_element(SlurmRun *run, int32_t k, Error *err)
-{
-    Element *element = &run->elements[k];
-    int32_t undone = 0, first = 0;
-    TRY(take_points(run, k, &undone, &first, err));
-    if (undone > 0) {
-        // Unless Slurm ended it, it wrote one.
-        bool comes = !element->ended || strcmp(element->state, "COMPLETED") == 0 ||
-                     strcmp(element->reason, "NonZeroExitCode") == 0;
-        if (element->gone_since == 0) element->gone_since = clock_seconds();
-        if (comes && clock_seconds() - element->gone_since < REPORT_PAUSE) goto cleanup;
-        if (!run->sweep->study.keep_table) {   // the point it was at has failed
-            char message[ERROR_MESSAGE_SIZE];
-            bool cancelled = strcmp(element->state, "PENDING") == 0 ||
-                             strcmp(element->state, "CANCELLED") == 0;
-            describe_end(run, k, message);
-            TRY(sweep_take_lost(run->sweep, first, NAN, cancelled ? "cancelled" : "crashed",
-                                message, err));
-            undone--;
-        }
-        if (undone > 0 && run->undone == 0) describe_end(run, k, run->cause);
-        run->undone += undone;
-    }
-    element->taken = true;
-    run->left--;
-cleanup:
-    return error_is_clean(err);
-}
-
 // squeue is asked every LOOK_PAUSE seconds, the stop flag far more often.
 static bool wait_for_all(SlurmRun *run, Error *err)
 {
@@ -150,9 +120,32 @@ static bool wait_for_all(SlurmRun *run, Error *err)
             memcpy(element->reason, line.reason, sizeof element->reason);
         }
         for (int32_t k = 0; answered && k < run->count; k++) {
-            const Element *element = &run->elements[k];
-            bool gone = !element->listed || element->ended;
-            if (!element->taken && gone && !take_element(run, k, err)) return false;
+            Element *element = &run->elements[k];
+            int32_t undone = 0, first = 0;
+            if (element->taken || (element->listed && !element->ended)) continue;
+
+            // An element that has ended is taken once its results can be seen or need not be waited
+            // for: unless Slurm ended it, it wrote some.
+            if (!take_points(run, k, &undone, &first, err)) return false;
+            bool comes = !element->ended || strcmp(element->state, "COMPLETED") == 0 ||
+                         strcmp(element->reason, "NonZeroExitCode") == 0;
+            if (undone > 0 && element->gone_since == 0) element->gone_since = clock_seconds();
+            if (undone > 0 && comes && clock_seconds() - element->gone_since < REPORT_PAUSE)
+                continue;
+            if (undone > 0 && !run->sweep->study.keep_table) {   // the point it was at has failed
+                char message[ERROR_MESSAGE_SIZE];
+                bool cancelled = strcmp(element->state, "PENDING") == 0 ||
+                                 strcmp(element->state, "CANCELLED") == 0;
+                describe_end(run, k, message);
+                if (!sweep_take_lost(run->sweep, first, NAN, cancelled ? "cancelled" : "crashed",
+                                     message, err))
+                    return false;
+                undone--;
+            }
+            if (undone > 0 && run->undone == 0) describe_end(run, k, run->cause);
+            run->undone += undone;
+            element->taken = true;
+            run->left--;
         }
         double until = clock_seconds() + LOOK_PAUSE;
         while (run->left > 0 && clock_seconds() < until) {

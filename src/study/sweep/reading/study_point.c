@@ -78,17 +78,19 @@ static bool add_map(PointSettings *settings, const YamlDocument *document, YamlN
     return true;
 }
 
-// Later settings win: a sweep's standards, `set`, --set, the case, what varies, `changes`.
-static bool gather(const Study *study, const PointChoice *choice, PointSettings *settings,
-                   Error *err)
+bool study_scene(const Study *study, const PointChoice *choice, Scene *scene, Error *err)
 {
+    PointSettings *settings = NEW_ARRAY(PointSettings, 1, err);
+    TRY(settings);
+
+    // Later settings win: a sweep's standards, `set`, --set, the case, what varies, `changes`.
     int32_t index[STUDY_AXES_MAX], point = choice->point;
     for (int32_t k = study->axis_count - 1; k >= 0; k--) {
         index[k] = point % study->axes[k].count;
         point /= study->axes[k].count;
     }
-    if (!add_map(settings, study->standard, YAML_ROOT, err)) return false;
-    if (!add_map(settings, study->file, study->set, err)) return false;
+    TRY(add_map(settings, study->standard, YAML_ROOT, err));
+    TRY(add_map(settings, study->file, study->set, err));
 
     // A formula of `set` that --set replaces is not worked out.
     int32_t kept = 0;
@@ -101,26 +103,20 @@ static bool gather(const Study *study, const PointChoice *choice, PointSettings 
     settings->formula_count = kept;
 
     for (int32_t k = 0; k < study->override_count; k++)
-        if (!add(settings, &study->overrides[k], err)) return false;
+        TRY(add(settings, &study->overrides[k], err));
     const StudyCase *one = choice->trial      ? choice->trial
                            : study->case_list ? &study->case_list[point]
                                               : NULL;
-    if (one && !add_map(settings, one->document, one->map, err)) return false;
+    if (one) TRY(add_map(settings, one->document, one->map, err));
     for (int32_t k = 0; k < study->axis_count; k++) {
         const StudyAxis *axis = &study->axes[k];
         SceneSetting setting = {
             .key = axis->key, .document = axis->document, .node = axis->values[index[k]]};
-        if (!add(settings, &setting, err)) return false;
+        TRY(add(settings, &setting, err));
     }
-    return !choice->baseline || add_map(settings, study->file, study->rank.baseline, err);
-}
+    if (choice->baseline) TRY(add_map(settings, study->file, study->rank.baseline, err));
 
-// The scene is made anew after each formula: the next one may use its value.
-bool study_scene(const Study *study, const PointChoice *choice, Scene *scene, Error *err)
-{
-    PointSettings *settings = NEW_ARRAY(PointSettings, 1, err);
-    TRY(settings);
-    TRY(gather(study, choice, settings, err));
+    // The scene is made anew after each formula: the next one may use its value.
     TRY(scene_source_begin(study->source, settings->list, settings->count, scene, err));
     for (int32_t k = 0; k < settings->formula_count; k++) {
         const SceneSetting *formula = &settings->formulas[k];

@@ -324,34 +324,6 @@ static bool read_search_key(Study *study, YamlNode item, Error *err)
     return study_add_column(study, key->key, err) >= 0;
 }
 
-// [{value: = mesh.set.n * mesh.set.pad_height, least: 0.1, most: 0.6}]
-static bool read_where(Study *study, Error *err)
-{
-    const YamlDocument *file = study->file;
-    YamlNode where = yaml_look_up(file, "where");
-    if (where == YAML_NO_NODE) return true;
-    if (yaml_kind(file, where) != YAML_LIST || yaml_count(file, where) > STUDY_LIMITS_MAX)
-        return yaml_refuse(file, where, "where", "a list of at most 16 limits", err);
-    YAML_EACH (item, file, where) {
-        WantedKey keys[] = {{.name = "value"}, {.name = "least"}, {.name = "most"}};
-        SearchLimit *limit = &study->search.limits[study->search.limit_count++];
-        *limit = (SearchLimit){YAML_NO_NODE, -INFINITY, INFINITY};
-        if (!wanted_find(file, item, "where", keys, 3, err)) return false;
-        limit->formula = keys[0].node;
-        if (limit->formula == YAML_NO_NODE || !scene_is_formula(file, limit->formula))
-            return yaml_refuse(file, item, "where",
-                               "{value: = a formula, least: number, most: number}", err);
-        for (int32_t k = 1; k < 3; k++)
-            if (keys[k].node != YAML_NO_NODE &&
-                !study_plain_number(study, keys[k].node, k == 1 ? &limit->least : &limit->most))
-                return yaml_refuse(file, keys[k].node, keys[k].name, "a number", err);
-        if (!(limit->least <= limit->most) || (isinf(limit->least) && isinf(limit->most)))
-            return yaml_refuse(file, item, "where", "`least`, `most`, or both, `most` not below",
-                               err);
-    }
-    return error_is_clean(err);
-}
-
 // Reads `search`, `where`, and the aim: `best`, or `fit`, which has `measured` and `sure` in place
 // of `over`. A study has one aim.
 static bool read_search(Study *study, Error *err)
@@ -378,8 +350,33 @@ static bool read_search(Study *study, Error *err)
                           "cases: a study with `search` makes its own; conditions go under `vary`");
     YAML_EACH (item, file, search->node)
         if (!read_search_key(study, item, err)) return false;
-    if (!read_where(study, err)) return false;
 
+    // The limits: [{value: = mesh.set.n * mesh.set.pad_height, least: 0.1, most: 0.6}]
+    YamlNode where = yaml_look_up(file, "where");
+    if (where != YAML_NO_NODE) {
+        if (yaml_kind(file, where) != YAML_LIST || yaml_count(file, where) > STUDY_LIMITS_MAX)
+            return yaml_refuse(file, where, "where", "a list of at most 16 limits", err);
+        YAML_EACH (item, file, where) {
+            WantedKey keys[] = {{.name = "value"}, {.name = "least"}, {.name = "most"}};
+            SearchLimit *limit = &search->limits[search->limit_count++];
+            *limit = (SearchLimit){YAML_NO_NODE, -INFINITY, INFINITY};
+            if (!wanted_find(file, item, "where", keys, 3, err)) return false;
+            limit->formula = keys[0].node;
+            if (limit->formula == YAML_NO_NODE || !scene_is_formula(file, limit->formula))
+                return yaml_refuse(file, item, "where",
+                                   "{value: = a formula, least: number, most: number}", err);
+            for (int32_t k = 1; k < 3; k++)
+                if (keys[k].node != YAML_NO_NODE &&
+                    !study_plain_number(study, keys[k].node, k == 1 ? &limit->least : &limit->most))
+                    return yaml_refuse(file, keys[k].node, keys[k].name, "a number", err);
+            if (!(limit->least <= limit->most) || (isinf(limit->least) && isinf(limit->most)))
+                return yaml_refuse(file, item, "where",
+                                   "`least`, `most`, or both, `most` not below", err);
+        }
+        if (!error_is_clean(err)) return false;
+    }
+
+    // The aim.
     YamlNode fit = yaml_look_up(file, "fit"), best = yaml_look_up(file, "best");
     search->fits = fit != YAML_NO_NODE;
     if (search->fits && best != YAML_NO_NODE)

@@ -103,32 +103,6 @@ const char *study_record_path(const char *name)
     return strncmp(name, "results.", 8) == 0 ? name : NULL;
 }
 
-// Without `record`, the standard columns of KNOWN_RECORDS.
-static bool read_records(Study *study, Error *err)
-{
-    static const char *const always[] = {"status", "message", "warnings",
-                                         "run"};   // of every table
-    YamlNode list = yaml_look_up(study->file, "record");
-    int32_t ignored = 0;
-    if (list == YAML_NO_NODE) {
-        for (int32_t k = 0; k < KNOWN_RECORD_COUNT; k++)
-            if (KNOWN_RECORDS[k].standard)
-                add_record(study, KNOWN_RECORDS[k].name, KNOWN_RECORDS[k].path, "", YAML_NO_NODE);
-        return true;
-    }
-    int32_t count = yaml_count(study->file, list);
-    if (yaml_kind(study->file, list) != YAML_LIST || count == 0 || count > STUDY_RECORDS_MAX)
-        return yaml_refuse(study->file, list, "record", "a list of at most 64 names", err);
-    YAML_EACH (item, study->file, list) {
-        const char *name = yaml_text(study->file, item);
-        bool is_there = false;
-        for (size_t k = 0; name && k < sizeof always / sizeof *always; k++)
-            is_there = is_there || strcmp(name, always[k]) == 0;
-        if (!is_there && !find_record(study, name, "record", item, &ignored, err)) return false;
-    }
-    return error_is_clean(err);
-}
-
 // --- rank ---------------------------------------------------------------------------------------
 
 // The quantity that is ranked by becomes a column of the table if it is none yet.
@@ -353,7 +327,29 @@ static bool read_plot(Study *study, YamlNode node, Error *err)
 
 bool study_read_wanted(Study *study, Error *err)
 {
-    if (!read_records(study, err) || !read_rank(study, err)) return false;
+    static const char *const always[] = {"status", "message", "warnings",
+                                         "run"};   // columns of every table
+
+    // Columns: those of `record`, or the standard ones of KNOWN_RECORDS.
+    YamlNode list = yaml_look_up(study->file, "record");
+    int32_t ignored = 0, count = list == YAML_NO_NODE ? 0 : yaml_count(study->file, list);
+    for (int32_t k = 0; list == YAML_NO_NODE && k < KNOWN_RECORD_COUNT; k++)
+        if (KNOWN_RECORDS[k].standard)
+            add_record(study, KNOWN_RECORDS[k].name, KNOWN_RECORDS[k].path, "", YAML_NO_NODE);
+    if (list != YAML_NO_NODE) {
+        if (yaml_kind(study->file, list) != YAML_LIST || count == 0 || count > STUDY_RECORDS_MAX)
+            return yaml_refuse(study->file, list, "record", "a list of at most 64 names", err);
+        YAML_EACH (item, study->file, list) {
+            const char *name = yaml_text(study->file, item);
+            bool is_there = false;
+            for (size_t k = 0; name && k < sizeof always / sizeof *always; k++)
+                is_there = is_there || strcmp(name, always[k]) == 0;
+            if (!is_there && !find_record(study, name, "record", item, &ignored, err)) return false;
+        }
+        if (!error_is_clean(err)) return false;
+    }
+    if (!read_rank(study, err)) return false;
+
     YamlNode plots = yaml_look_up(study->file, "plot");   // one, or a list of them
     if (plots == YAML_NO_NODE) return true;
     if (yaml_kind(study->file, plots) != YAML_LIST) return read_plot(study, plots, err);

@@ -87,60 +87,54 @@ void plot_table_close(PlotTable *table)
 
 // --- columns ------------------------------------------------------------------------------------
 
-static void refuse_name(PlotTable *table, const char *name, Error *err)
-{
-    WordList known = {0};
-    char hint[TEXT_HINT_SIZE];
-    if (!read_words(table, "columns", &known, err)) return;
-    char *all = words_join(&known, err);
-    for (char *at = all; at && *at; at++)
-        if (*at == '|') *at = ' ';
-    const char *near = text_hint(name, (const char *const *)known.words, known.count, NULL, hint);
-    if (all)
-        error_set(err, ERROR_INPUT, __FILE__, __LINE__, "%s has no column `%.60s`%s%s", table->path,
-                  name, near ? near : "; it has: ", near ? "" : all);
-    memory_free(all);
-    words_destroy(&known);
-}
-
-static bool read_column(PlotTable *table, const char *name, Quantity *column, Error *err)
-{
-    char place[STUDY_NAME_SIZE + 32];
-    snprintf(place, sizeof place, "scene/%.95s", name);
-    if (!read_values(table, place, &column->values, err)) return false;
-    column->is_key = column->values != NULL;
-    if (column->is_key) {
-        column->label = label_of_key(name, table->is_si);
-        snprintf(place, sizeof place, "%.95s words", name);
-        if (!read_words(table, place, &column->words, err)) return false;
-        return true;
-    }
-    snprintf(place, sizeof place, "result/%.95s", name);
-    if (!read_values(table, place, &column->values, err)) return false;
-    if (!column->values) {
-        refuse_name(table, name, err);
-        return false;
-    }
-    column->label = label_of_record(name);
-    snprintf(place, sizeof place, "result/%.80s_known_to", name);
-    if (!read_values(table, place, &column->errors, err)) return false;
-    if (column->errors) return true;
-    snprintf(place, sizeof place, "result/%.80s_error", name);
-    return read_values(table, place, &column->errors, err);
-}
-
 // NULL: there is none, and the error says so.
 static const Quantity *find_column(PlotTable *table, const char *name, Error *err)
 {
+    char place[STUDY_NAME_SIZE + 32];
+    WordList known = {0};
+    char *all = NULL;
     for (int32_t k = 0; k < table->column_count; k++)
         if (strcmp(table->names[k], name) == 0) return &table->columns[k];
     if (table->column_count == PLOT_COLUMNS_MAX || strlen(name) >= STUDY_NAME_SIZE)
         FAIL(err, ERROR_INPUT, "%s has no column `%.60s`", table->path, name);
     Quantity *column = &table->columns[table->column_count];
     snprintf(table->names[table->column_count++], STUDY_NAME_SIZE, "%s", name);
-    TRY(read_column(table, name, column, err));
+
+    // A key of the scene.
+    snprintf(place, sizeof place, "scene/%.95s", name);
+    TRY(read_values(table, place, &column->values, err));
+    column->is_key = column->values != NULL;
+    if (column->is_key) {
+        column->label = label_of_key(name, table->is_si);
+        snprintf(place, sizeof place, "%.95s words", name);
+        TRY(read_words(table, place, &column->words, err));
+        return column;
+    }
+
+    // Else a result, with how far it is known or, in older tables, its error.
+    snprintf(place, sizeof place, "result/%.95s", name);
+    TRY(read_values(table, place, &column->values, err));
+    if (!column->values) {
+        char hint[TEXT_HINT_SIZE];
+        TRY(read_words(table, "columns", &known, err));
+        TRY(all = words_join(&known, err));
+        for (char *at = all; *at; at++)
+            if (*at == '|') *at = ' ';
+        const char *near =
+            text_hint(name, (const char *const *)known.words, known.count, NULL, hint);
+        FAIL(err, ERROR_INPUT, "%s has no column `%.60s`%s%s", table->path, name,
+             near ? near : "; it has: ", near ? "" : all);
+    }
+    column->label = label_of_record(name);
+    snprintf(place, sizeof place, "result/%.80s_known_to", name);
+    TRY(read_values(table, place, &column->errors, err));
+    if (column->errors) return column;
+    snprintf(place, sizeof place, "result/%.80s_error", name);
+    TRY(read_values(table, place, &column->errors, err));
     return column;
 cleanup:
+    memory_free(all);
+    words_destroy(&known);
     return NULL;
 }
 
@@ -166,34 +160,6 @@ static bool value_of(const void *context, const char *name, double *value)
     return true;
 }
 
-// "~{P}_{ext} · ~{L}": columns by their symbols.
-static void formula_label(const char *text, bool is_si, char *words, size_t size)
-{
-    size_t used = 0;
-    while (*text == ' ') text++;
-    while (*text && used + QUANTITY_LABEL_SIZE / 2 < size) {
-        char name[STUDY_NAME_SIZE];
-        size_t length = 0;
-        bool begins = isalpha((unsigned char)*text);
-        while (begins && length + 1 < sizeof name &&
-               (isalnum((unsigned char)text[length]) || strchr("._", text[length])))
-            length++;
-        if (length > 0) {
-            snprintf(name, sizeof name, "%.*s", (int)length, text);
-            QuantityLabel record = label_of_record(name);
-            if (strchr(name, '.')) label_symbol(name, record.words, sizeof record.words);
-            used += (size_t)snprintf(words + used, size - used, "%.40s", record.words);
-            text += length;
-        } else {
-            const char one[2] = {*text, 0};
-            used +=
-                (size_t)snprintf(words + used, size - used, "%s", *text == '*' ? "\u00b7" : one);
-            text++;
-        }
-    }
-    snprintf(words + used, size - used, " (%s)", is_si ? "SI" : "normalised");
-}
-
 static bool value_at(const char *text, FormulaPoint *at, double *value, Error *err)
 {
     FormulaNames names = {.look_up = value_of, .context = at, .unknown = "is no column"};
@@ -209,19 +175,23 @@ static bool value_at(const char *text, FormulaPoint *at, double *value, Error *e
     return true;
 }
 
-// Values, and their errors: half of what each column's own does to the value, independent of each
-// other; NaN where one of them is not known.
-static bool work_out(PlotTable *table, const char *text, Quantity *made, Error *err)
+const Quantity *plot_table_find(PlotTable *table, const char *text, Quantity *made, Error *err)
 {
+    const char *equals = strchr(text, '=');
+    if (!equals) return find_column(table, text, err);
+    const char *formula = equals + 1;
+
+    // Values, and their errors: half of what each column's own does to the value, independent of
+    // each other; NaN where one of them is not known.
     bool used[PLOT_COLUMNS_MAX] = {false}, any = false;
-    if (!(made->values = NEW_ARRAY(double, table->count, err))) return false;
+    if (!(made->values = NEW_ARRAY(double, table->count, err))) return NULL;
     for (int32_t k = 0; k < table->count; k++) {
-        FormulaPoint at = {table, k, -1, 0, used, err};
-        if (!value_at(text, &at, &made->values[k], err)) return false;
+        FormulaPoint point = {table, k, -1, 0, used, err};
+        if (!value_at(formula, &point, &made->values[k], err)) return NULL;
     }
     for (int32_t c = 0; c < table->column_count; c++)
         any = any || (used[c] && table->columns[c].errors);
-    if (any && !(made->errors = NEW_ARRAY(double, table->count, err))) return false;
+    if (any && !(made->errors = NEW_ARRAY(double, table->count, err))) return NULL;
     for (int32_t k = 0; any && k < table->count; k++) {
         double square = 0;
         for (int32_t c = 0; c < table->column_count; c++) {
@@ -230,21 +200,41 @@ static bool work_out(PlotTable *table, const char *text, Quantity *made, Error *
             if (!used[c] || !errors) continue;
             FormulaPoint above = {table, k, c, errors[k], used, err};
             FormulaPoint below = {table, k, c, -errors[k], used, err};
-            if (!value_at(text, &above, &high, err) || !value_at(text, &below, &low, err))
-                return false;
+            if (!value_at(formula, &above, &high, err) || !value_at(formula, &below, &low, err))
+                return NULL;
             square += 0.25 * (high - low) * (high - low);
         }
         made->errors[k] = sqrt(square);
     }
-    formula_label(text, table->is_si, made->label.words, sizeof made->label.words);
-    return error_is_clean(err);
-}
 
-const Quantity *plot_table_find(PlotTable *table, const char *text, Quantity *made, Error *err)
-{
-    const char *equals = strchr(text, '=');
-    if (!equals) return find_column(table, text, err);
-    if (!work_out(table, equals + 1, made, err)) return NULL;
+    // Its label, "~{P}_{ext} · ~{L}": columns by their symbols.
+    const char *at = formula;
+    char *words = made->label.words;
+    size_t written = 0, size = sizeof made->label.words;
+    while (*at == ' ') at++;
+    while (*at && written + QUANTITY_LABEL_SIZE / 2 < size) {
+        char name[STUDY_NAME_SIZE];
+        size_t length = 0;
+        bool begins = isalpha((unsigned char)*at);
+        while (begins && length + 1 < sizeof name &&
+               (isalnum((unsigned char)at[length]) || at[length] == '.' || at[length] == '_'))
+            length++;
+        if (length > 0) {
+            snprintf(name, sizeof name, "%.*s", (int)length, at);
+            QuantityLabel record = label_of_record(name);
+            if (strchr(name, '.')) label_symbol(name, record.words, sizeof record.words);
+            written += (size_t)snprintf(words + written, size - written, "%.40s", record.words);
+            at += length;
+        } else {
+            const char one[2] = {*at, 0};
+            written += (size_t)snprintf(words + written, size - written, "%s",
+                                        *at == '*' ? "\u00b7" : one);
+            at++;
+        }
+    }
+    snprintf(words + written, size - written, " (%s)", table->is_si ? "SI" : "normalised");
+
+    // "NAME = FORMULA" has a label of its own.
     int length = (int)(equals - text);
     while (length > 0 && text[length - 1] == ' ') --length;
     if (length > 0) snprintf(made->label.words, sizeof made->label.words, "%.*s", length, text);

@@ -262,63 +262,6 @@ static char *add_cell(PrintedRow *row, int32_t *count)
     return row->cells[(*count)++];
 }
 
-// Key columns that follow from formulas are left out: they tell no point from another.
-static bool print_row(const Sweep *sweep, const Ranking *ranking, int32_t k, PrintedRow *row,
-                      Error *err)
-{
-    const RankRow *from = &ranking->rows[k];
-    const Study *study = &sweep->study;
-    int32_t count = 0;
-    double ignored = 0;
-    const Scene *scene = point_scene(sweep, from->point, err);
-    TRY(scene);
-    snprintf(add_cell(row, &count), CELL_SIZE, "%d", k + 1);
-    for (int32_t c = 0; c < study->column_count; c++)
-        if (study->chosen[c])
-            study_scene_value(scene, study->columns[c], add_cell(row, &count), CELL_SIZE, &ignored);
-    text_estimate(from->value, from->bar, ranking->has_error ? from->error : 0,
-                  add_cell(row, &count));
-
-    // "+8.1 +- 0.4 %"; without an error bar to the digits that are known, "+8 %". NaN: `?`.
-    char *cell = add_cell(row, &count);
-    bool has_bar = !isnan(from->bar) && !isnan(from->gain_error);
-    double gain = 100 * from->gain, error = 100 * from->gain_error;
-    if (isnan(gain))
-        snprintf(cell, CELL_SIZE, "?");
-    else if (has_bar)
-        snprintf(cell, CELL_SIZE, "%+.1f +- %.1f %%", gain, error);
-    else
-        snprintf(cell, CELL_SIZE, "%+.*f %%", error > 0.1 ? 0 : 1, gain);
-
-    TRY(rank_notes(sweep, ranking, from, row->note, err));
-cleanup:
-    return error_is_clean(err);
-}
-
-// "mu_M, highest first; gain over the first point (mesh.set.n=1)"
-static bool print_title(const Sweep *sweep, bool has_error, FILE *out, Error *err)
-{
-    const Study *study = &sweep->study;
-    char words[POINT_WORDS_SIZE] = "";
-    const Scene *scene = point_scene(sweep, 0, err);
-    TRY(scene);
-    fprintf(out, "\n%s, %s first; gain over ", ranked_by(study)->name,
-            study->rank.lowest ? "lowest" : "highest");
-    if (study->rank.against == AGAINST_BEST) fprintf(out, "the best");
-    if (study->rank.against == AGAINST_FIRST) {
-        point_words(sweep, scene, words);
-        fprintf(out, "the first point (%s)", words);
-    }
-    if (study->rank.against == AGAINST_KEYS) {
-        fprintf(out, "the same point with");
-        YAML_EACH (item, study->file, study->rank.baseline)
-            fprintf(out, " %s=%s", yaml_key(study->file, item), yaml_text(study->file, item));
-    }
-    fprintf(out, "%s\n", has_error ? "" : "; no errors are known of it");
-cleanup:
-    return error_is_clean(err);
-}
-
 // Keys of which the best point has the least or the largest of three values or more.
 static void print_edges(const Sweep *sweep, const SweepTable *table, const Ranking *ranking,
                         FILE *out)
@@ -372,8 +315,53 @@ bool ranking_print(const Sweep *sweep, const SweepTable *table, const Ranking *r
     snprintf(add_cell(row, &cells), CELL_SIZE, "%.79s", ranked_by(study)->name);
     snprintf(add_cell(row, &cells), CELL_SIZE, "gain");
 
-    for (int32_t k = 0; k < shown; k++) TRY(print_row(sweep, ranking, k, &rows[k + 1], err));
-    TRY(print_title(sweep, ranking->has_error, out, err));
+    // Key columns that follow from formulas are left out: they tell no point from another.
+    for (int32_t k = 0; k < shown; k++) {
+        const RankRow *from = &ranking->rows[k];
+        int32_t count = 0;
+        double ignored = 0;
+        const Scene *scene = point_scene(sweep, from->point, err);
+        TRY(scene);
+        row = &rows[k + 1];
+        snprintf(add_cell(row, &count), CELL_SIZE, "%d", k + 1);
+        for (int32_t c = 0; c < study->column_count; c++)
+            if (study->chosen[c])
+                study_scene_value(scene, study->columns[c], add_cell(row, &count), CELL_SIZE,
+                                  &ignored);
+        text_estimate(from->value, from->bar, ranking->has_error ? from->error : 0,
+                      add_cell(row, &count));
+
+        // "+8.1 +- 0.4 %"; without an error bar to the digits that are known, "+8 %". NaN: `?`.
+        char *cell = add_cell(row, &count);
+        bool has_bar = !isnan(from->bar) && !isnan(from->gain_error);
+        double gain = 100 * from->gain, error = 100 * from->gain_error;
+        if (isnan(gain))
+            snprintf(cell, CELL_SIZE, "?");
+        else if (has_bar)
+            snprintf(cell, CELL_SIZE, "%+.1f +- %.1f %%", gain, error);
+        else
+            snprintf(cell, CELL_SIZE, "%+.*f %%", error > 0.1 ? 0 : 1, gain);
+
+        TRY(rank_notes(sweep, ranking, from, row->note, err));
+    }
+
+    // "mu_M, highest first; gain over the first point (mesh.set.n=1)"
+    char words[POINT_WORDS_SIZE] = "";
+    const Scene *first = point_scene(sweep, 0, err);
+    TRY(first);
+    fprintf(out, "\n%s, %s first; gain over ", ranked_by(study)->name,
+            study->rank.lowest ? "lowest" : "highest");
+    if (study->rank.against == AGAINST_BEST) fprintf(out, "the best");
+    if (study->rank.against == AGAINST_FIRST) {
+        point_words(sweep, first, words);
+        fprintf(out, "the first point (%s)", words);
+    }
+    if (study->rank.against == AGAINST_KEYS) {
+        fprintf(out, "the same point with");
+        YAML_EACH (item, study->file, study->rank.baseline)
+            fprintf(out, " %s=%s", yaml_key(study->file, item), yaml_text(study->file, item));
+    }
+    fprintf(out, "%s\n", ranking->has_error ? "" : "; no errors are known of it");
 
     // Every cell but the note stands to the right of its column.
     for (int32_t k = 0; k <= shown; k++) {

@@ -21,14 +21,25 @@ typedef struct DrawSweep {
     const PictureStyle *style;
 } DrawSweep;
 
-// figures/NAME.json becomes figures/NAME.png.
-static bool draw_again(const DrawSweep *draw, Error *err)
+static bool draw_in_child(void *context, FILE *reply, Error *err)
 {
-    char path[AMONTONS_PATH_SIZE], picture[AMONTONS_PATH_SIZE];
+    const DrawSweep *draw = context;
     const char *ending = draw->style && draw->style->format ? draw->style->format : "png";
+    char path[AMONTONS_PATH_SIZE], picture[AMONTONS_PATH_SIZE];
+    YamlDocument *document = NULL;
+    DIR *listing = NULL;
+    StudyPlot plot;
+    (void)reply;   // pictures are files
+    if (draw->plot) {
+        TRY(yaml_parse("the plot", draw->plot, 0, &document, err));
+        TRY(plot_read(document, YAML_ROOT, &plot, err));
+        TRY(sweep_plot_draw(draw->folder, NULL, &plot, draw->style, err));
+        goto cleanup;
+    }
+
+    // Without a plot, figures/NAME.json becomes figures/NAME.png.
     snprintf(path, sizeof path, "%.1000s/figures", draw->folder);
-    DIR *listing = opendir(path);
-    if (!listing)
+    if (!(listing = opendir(path)))
         FAIL(err, ERROR_INPUT, "cannot open %s: %s: its study asks for no `plot`; --plot does",
              path, strerror(errno));
     for (const struct dirent *entry; (entry = readdir(listing));) {
@@ -43,20 +54,6 @@ static bool draw_again(const DrawSweep *draw, Error *err)
     }
 cleanup:
     if (listing) closedir(listing);
-    return error_is_clean(err);
-}
-
-static bool draw_in_child(void *context, FILE *reply, Error *err)
-{
-    const DrawSweep *draw = context;
-    YamlDocument *document = NULL;
-    StudyPlot plot;
-    (void)reply;   // pictures are files
-    if (!draw->plot) return draw_again(draw, err);
-    TRY(yaml_parse("the plot", draw->plot, 0, &document, err));
-    TRY(plot_read(document, YAML_ROOT, &plot, err));
-    TRY(sweep_plot_draw(draw->folder, NULL, &plot, draw->style, err));
-cleanup:
     yaml_destroy(document);
     return error_is_clean(err);
 }

@@ -74,44 +74,6 @@ static bool find_values(const Source *source, const Quantity *key, const char *n
     return true;
 }
 
-// Reads a sweep's quantities and which of its points are doubtful. doubts: names of what its runs
-// are warned of are added where they lack. ERROR_INPUT: a name that the table does not have, words
-// where numbers are needed, too many values of a key.
-static bool open_source(const char *folder, const StudyPlot *plot, WordList *doubts, Source *source,
-                        Error *err)
-{
-    PlotTable *table = &source->table;
-    double place[DOUBTS_MAX];
-    if (!plot_table_open(folder, table, err)) return false;
-    for (PlotKey key = PLOT_X; key < PLOT_KEYS; key++) {
-        if (!plot->text[key][0]) continue;
-        source->quantity[key] = plot_table_find(table, plot->text[key], &source->made[key], err);
-        if (!source->quantity[key]) return false;
-        if (key < PLOT_SERIES && source->quantity[key]->words.count > 0)
-            return REFUSE(err,
-                          "plot: %s has words, not numbers: it can be the `series` or the `panels`",
-                          plot->text[key]);
-    }
-
-    // Bits of the sweep's own names of warnings become those of all sweeps' names. The errors that
-    // count are those of what is shown: of y, or of a map's colour.
-    const Quantity *shown = source->quantity[plot->text[PLOT_COLOR][0] ? PLOT_COLOR : PLOT_Y];
-    int32_t kinds = table->kinds.count < DOUBTS_MAX ? table->kinds.count : DOUBTS_MAX;
-    if (!(source->doubts = NEW_ARRAY(uint32_t, table->count, err))) return false;
-    for (int32_t kind = 0; kind < kinds; kind++)
-        if (!words_index(doubts, table->kinds.words[kind], &place[kind], err)) return false;
-    for (int32_t k = 0; k < table->count; k++) {
-        for (int32_t kind = 0; kind < kinds; kind++)
-            if ((uint32_t)table->warned[k] >> kind & 1)
-                source->doubts[k] |= (uint32_t)1 << (int32_t)fmin(place[kind], DOUBTS_MAX - 1);
-        if (shown->errors && isnan(shown->errors[k])) source->doubts[k] |= DOUBT_NO_ERROR;
-    }
-    return find_values(source, source->quantity[PLOT_SERIES], plot->text[PLOT_SERIES],
-                       &source->series, err) &&
-           find_values(source, source->quantity[PLOT_PANELS], plot->text[PLOT_PANELS],
-                       &source->panels, err);
-}
-
 // Whether a point has the which-th value.
 static bool values_hold(const Values *values, int32_t which, int32_t point)
 {
@@ -146,17 +108,6 @@ static bool folder_of(const char *beside, const char *given, char folder[AMONTON
            REFUSE(err, "plot: the path %.60s is too long", given);
 }
 
-// The title of its study; where another sweep has the same, its folder.
-static const char *sweep_name(const PlotFigure *self, const Source *source)
-{
-    for (int32_t k = 0; k < self->source_count; k++) {
-        const PlotTable *other = &self->sources[k].table;
-        if (other != &source->table && strcmp(other->title, source->table.title) == 0)
-            return source->table.name;
-    }
-    return source->table.title;
-}
-
 // The sweep's name, where it is needed, and the value of the key that tells panels or curves apart.
 static void value_label(const PlotFigure *self, const Source *source, PlotKey key, int32_t which,
                         char label[GROUP_LABEL_SIZE])
@@ -165,20 +116,65 @@ static void value_label(const PlotFigure *self, const Source *source, PlotKey ke
     bool names_sweep = self->source_count > 1 && (self->is_map || key == PLOT_SERIES);
     values_label(key == PLOT_SERIES ? &source->series : &source->panels, which,
                  self->plot->text[key], value);
-    snprintf(label, GROUP_LABEL_SIZE, "%.40s%s%.50s", names_sweep ? sweep_name(self, source) : "",
-             names_sweep && value[0] ? ", " : "", value);
+
+    // A sweep has the title of its study; where another sweep has the same, the name of its folder.
+    const char *name = names_sweep ? source->table.title : "";
+    for (int32_t k = 0; names_sweep && k < self->source_count; k++) {
+        const PlotTable *other = &self->sources[k].table;
+        if (other != &source->table && strcmp(other->title, source->table.title) == 0)
+            name = source->table.name;
+    }
+    snprintf(label, GROUP_LABEL_SIZE, "%.40s%s%.50s", name, names_sweep && value[0] ? ", " : "",
+             value);
 }
 
+// Reads the quantities of all sweeps, which of their points are doubtful, and labels of panels and
+// curves. ERROR_INPUT: a name that a table does not have, words where numbers are needed, too many
+// values of a key.
 static bool open_sources(PlotFigure *self, const char *folder, const char *beside, Error *err)
 {
+    const StudyPlot *plot = self->plot;
     int32_t largest = 0, curves = 0;
     if (!(self->sources = NEW_ARRAY(Source, SOURCES_MAX, err))) return false;
-    self->source_count = 1 + self->plot->with_count;
+    self->source_count = 1 + plot->with_count;
     for (int32_t k = 0; k < self->source_count; k++) {
-        char path[AMONTONS_PATH_SIZE];
+        char path[AMONTONS_PATH_SIZE];   // the first is the sweep itself
         Source *source = &self->sources[k];
-        if (k > 0 && !folder_of(beside, self->plot->with[k - 1], path, err)) return false;
-        if (!open_source(k > 0 ? path : folder, self->plot, &self->doubts, source, err))
+        if (k > 0 && !folder_of(beside, plot->with[k - 1], path, err)) return false;
+        PlotTable *table = &source->table;
+        double place[DOUBTS_MAX];
+        if (!plot_table_open(k > 0 ? path : folder, table, err)) return false;
+        for (PlotKey key = PLOT_X; key < PLOT_KEYS; key++) {
+            if (!plot->text[key][0]) continue;
+            source->quantity[key] =
+                plot_table_find(table, plot->text[key], &source->made[key], err);
+            if (!source->quantity[key]) return false;
+            if (key < PLOT_SERIES && source->quantity[key]->words.count > 0)
+                return REFUSE(
+                    err, "plot: %s has words, not numbers: it can be the `series` or the `panels`",
+                    plot->text[key]);
+        }
+
+        // Bits of the sweep's own names of warnings become those of all sweeps' names. The errors
+        // that count are those of what is shown: of y, or of a map's colour.
+        const Quantity *shown = source->quantity[plot->text[PLOT_COLOR][0] ? PLOT_COLOR : PLOT_Y];
+        int32_t kinds = table->kinds.count < DOUBTS_MAX ? table->kinds.count : DOUBTS_MAX;
+        if (!(source->doubts = NEW_ARRAY(uint32_t, table->count, err))) return false;
+        for (int32_t kind = 0; kind < kinds; kind++)
+            if (!words_index(&self->doubts, table->kinds.words[kind], &place[kind], err))
+                return false;
+        for (int32_t i = 0; i < table->count; i++) {
+            for (int32_t kind = 0; kind < kinds; kind++)
+                if ((uint32_t)table->warned[i] >> kind & 1)
+                    source->doubts[i] |= (uint32_t)1 << (int32_t)fmin(place[kind], DOUBTS_MAX - 1);
+            if (shown->errors && isnan(shown->errors[i])) source->doubts[i] |= DOUBT_NO_ERROR;
+        }
+
+        // The values that are told apart by curves and panels.
+        if (!find_values(source, source->quantity[PLOT_SERIES], plot->text[PLOT_SERIES],
+                         &source->series, err) ||
+            !find_values(source, source->quantity[PLOT_PANELS], plot->text[PLOT_PANELS],
+                         &source->panels, err))
             return false;
         if (source->table.count > largest) largest = source->table.count;
         curves += source->series.count;
@@ -192,7 +188,7 @@ static bool open_sources(PlotFigure *self, const char *folder, const char *besid
             if (!words_index(&self->panels, label, &ignored, err)) return false;
         }
         for (int32_t i = 0; i < source->series.count; i++) {
-            values_label(&source->series, i, self->plot->text[PLOT_SERIES], label);
+            values_label(&source->series, i, plot->text[PLOT_SERIES], label);
             if (!words_index(&self->curves, label, &ignored, err)) return false;
         }
     }
@@ -304,83 +300,64 @@ static int compare_places(const void *left, const void *right)
     return a[1] < b[1] ? -1 : a[1] > b[1];
 }
 
-// Points of a panel of a sweep's map. ERROR_INPUT: two points at one place, of which a map could
-// show one.
-static bool write_map(PlotFigure *self, const Source *source, int32_t panel, Error *err)
+// The maps of the panel called `panel`: one. ERROR_INPUT: two points at one place, of which a map
+// could show one.
+static bool write_maps(PlotFigure *self, const char *panel, Error *err)
 {
-    const Quantity *const *quantity = source->quantity;
-    const Quantity *lines = quantity[PLOT_CONTOURS];
-    int32_t all = source->table.count, count = 0;
-    double *x = self->work, *y = x + all, *value = y + all, *contour = value + all;
-    double *open = contour + all, *places = NULL;
-    for (int32_t k = 0; k < all; k++) {
-        double at_x = quantity[PLOT_X]->values[k], at_y = quantity[PLOT_Y]->values[k];
-        if (!values_hold(&source->panels, panel, k) || !isfinite(at_x + at_y)) continue;
-        x[count] = at_x;
-        y[count] = at_y;
-        value[count] = quantity[PLOT_COLOR]->values[k];
-        contour[count] = lines ? lines->values[k] : 0;
-        bool has_value = isfinite(value[count]);
-        uint32_t doubts = has_value ? source->doubts[k] : 0, warned = doubts & ~DOUBT_NO_ERROR;
-        open[count++] = warned ? 1 : doubts ? 2 : 0;
-        self->found |= warned ? warned : doubts;
-        self->some_missing |= !has_value;
-    }
+    double *places = NULL;
+    for (int32_t s = 0; s < self->source_count; s++) {
+        const Source *source = &self->sources[s];
+        for (int32_t p = 0; p < source->panels.count; p++) {
+            char label[GROUP_LABEL_SIZE];
+            value_label(self, source, PLOT_PANELS, p, label);
+            if (strcmp(label, panel) != 0) continue;
+            const Quantity *const *quantity = source->quantity;
+            const Quantity *lines = quantity[PLOT_CONTOURS];
+            int32_t all = source->table.count, count = 0;
+            double *x = self->work, *y = x + all, *value = y + all, *contour = value + all;
+            double *open = contour + all;
+            for (int32_t k = 0; k < all; k++) {
+                double at_x = quantity[PLOT_X]->values[k], at_y = quantity[PLOT_Y]->values[k];
+                if (!values_hold(&source->panels, p, k) || !isfinite(at_x + at_y)) continue;
+                x[count] = at_x;
+                y[count] = at_y;
+                value[count] = quantity[PLOT_COLOR]->values[k];
+                contour[count] = lines ? lines->values[k] : 0;
+                bool has_value = isfinite(value[count]);
+                uint32_t doubts = has_value ? source->doubts[k] : 0,
+                         warned = doubts & ~DOUBT_NO_ERROR;
+                open[count++] = warned ? 1 : doubts ? 2 : 0;
+                self->found |= warned ? warned : doubts;
+                self->some_missing |= !has_value;
+            }
 
-    TRY((places = NEW_ARRAY(double, 2 * (int64_t)count, err)));
-    for (int32_t k = 0; k < count; k++) {
-        places[2 * k] = x[k];
-        places[2 * k + 1] = y[k];
-    }
-    qsort(places, (size_t)count, 2 * sizeof *places, compare_places);
-    for (int32_t k = 0; k + 1 < count; k++)
-        if (compare_places(places + 2 * k, places + 2 * k + 2) == 0)
-            FAIL(err, ERROR_INPUT,
-                 "plot: a map shows one point at a place, and several have %s = %.6g, %s = %.6g: "
-                 "name the key in which they differ in `panels`",
-                 self->plot->text[PLOT_X], places[2 * k], self->plot->text[PLOT_Y],
-                 places[2 * k + 1]);
+            memory_free(places);
+            TRY((places = NEW_ARRAY(double, 2 * (int64_t)count, err)));
+            for (int32_t k = 0; k < count; k++) {
+                places[2 * k] = x[k];
+                places[2 * k + 1] = y[k];
+            }
+            qsort(places, (size_t)count, 2 * sizeof *places, compare_places);
+            for (int32_t k = 0; k + 1 < count; k++)
+                if (compare_places(places + 2 * k, places + 2 * k + 2) == 0)
+                    FAIL(err, ERROR_INPUT,
+                         "plot: a map shows one point at a place, and several have %s = %.6g, %s = "
+                         "%.6g: name the key in which they differ in `panels`",
+                         self->plot->text[PLOT_X], places[2 * k], self->plot->text[PLOT_Y],
+                         places[2 * k + 1]);
 
-    json_begin_object(self->figure.json, "map");
-    TRY(figure_write_numbers(&self->figure, "x", x, count, err));
-    TRY(figure_write_numbers(&self->figure, "y", y, count, err));
-    TRY(figure_write_numbers(&self->figure, "value", value, count, err));
-    TRY(figure_write_numbers(&self->figure, "open", open, count, err));
-    if (lines) TRY(figure_write_numbers(&self->figure, "contour", contour, count, err));
-    json_end(self->figure.json);
+            json_begin_object(self->figure.json, "map");
+            TRY(figure_write_numbers(&self->figure, "x", x, count, err));
+            TRY(figure_write_numbers(&self->figure, "y", y, count, err));
+            TRY(figure_write_numbers(&self->figure, "value", value, count, err));
+            TRY(figure_write_numbers(&self->figure, "open", open, count, err));
+            if (lines) TRY(figure_write_numbers(&self->figure, "contour", contour, count, err));
+            json_end(self->figure.json);
+        }
+    }
 cleanup:
     memory_free(places);
     return error_is_clean(err);
-}
-
-// Those of the panel called `panel`: one.
-static bool write_maps(PlotFigure *self, const char *panel, Error *err)
-{
-    for (int32_t s = 0; s < self->source_count; s++)
-        for (int32_t p = 0; p < self->sources[s].panels.count; p++) {
-            char label[GROUP_LABEL_SIZE];
-            value_label(self, &self->sources[s], PLOT_PANELS, p, label);
-            if (strcmp(label, panel) == 0 && !write_map(self, &self->sources[s], p, err))
-                return false;
-        }
-    return true;
-}
-
-static bool write_map_entries(PlotFigure *self, Error *err)
-{
-    const Quantity *const *quantity = self->sources[0].quantity;
-    char label[QUANTITY_LABEL_SIZE + 40];
-    if (quantity[PLOT_CONTOURS]) {
-        bool many = self->sources[0].table.count / self->panels.count > MAP_MANY;
-        snprintf(label, sizeof label, many ? "%s, medians of %d x %d points" : "%s",
-                 quantity[PLOT_CONTOURS]->label.words, MAP_MEDIANS, MAP_MEDIANS);
-        Curve line = {.label = label, .line = "solid"};
-        if (!figure_write_entry(&self->figure, &line, err)) return false;
-    }
-    bool formula = strchr(self->plot->text[PLOT_COLOR], '=') != NULL;
-    snprintf(label, sizeof label, "no %s", formula ? "value" : quantity[PLOT_COLOR]->label.words);
-    Curve missing = {.label = label, .line = "none", .marker = "cross"};
-    return !self->some_missing || figure_write_entry(&self->figure, &missing, err);
 }
 
 // --- the whole ----------------------------------------------------------------------------------
@@ -419,16 +396,17 @@ static bool values_suit_log(const double *values, int32_t count, bool *suits, Er
     return true;
 }
 
-static bool write_axes(PlotFigure *self, Error *err)
+static bool write_figure(PlotFigure *self, Error *err)
 {
+    JsonWriter *json = NULL;
     const StudyPlot *plot = self->plot;
     const Source *source = &self->sources[0];
-    bool is_log[2] = {plot->log_x, plot->log_y};
+    bool has_panels = self->panels.count > 1, is_log[2] = {plot->log_x, plot->log_y};
+    TRY(figure_begin(&self->figure, err));
     for (PlotKey key = PLOT_X; key <= PLOT_Y; key++) {
         const Quantity *quantity = source->quantity[key];
-        if (self->is_map && !plot->log_given &&
-            !values_suit_log(quantity->values, source->table.count, &is_log[key], err))
-            return false;
+        if (self->is_map && !plot->log_given)
+            TRY(values_suit_log(quantity->values, source->table.count, &is_log[key], err));
         QuantityLabel label = quantity->label;
         const char *equals = strchr(plot->text[key], '=');
         label.column = equals ? equals + strspn(equals, "= ") : plot->text[key];
@@ -439,15 +417,8 @@ static bool write_axes(PlotFigure *self, Error *err)
         figure_write_axis(&self->figure, "color", &source->quantity[PLOT_COLOR]->label, NULL);
     if (source->quantity[PLOT_CONTOURS])
         figure_write_axis(&self->figure, "contours", &source->quantity[PLOT_CONTOURS]->label, NULL);
-    return true;
-}
 
-static bool write_figure(PlotFigure *self, Error *err)
-{
-    JsonWriter *json = NULL;
-    bool has_panels = self->panels.count > 1;
-    TRY(figure_begin(&self->figure, err));
-    TRY(write_axes(self, err));
+    // Panels, each with its map or its curves.
     json = self->figure.json;
     if (has_panels) json_begin_list(json, "panels");
     for (int32_t k = 0; has_panels && k < self->panels.count; k++) {
@@ -468,17 +439,31 @@ static bool write_figure(PlotFigure *self, Error *err)
 
     // Curves without panels; with panels the entries of the legend, once for all of them.
     json_begin_list(json, "series");
-    if (self->is_map)
-        TRY(write_map_entries(self, err));
-    else if (!has_panels)
-        TRY(write_curves(self, self->panels.words[0], true, err));
+    if (!self->is_map && !has_panels) TRY(write_curves(self, self->panels.words[0], true, err));
     for (int32_t s = 0; !self->is_map && has_panels && s < self->source_count; s++)
         for (int32_t k = 0; k < self->sources[s].series.count; k++) {
-            char label[GROUP_LABEL_SIZE];
-            value_label(self, &self->sources[s], PLOT_SERIES, k, label);
-            Curve curve = curve_style(self, s, k, label);
-            if (label[0]) TRY(figure_write_entry(&self->figure, &curve, err));
+            char name[GROUP_LABEL_SIZE];
+            value_label(self, &self->sources[s], PLOT_SERIES, k, name);
+            Curve curve = curve_style(self, s, k, name);
+            if (name[0]) TRY(figure_write_entry(&self->figure, &curve, err));
         }
+
+    // The legend of a map: its contours, and points that have no value.
+    char label[QUANTITY_LABEL_SIZE + 40];
+    const Quantity *color = source->quantity[PLOT_COLOR], *lines = source->quantity[PLOT_CONTOURS];
+    if (self->is_map && lines) {
+        bool many = source->table.count / self->panels.count > MAP_MANY;
+        snprintf(label, sizeof label, many ? "%s, medians of %d x %d points" : "%s",
+                 lines->label.words, MAP_MEDIANS, MAP_MEDIANS);
+        Curve line = {.label = label, .line = "solid"};
+        TRY(figure_write_entry(&self->figure, &line, err));
+    }
+    if (self->is_map && self->some_missing) {
+        bool formula = strchr(plot->text[PLOT_COLOR], '=') != NULL;
+        snprintf(label, sizeof label, "no %s", formula ? "value" : color->label.words);
+        Curve missing = {.label = label, .line = "none", .marker = "cross"};
+        TRY(figure_write_entry(&self->figure, &missing, err));
+    }
     TRY(figure_write_doubts(&self->figure, &self->doubts, self->found, self->is_map, err));
     json_end(json);
 cleanup:
