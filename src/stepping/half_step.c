@@ -164,7 +164,7 @@ bool half_step_solve(HalfStep *half, const ContactProblem *problem, ContactMatri
     int32_t count = side->interface.count;
     size_t bytes = (size_t)side->whole * sizeof(double);
 
-    // What pushes, folded; how far it is from its own image.
+    // The forces and bounds of the problem, folded; how far they are from their own image.
     contact_half_fold_forces(side, false, problem->g, half->g);
     contact_half_fold_forces(side, true, problem->g, half->anti_g);
     contact_half_fold(side, false, problem->bound, half->bound);
