@@ -90,13 +90,6 @@ bool open_holds_something(const char *path)
     return lstat(path, &status) == 0 && !(S_ISREG(status.st_mode) && status.st_size == 0);
 }
 
-// Returns why the open file must not be written to, or NULL.
-static const char *objection(const struct stat *status)
-{
-    if (!S_ISREG(status->st_mode)) return kind_of(status);
-    return status->st_nlink > 1 ? "a file with a second name (a hard link)" : NULL;
-}
-
 static int refuse(const char *path, const char *what, char why[OPEN_WHY_SIZE])
 {
     snprintf(why, OPEN_WHY_SIZE, "%.250s is %s: move it away", path, what);
@@ -119,7 +112,11 @@ static int open_there(const char *path, char why[OPEN_WHY_SIZE])
         errno = cause;
         return -1;
     }
-    const char *against = fstat(file, &status) == 0 ? objection(&status) : "not to be looked at";
+    const char *against = "not to be looked at";   // why it must not be written to, or NULL
+    if (fstat(file, &status) == 0)
+        against = !S_ISREG(status.st_mode) ? kind_of(&status)
+                  : status.st_nlink > 1    ? "a file with a second name (a hard link)"
+                                           : NULL;
     if (!against) return file;
     close(file);
     return refuse(path, against, why);
