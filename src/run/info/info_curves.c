@@ -107,19 +107,6 @@ cleanup:
     return done;
 }
 
-// mu at a slip rate, of a law that remembers in steady slip; NaN: no such state is found.
-static double steady_mu(const FrictionLaw *law, double speed)
-{
-    FrictionNode node = friction_node(law, 1);
-    FrictionRates rates = {0};
-    node.pressure = law->pressure;
-    if (!law->remembers) return friction_coefficient(&node, speed);
-    friction_start_state(&node, node.from);
-    if (!friction_find_steady(&node, speed)) return NAN;
-    friction_rates(&node, speed, node.from, &rates);
-    return rates.mu;
-}
-
 bool info_draw_friction(const Scene *scene, const InfoOptions *options, Error *err)
 {
     const FrictionLaw *law = &scene->friction;
@@ -151,7 +138,15 @@ bool info_draw_friction(const Scene *scene, const InfoOptions *options, Error *e
     if (rod > 0) least = fmin(least, rod / BEYOND), most = fmax(most, rod * BEYOND);
     for (int32_t k = 0; k < FRICTION_SPEEDS; k++) {
         speed[k] = least * pow(most / least, (double)k / (FRICTION_SPEEDS - 1));
-        mu[k] = steady_mu(law, speed[k]);
+
+        // mu, of a law that remembers in steady slip; NaN: no such state is found.
+        FrictionNode node = friction_node(law, 1);
+        FrictionRates rates = {.mu = NAN};
+        node.pressure = law->pressure;
+        if (law->remembers) friction_start_state(&node, node.from);
+        if (law->remembers && friction_find_steady(&node, speed[k]))
+            friction_rates(&node, speed[k], node.from, &rates);
+        mu[k] = law->remembers ? rates.mu : friction_coefficient(&node, speed[k]);
         lowest = fmin(lowest, mu[k]);
         highest = fmax(highest, mu[k]);
     }
