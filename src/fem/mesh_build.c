@@ -125,10 +125,10 @@ static bool orient_elements(Mesh *mesh, Error *err)
     ProbePoints *probes = NEW_ARRAY(ProbePoints, 1, err);
     if (!probes) goto cleanup;
 
-    // Probes, evaluated once a mesh. At nodes, because a corner's angle may exceed 180 degrees while
-    // determinants at the quadrature points are positive; at quadrature points, because integrals
-    // are taken there; in hexahedra and wedges of first order, whose determinant is of second order,
-    // between the corners too: a twisted one turns inside out in the middle.
+    // Probes, evaluated once a mesh. At nodes, because a corner's angle may exceed 180 degrees
+    // while determinants at the quadrature points are positive; at quadrature points, because
+    // integrals are taken there; in hexahedra and wedges of first order, whose determinant is of
+    // second order, between the corners too: a twisted one turns inside out in the middle.
     for (ElementKind kind = 0; kind < ELEMENT_KIND_COUNT; kind++) {
         if (element_dim(kind) < 2) continue;   // a face
         Quadrature rule = shape_quadrature(kind);

@@ -52,7 +52,7 @@ bool model_read_mesh(const ChildWatch *watch, Model *model, Error *err)
         TRY(scene_blame(scene, wrong, false, err));
     }
 
-    // What the scene says in numbers of its own becomes those of this mesh.
+    // Loads and the machine's stiffness, which a scene may give as forces, are those of this mesh.
     TRY(scene_check_thickness(scene, mesh, err));
     TRY(scene_pressure(scene, mesh, &model->pressure, err));
     for (int32_t k = 0; k < scene->load.traction_count; k++)
