@@ -8,6 +8,7 @@
 #include "base/system.h"
 #include "contact/contact_half.h"
 #include "fem/floor.h"
+#include "fem/mesh_locate.h"
 #include "reduction/mirror.h"
 #include "reduction/symmetry_reduction.h"
 #include "reduction/reduction_block.h"
@@ -15,10 +16,8 @@
 #include "model/assemble.h"
 #include "model/basis_cache.h"
 #include "model/node_laws.h"
-#include "model/extremes.h"
 #include "model/gaps.h"
 #include "model/memory.h"
-#include "model/probe_places.h"
 #include "model/scene_mesh.h"
 #include "scene/materials.h"
 #include "scene/programs.h"
@@ -60,6 +59,69 @@ static bool load_basis(Model *model, const ReductionBlock *block, const char *na
     return true;
 }
 
+// Below this a quotient is nothing unusual, and what failed is not its fault.
+static const double USUAL = 1e4;
+
+typedef struct Extreme {
+    const char *key, *what;
+    double quotient;
+} Extreme;
+
+static void compare(Extreme *extreme, const char *key, const char *what, double quotient)
+{
+    if (quotient > extreme->quotient) *extreme = (Extreme){key, what, quotient};
+}
+
+// After a reduction that failed with `err`: which numbers of the scene are too far apart. Under
+// reduction.use: auto an error of computing is taken back (true), and model->not_reduced says why
+// the whole mesh is stepped: the largest quotient of the block's numbers, where one is unusual.
+// Under `always` the error names its key. Other errors, such as lack of memory, stay: bits must not
+// depend on them.
+static bool blame_extremes(Model *model, Error *err)
+{
+    // The largest quotient of numbers of the scene, by its key.
+    Extreme largest = {"reduction.use", "", USUAL};
+    const Materials *materials = &model->materials;
+    bool regions = model->scene->materials.count > 0;
+    double softest = INFINITY, stiffest = 0;
+    for (int32_t k = 0; k < materials->count; k++) {
+        const Material *one = &materials->list[k];
+        double viscosities = one->eta1 / one->eta2;
+        if (one->plane_strain)
+            compare(&largest, regions ? "materials" : "material.poisson",
+                    "stiffness of volume over that of shear in plane strain",
+                    2 * (1 - one->poisson) / (1 - 2 * one->poisson));
+        compare(&largest, regions ? "materials" : "material.eta2", "one viscosity over the other",
+                fmax(viscosities, 1 / viscosities));
+        softest = fmin(softest, one->young);
+        stiffest = fmax(stiffest, one->young);
+    }
+    double slender = model->height / model->length;
+    compare(&largest, "materials", "Young's modulus of one region over another's",
+            stiffest / softest);
+    bool given = model->scene->mesh.parameter_count > 0;
+    compare(&largest, given ? "mesh.set" : "mesh.file", "one side of the block over the other",
+            fmax(slender, 1 / slender));
+
+    if (err->code != ERROR_COMPUTE && err->code != ERROR_LIBRARY) return false;
+    if (largest.quotient > USUAL)
+        snprintf(model->not_reduced, NOT_REDUCED_SIZE,
+                 "%s is %.3g, too much for the rounding of a reduction", largest.what,
+                 largest.quotient);
+    else
+        snprintf(model->not_reduced, NOT_REDUCED_SIZE, "%.*s", NOT_REDUCED_SIZE - 1, err->message);
+    if (model->scene->reduction.use == REDUCE_AUTO) {
+        error_clear(err);
+        return true;
+    }
+    if (largest.quotient > USUAL)
+        error_context(err, "%s (reduction.use: auto steps on the whole mesh)", model->not_reduced);
+    else
+        error_context(err, "reduction.use: auto steps on the whole mesh");
+    err->code = ERROR_INPUT;
+    return scene_blame(model->scene, largest.key, false, err);
+}
+
 // The basis of `block`, built and kept in the cache under its name. Of processes that need it at
 // once one builds it and the others wait. Where rounding leaves none the block is not reduced.
 static bool build_basis(Model *model, const ReductionBlock *block, const char *name,
@@ -87,7 +149,7 @@ static bool build_basis(Model *model, const ReductionBlock *block, const char *n
         basis_cache_store(name, &model->reduced, model->cache_note);
     } else {
         reduced_bulk_destroy(&model->reduced);
-        TRY(model_blame_extremes(model, err));
+        TRY(blame_extremes(model, err));
     }
 cleanup:
     file_lock_release(&lock);
@@ -167,6 +229,48 @@ cleanup:
     return error_is_clean(err);
 }
 
+// Where the probes of the scene are in its mesh, places [SCENE_PROBES_MAX]. ERROR_INPUT: a probe has
+// another number of coordinates than the mesh, or lies outside of all bodies; it says which body is
+// nearest, and where.
+static bool find_probes(const Scene *scene, const Mesh *mesh, ProbePlace *places, Error *err)
+{
+    const SceneProbes *probes = &scene->output.probes;
+    for (int32_t k = 0; k < probes->count; k++) {
+        const SceneProbe *probe = &probes->probe[k];
+        char asked[PLACE_TEXT_SIZE], nearest[PLACE_TEXT_SIZE];
+        char low[PLACE_TEXT_SIZE], high[PLACE_TEXT_SIZE];
+        double distance = 0;
+        if (probe->at.count != mesh->dim) {
+            error_set(err, ERROR_INPUT, __FILE__, __LINE__,
+                      "`%s` has `at` with %d number%s; allowed: %s, as the mesh is in %s",
+                      probe->name, probe->at.count, probe->at.count == 1 ? "" : "s",
+                      mesh->dim == 2 ? "[x, z]" : "[x, y, z]",
+                      mesh->dim == 2 ? "the plane" : "space");
+            return scene_blame(scene, "output.probes", false, err);
+        }
+        places[k].element = mesh_locate(mesh, probe->at.value, places[k].at);
+        if (places[k].element >= 0) continue;
+
+        // Outside: where it would be inside.
+        int32_t node = mesh_nearest_node(mesh, probe->at.value, &distance);
+        MeshPlace from = {mesh->x_min, mesh->dim == 2 ? mesh->z_min : mesh->y_min, mesh->z_min};
+        MeshPlace to = {mesh->x_max, mesh->dim == 2 ? mesh->z_max : mesh->y_max, mesh->z_max};
+        error_set(
+            err, ERROR_INPUT, __FILE__, __LINE__,
+            "`%s` is at %s, outside of the block%s: %s at %s, %g away; the block reaches from "
+            "%s to %s",
+            probe->name, place_text(mesh->dim, probe->at.value, asked),
+            mesh->is_base ? " and its base" : "",
+            !mesh->is_base             ? "its nearest node is"
+            : mesh_in_base(mesh, node) ? "the nearest node is one of the base,"
+                                       : "the nearest node is one of the block,",
+            mesh_place_text(mesh, node, nearest), distance, place_text(mesh->dim, from, low),
+            place_text(mesh->dim, to, high));
+        return scene_blame(scene, "output.probes", false, err);
+    }
+    return true;
+}
+
 // Up to where matrices are factored: mesh, loads, interface, the basis if the cache has it, and
 // whether the bulk is to be reduced. name: of the basis in the cache, if the bulk is reduced.
 static bool prepare(const StageNotice *notice, Model *model, ReductionBlock *block,
@@ -182,7 +286,7 @@ static bool prepare(const StageNotice *notice, Model *model, ReductionBlock *blo
     if (notice) watch = (ChildWatch){.goes_on = notice->goes_on, .self = notice->self};
     if (!model_read_mesh(notice ? &watch : NULL, model, err) || !model_lay_bulk(model, err))
         return false;
-    if (!probe_places_find(scene, &model->mesh, model->probes, err)) return false;
+    if (!find_probes(scene, &model->mesh, model->probes, err)) return false;
 
     // A pushing rod comes from behind: on the leading face it would have to stand inside the block.
     const Interface *interface = &model->interface;

@@ -250,7 +250,6 @@ NOT_A_CHOICE = {
     "record/history.c": {"FLUSH_EVERY": "seconds of a run that a kill may cost"},
     "record/window.h": {"WINDOW_SLIDINGS_MAX": "slidings that a scene may ask for as the last: room for their states"},
     "record/observation.h": {"RECORDERS_MAX": SIZE},
-    "model/extremes.c": {"USUAL": "from which on a message names a quotient"},
     "model/gaps.c": {"ROUNDING": "digits of a file, far below a cell"},
     "model/scene_mesh.c": {"NODE_BYTES": "memory"},
     "stepping/growth.c": {
@@ -264,6 +263,7 @@ NOT_A_CHOICE = {
         "FLOOR_PART": "of the contact: as mean widths are exact for upright layers and pads, any above a half",
         "standard_middle": "the rod's default place", "standard_width": "the rod's default"},
     "model/obtain.c": {
+        "USUAL": "from which on a message names a quotient",
         "REDUCTION_TOLERANCES": "draft and fine: as standard",
         "ONE_BY_ONE_FROM": "of the memory; below, two parts side by side are faster on two cores"},
     "model/memory.c": {
