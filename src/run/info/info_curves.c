@@ -189,28 +189,6 @@ static const char *path_of(const Scene *scene, const SceneMaterial *region)
     return region ? region->from : scene->material.from;
 }
 
-// Frequencies between those of the whole run and of a shear wave through the shortest cell of the
-// mesh, Hz. false: the scene does not say how long it runs.
-static bool find_band(const Scene *scene, const SceneMaterial *region, const MaterialFit *fit,
-                      double band[2], bool *known, Error *err)
-{
-    Mesh mesh = {0};
-    double until = scene->time.until_t;
-    if (scene->time.until_U > 0 && scene->rod.velocity > 0)
-        until = fmin(until > 0 ? until : INFINITY, scene->time.until_U / scene->rod.velocity);
-    *known = until > 0;
-    TRY(scene_mesh_read(scene, NULL, &mesh, NULL, err));
-    double density = region && region->given[MATERIAL_DENSITY] ? region->number[MATERIAL_DENSITY]
-                                                               : scene->material.density;
-    double shear = fit->shear.rest;
-    for (int32_t k = 0; k < fit->shear.count; k++) shear += fit->shear.modulus[k];
-    band[0] = 1 / until;
-    band[1] = sqrt(shear / density) / mesh_summarise(&mesh).edge_min;
-cleanup:
-    mesh_destroy(&mesh);
-    return error_is_clean(err);
-}
-
 // The least and the largest place of the data.
 static void find_ends(const RelaxationData *data, double ends[2])
 {
@@ -262,6 +240,7 @@ bool info_draw_material(const Scene *scene, const InfoOptions *options, Error *e
     const SceneMaterial *regions[FILES_MAX];
     MaterialData data = {0};
     MaterialFit fit;
+    Mesh mesh = {0};
     double x[MODULUS_POINTS], y[2][MODULUS_POINTS], ends[2], band[2] = {0, 0}, least = INFINITY,
                                                              most = 0;
     double *at = NULL;
@@ -275,7 +254,24 @@ bool info_draw_material(const Scene *scene, const InfoOptions *options, Error *e
     double per = over_time ? 1 : TWO_PI;
     find_ends(moduli, ends);
     double from = ends[0] / per / BEYOND, to = ends[1] / per * BEYOND;
-    if (!over_time) TRY(find_band(scene, regions[0], &fit, band, &known, err));
+
+    // Frequencies between those of the whole run and of a shear wave through the shortest cell of
+    // the mesh, Hz; not known where the scene does not say how long it runs.
+    double until = scene->time.until_t;
+    if (scene->time.until_U > 0 && scene->rod.velocity > 0)
+        until = fmin(until > 0 ? until : INFINITY, scene->time.until_U / scene->rod.velocity);
+    if (!over_time) {
+        const SceneMaterial *region = regions[0];
+        double density = region && region->given[MATERIAL_DENSITY]
+                             ? region->number[MATERIAL_DENSITY]
+                             : scene->material.density;
+        double shear = fit.shear.rest;
+        for (int32_t k = 0; k < fit.shear.count; k++) shear += fit.shear.modulus[k];
+        TRY(scene_mesh_read(scene, NULL, &mesh, NULL, err));
+        known = until > 0;
+        band[0] = 1 / until;
+        band[1] = sqrt(shear / density) / mesh_summarise(&mesh).edge_min;
+    }
     if (known) from = fmin(from, band[0] / BEYOND), to = fmax(to, band[1] * BEYOND);
     TRY(at = NEW_ARRAY(double, moduli->count, err));
     for (int32_t i = 0; i < moduli->count; i++) at[i] = moduli->at[i] / per;
@@ -325,6 +321,7 @@ bool info_draw_material(const Scene *scene, const InfoOptions *options, Error *e
     TRY(draw_curves(title, axes, curves, count, options, err));
 cleanup:
     memory_free(at);
+    mesh_destroy(&mesh);
     material_data_destroy(&data);
     return error_is_clean(err);
 }

@@ -94,33 +94,6 @@ static bool refuse_taken(const char *path, void *context, Error *err)
     return true;
 }
 
-// Who holds the lock has written so into its file. Where the folder takes no lock file at all the
-// work goes on, and shows at its first file what is wrong.
-static bool take_lock(ResultFolder *folder, Error *err)
-{
-    char path[PATH_SIZE], host[65] = "", holder[128] = "";
-    Error ignored = {0};
-    snprintf(path, sizeof path, "%s/%s", folder->path, LOCK_NAME);
-    if (file_lock_take(&folder->lock, path, LOCK_WAIT)) {
-        gethostname(host, sizeof host - 1);
-        dprintf(folder->lock.descriptor, "process %ld on %s\n", (long)getpid(), host);
-        return true;
-    }
-    if (!folder->lock.busy && !open_is_there(path)) return true;
-    if (!folder->lock.busy)
-        return REFUSE(err, "%s is there, and is no lock of ours: move it away", path);
-    FILE *file = open_stream(path, &ignored);
-    if (file) {
-        if (!fgets(holder, sizeof holder, file)) *holder = 0;
-        fclose(file);
-    }
-    holder[strcspn(holder, "\n")] = 0;
-    return REFUSE(err,
-                  "%s: another computation is writing its result there (%s): choose another folder "
-                  "(-o), or wait until it has ended",
-                  folder->path, *holder ? holder : "its process is not known");
-}
-
 static bool rename_aside(const char *folder, const char *from, const char *to, Error *err)
 {
     char path[PATH_SIZE], target[PATH_SIZE];
@@ -173,7 +146,32 @@ bool result_folder_claim(const char *path, bool overwrite, ResultFolder *folder,
     if (strlen(path) >= sizeof folder->path)
         FAIL(err, ERROR_INPUT, "the path of the result folder is too long");
     memcpy(folder->path, path, strlen(path) + 1);
-    TRY(take_lock(folder, err));
+
+    // The lock: who holds it has written so into its file. Where the folder takes no lock file at
+    // all the work goes on, and shows at its first file what is wrong.
+    char file[PATH_SIZE], host[65] = "", holder[128] = "", start[128] = "";
+    Error ignored = {0};
+    snprintf(file, sizeof file, "%s/%s", path, LOCK_NAME);
+    if (file_lock_take(&folder->lock, file, LOCK_WAIT)) {
+        gethostname(host, sizeof host - 1);
+        dprintf(folder->lock.descriptor, "process %ld on %s\n", (long)getpid(), host);
+    } else if (folder->lock.busy) {
+        FILE *stream = open_stream(file, &ignored);
+        if (stream) {
+            if (!fgets(holder, sizeof holder, stream)) *holder = 0;
+            fclose(stream);
+        }
+        holder[strcspn(holder, "\n")] = 0;
+        FAIL(err, ERROR_INPUT,
+             "%s: another computation is writing its result there (%s): choose another folder "
+             "(-o), or wait until it has ended",
+             path, *holder ? holder : "its process is not known");
+    } else if (open_is_there(file)) {
+        FAIL(err, ERROR_INPUT, "%s is there, and is no lock of ours: move it away", file);
+    }
+
+    // What an earlier computation left aside is put back; files of others under names that a result
+    // needs are refused.
     TRY(put_back(path, err));
     TRY(own_file_adopt(path, err));
     TRY(own_file_visit(path, refuse_taken, NULL, err));
@@ -193,8 +191,7 @@ bool result_folder_claim(const char *path, bool overwrite, ResultFolder *folder,
     if (!error_is_clean(err) || !folder->has_earlier || overwrite) goto cleanup;
 
     // It was cut off where there is a checkpoint, and no report of a run that came to its end.
-    char file[PATH_SIZE], start[128] = "";
-    Error ignored = {0};
+    ignored = (Error){0};
     snprintf(file, sizeof file, "%s/%s", path, CHECKPOINT_FILE);
     bool cut_off = access(file, F_OK) == 0;
     snprintf(file, sizeof file, "%s/run.json", path);
