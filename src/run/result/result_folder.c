@@ -170,8 +170,8 @@ bool result_folder_claim(const char *path, bool overwrite, ResultFolder *folder,
         FAIL(err, ERROR_INPUT, "%s is there, and is no lock of ours: move it away", file);
     }
 
-    // What an earlier computation left aside is put back; files of others under names that a result
-    // needs are refused.
+    // Files that an earlier computation left aside are put back; files of others under names that a
+    // result needs are refused.
     TRY(put_back(path, err));
     TRY(own_file_adopt(path, err));
     TRY(own_file_visit(path, refuse_taken, NULL, err));
