@@ -107,17 +107,6 @@ static void determinant_range(const Mesh *mesh, const ProbePoints *probes, int32
     for (int32_t k = 0; k < 2; k++) range[k] = scale > 0 ? range[k] / scale : 0;
 }
 
-// Where node a of a kind goes when the first two axes of its reference element are exchanged.
-static int32_t exchanged_node(ElementKind kind, int32_t a)
-{
-    const double *at = shape_node(kind, a);
-    for (int32_t b = 0; b < element_node_count(kind); b++) {
-        const double *other = shape_node(kind, b);
-        if (other[0] == at[1] && other[1] == at[0] && other[2] == at[2]) return b;
-    }
-    return a;
-}
-
 // An element whose determinant is negative throughout runs the other way round, as those of a
 // reversed surface do: it is turned. One whose determinant is 0 or changes its sign is an error.
 static bool orient_elements(Mesh *mesh, Error *err)
@@ -152,11 +141,19 @@ static bool orient_elements(Mesh *mesh, Error *err)
         determinant_range(mesh, probes, e, range, centre);
         if (range[1] < -AREA_TOLERANCE) {
             // Exchanges nodes so that the element runs the other way round, from the same first
-            // corner.
+            // corner: the first two axes of its reference element are exchanged.
+            ElementKind kind = mesh->kind[e];
             int32_t *nodes = mesh->element_nodes + mesh->first_node[e];
-            int32_t old[ELEMENT_NODES_MAX], count = element_node_count(mesh->kind[e]);
+            int32_t old[ELEMENT_NODES_MAX], count = element_node_count(kind);
             memcpy(old, nodes, (size_t)count * sizeof *nodes);
-            for (int32_t a = 0; a < count; a++) nodes[a] = old[exchanged_node(mesh->kind[e], a)];
+            for (int32_t a = 0; a < count; a++) {
+                const double *at = shape_node(kind, a);
+                for (int32_t b = 0; b < count; b++) {
+                    const double *other = shape_node(kind, b);
+                    if (other[0] == at[1] && other[1] == at[0] && other[2] == at[2])
+                        nodes[a] = old[b];
+                }
+            }
             continue;
         }
         if (range[0] > AREA_TOLERANCE) continue;

@@ -13,7 +13,7 @@
 #include <math.h>
 #include <stdio.h>
 
-// Where gmsh has to make it, the slowest part of a small run (76 ms to load).
+// Where gmsh has to make it, the slowest part of a small run.
 bool model_read_mesh(const ChildWatch *watch, Model *model, Error *err)
 {
     const Scene *scene = model->scene;

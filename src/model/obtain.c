@@ -229,7 +229,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Where the probes of the scene are in its mesh, places [SCENE_PROBES_MAX]. ERROR_INPUT: a probe has
+// Finds the probes of the scene in its mesh, places [SCENE_PROBES_MAX]. ERROR_INPUT: a probe has
 // another number of coordinates than the mesh, or lies outside of all bodies; it says which body is
 // nearest, and where.
 static bool find_probes(const Scene *scene, const Mesh *mesh, ProbePlace *places, Error *err)
@@ -251,7 +251,7 @@ static bool find_probes(const Scene *scene, const Mesh *mesh, ProbePlace *places
         places[k].element = mesh_locate(mesh, probe->at.value, places[k].at);
         if (places[k].element >= 0) continue;
 
-        // Outside: where it would be inside.
+        // The place is outside: says what is nearest to it, and how far the block reaches.
         int32_t node = mesh_nearest_node(mesh, probe->at.value, &distance);
         MeshPlace from = {mesh->x_min, mesh->dim == 2 ? mesh->z_min : mesh->y_min, mesh->z_min};
         MeshPlace to = {mesh->x_max, mesh->dim == 2 ? mesh->z_max : mesh->y_max, mesh->z_max};
