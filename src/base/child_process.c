@@ -125,37 +125,6 @@ static bool take_all(const ChildWork *work, pid_t child, int pipe, ChildReply *r
     return error_is_clean(err);
 }
 
-// Why there is no answer. ending: as waitpid has it.
-static void blame(const ChildWork *work, int ending, const struct rusage *used, Error *err)
-{
-    double kilobytes = (double)bytes_allowed() / 1024;
-    char words[200];
-    process_describe(ending, words, sizeof words);
-    int number = WIFSIGNALED(ending) ? WTERMSIG(ending) : 0;
-    if (ending == PROCESS_LOST)
-        error_set(err, ERROR_LIBRARY, __FILE__, __LINE__,
-                  "%s: the process in which %s reads it ended %s", work->path, work->reader, words);
-    else if (number == SIGXCPU)
-        error_set(err, ERROR_INPUT, __FILE__, __LINE__,
-                  "%s: %s had not read it after %ld seconds; %s", work->path, work->reader,
-                  (long)(used->ru_utime.tv_sec + used->ru_stime.tv_sec + 1), work->advice);
-    else if (number == SIGKILL || (double)used->ru_maxrss > 0.8 * kilobytes)
-        error_set(err, ERROR_INPUT, __FILE__, __LINE__,
-                  "%s: %s was ended while reading it, at %.1f GB of memory; %s", work->path,
-                  work->reader, (double)used->ru_maxrss / (1 << 20), work->advice);
-    else if (WIFEXITED(ending) && WEXITSTATUS(ending) == LOADER_FAILED)
-        error_set(err, ERROR_LIBRARY, __FILE__, __LINE__,
-                  "%s: the libraries of %s do not fit each other (the loader says above what is "
-                  "missing): is another one first in LD_LIBRARY_PATH?",
-                  work->path, work->reader);
-    else
-        error_set(err, ERROR_INPUT, __FILE__, __LINE__,
-                  "%s: %s crashes while reading it (%s): the file is damaged, or asks for what %s "
-                  "cannot make",
-                  work->path, work->reader, number ? strsignal(number) : "without a word",
-                  work->reader);
-}
-
 // Text that the streams of this process hold is written before: the child has a copy of it.
 bool child_read(const ChildWork *work, ChildReply *reply, Error *err)
 {
@@ -177,6 +146,9 @@ bool child_read(const ChildWork *work, ChildReply *reply, Error *err)
     if (child < 0) FAIL(err, ERROR_FILE, "cannot start a process: %s", strerror(cause));
     int ending = process_wait(child, &used);
     TRY(error_is_clean(err));
+
+    // Its answer, or why there is none.
+    int number = WIFSIGNALED(ending) ? WTERMSIG(ending) : 0;
     if (ending == 0 && reply->size >= (int64_t)sizeof(Error)) {
         Error said;   // the child's own error, at the end of the reply
         reply->size -= (int64_t)sizeof said;
@@ -184,8 +156,28 @@ bool child_read(const ChildWork *work, ChildReply *reply, Error *err)
         said.message[sizeof said.message - 1] = 0;
         if (said.code != ERROR_NONE)
             error_set(err, said.code, __FILE__, __LINE__, "%s", said.message);
+    } else if (ending == PROCESS_LOST) {
+        char words[200];
+        process_describe(ending, words, sizeof words);
+        FAIL(err, ERROR_LIBRARY, "%s: the process in which %s reads it ended %s", work->path,
+             work->reader, words);
+    } else if (number == SIGXCPU) {
+        FAIL(err, ERROR_INPUT, "%s: %s had not read it after %ld seconds; %s", work->path,
+             work->reader, (long)(used.ru_utime.tv_sec + used.ru_stime.tv_sec + 1), work->advice);
+    } else if (number == SIGKILL ||
+               (double)used.ru_maxrss > 0.8 * ((double)bytes_allowed() / 1024)) {
+        FAIL(err, ERROR_INPUT, "%s: %s was ended while reading it, at %.1f GB of memory; %s",
+             work->path, work->reader, (double)used.ru_maxrss / (1 << 20), work->advice);
+    } else if (WIFEXITED(ending) && WEXITSTATUS(ending) == LOADER_FAILED) {
+        FAIL(err, ERROR_LIBRARY,
+             "%s: the libraries of %s do not fit each other (the loader says above what is "
+             "missing): is another one first in LD_LIBRARY_PATH?",
+             work->path, work->reader);
     } else {
-        blame(work, ending, &used, err);
+        FAIL(err, ERROR_INPUT,
+             "%s: %s crashes while reading it (%s): the file is damaged, or asks for what %s "
+             "cannot make",
+             work->path, work->reader, number ? strsignal(number) : "without a word", work->reader);
     }
 cleanup:
     if (!error_is_clean(err)) child_destroy(reply);

@@ -444,16 +444,6 @@ static Range power_range(Range a, Range b)
     return between(exp(exponent.low), exp(exponent.high));
 }
 
-// From a to b on a line through (x[0], y[0]) and (x[1], y[1]), which may be a jump.
-static void widen(Range *range, const double x[2], const double y[2], Range within)
-{
-    double a = fmax(within.low, x[0]), b = fmin(within.high, x[1]), width = x[1] - x[0];
-    if (a > b) return;
-    double from = width > 0 ? (a - x[0]) / width : 0, to = width > 0 ? (b - x[0]) / width : 1;
-    Range piece = between(y[0] + from * (y[1] - y[0]), y[0] + to * (y[1] - y[0]));
-    *range = (Range){fmin(range->low, piece.low), fmax(range->high, piece.high)};
-}
-
 // Range of the lines through points that do not vary, level before the first point and behind the
 // last.
 static Range points_range(Range x, const Range *point, int32_t count)
@@ -466,9 +456,16 @@ static Range points_range(Range x, const Range *point, int32_t count)
         const double place[2] = {k > 0 ? before->low : -INFINITY, k < count ? next->low : INFINITY};
         const double value[2] = {before[1].low, next[1].low};
         if (!(place[0] <= place[1])) return ANYTHING;
-        if (k > 0 && k < count)
-            widen(&range, place, value, x);
-        else if (x.low <= place[1] && x.high >= place[0])
+        if (k > 0 && k < count) {
+            // From a to b on a line through two points, which may be a jump.
+            double a = fmax(x.low, place[0]), b = fmin(x.high, place[1]);
+            double width = place[1] - place[0], rise = value[1] - value[0];
+            if (a > b) continue;
+            double from = width > 0 ? (a - place[0]) / width : 0;
+            double to = width > 0 ? (b - place[0]) / width : 1;
+            Range piece = between(value[0] + from * rise, value[0] + to * rise);
+            range = (Range){fmin(range.low, piece.low), fmax(range.high, piece.high)};
+        } else if (x.low <= place[1] && x.high >= place[0])
             range = (Range){fmin(range.low, value[0]), fmax(range.high, value[0])};
     }
     return range;

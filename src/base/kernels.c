@@ -25,13 +25,6 @@ static const struct {
     {"Excavator", LEVEL_AVX2}, {"Haswell", LEVEL_AVX2},   {"Zen", LEVEL_AVX2},
 };
 
-static KernelLevel level_of(const char *name)
-{
-    for (size_t k = 0; k < sizeof known / sizeof known[0]; k++)
-        if (strcasecmp(name, known[k].name) == 0) return known[k].level;
-    return LEVEL_AVX512;
-}
-
 // Level that processor and system allow. On other processors OpenBLAS's choice stays.
 #ifdef __x86_64__
 static KernelLevel level_of_processor(void)
@@ -57,6 +50,8 @@ const char *kernels_name(void)
 
 const char *kernels_possible(void)
 {
-    KernelLevel level = level_of_processor();
-    return level_of(kernels_name()) < level ? best_of[level] : kernels_name();
+    KernelLevel level = level_of_processor(), taken = LEVEL_AVX512;
+    for (size_t k = 0; k < sizeof known / sizeof known[0]; k++)
+        if (strcasecmp(kernels_name(), known[k].name) == 0) taken = known[k].level;
+    return taken < level ? best_of[level] : kernels_name();
 }

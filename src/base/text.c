@@ -102,19 +102,15 @@ int32_t text_number(const char *text, double *value)
     return (int32_t)(end - text);
 }
 
-// Digits behind the point down to `place`, a power of ten's exponent; one at least is not 0.
-static int decimals_to(double place, double value)
-{
-    double first = value != 0 ? floor(log10(fabs(value))) : 0;
-    double last = isfinite(place) ? fmin(place, first) : first - (value != 0);
-    return (int)fmin(fmax(-last, 0), DECIMALS_MAX);
-}
-
 void text_estimate(double value, double bar, double known_to, char text[ESTIMATE_SIZE])
 {
+    // Digits behind the point down to `place`, a power of ten's exponent; one at least is not 0.
     bool has_bar = isfinite(bar);
     double place = has_bar ? floor(log10(bar / ROUNDS_UP)) - 1 : floor(log10(known_to));
-    int decimals = decimals_to(place, value);
+    double first = value != 0 ? floor(log10(fabs(value))) : 0;
+    double last = isfinite(place) ? fmin(place, first) : first - (value != 0);
+    int decimals = (int)fmin(fmax(-last, 0), DECIMALS_MAX);
+
     if (isnan(value))
         snprintf(text, ESTIMATE_SIZE, "none");
     else if (!has_bar && known_to == 0)

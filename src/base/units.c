@@ -68,30 +68,26 @@ static const Unit *find_base(const char *word, size_t length)
     return NULL;
 }
 
-// "mPa": the whole word first, so that "m" is a metre and "Pa" no peta-a.
-static const Unit *read_word(const char *word, size_t length, int32_t *ten)
-{
-    const Unit *base = find_base(word, length);
-    *ten = 0;
-    for (int32_t k = 0; !base && k < PREFIX_COUNT; k++) {
-        size_t size = strlen(prefixes[k].name);
-        if (length <= size || strncmp(word, prefixes[k].name, size) != 0) continue;
-        base = find_base(word + size, length - size);
-        *ten = prefixes[k].ten;
-    }
-    if (base) *ten += base->ten;
-    return base;
-}
-
 // One word with its power, as in "m^3", "m3" or "s-1"; *text moves behind it.
 static bool read_factor(const char **text, int32_t sign, Unit *product)
 {
     size_t length = 0;
     while (isalpha((unsigned char)(*text)[length]) || (unsigned char)(*text)[length] >= 0x80)
         length++;
+
+    // "mPa": the whole word first, so that "m" is a metre and "Pa" no peta-a.
     int32_t ten = 0;
-    const Unit *base = length ? read_word(*text, length, &ten) : NULL;
-    if (!base) return false;
+    const Unit *base = find_base(*text, length);
+    for (int32_t k = 0; !base && k < PREFIX_COUNT; k++) {
+        size_t size = strlen(prefixes[k].name);
+        if (length <= size || strncmp(*text, prefixes[k].name, size) != 0) continue;
+        base = find_base(*text + size, length - size);
+        ten = prefixes[k].ten;
+    }
+    if (length == 0 || !base) return false;
+    ten += base->ten;
+
+    // The power.
     *text += length;
     if (**text == '^') (*text)++;
     long power = 1;
@@ -112,29 +108,22 @@ static const char *const PRINTED[][2] = {
     {"\xC2\xB9", "1"},     {"\xC2\xB2", "2"}, {"\xC2\xB3", "3"},    {"\xE2\x81\xBB", "-"},
     {"\xE2\x88\x92", "-"}, {"\xC2\xB7", " "}, {"\xE2\x8B\x85", " "}};
 
-// `text` with letters of the keyboard in their place; false: it is longer than any unit.
-static bool type_unit(const char *text, char typed[UNIT_SIZE])
-{
-    size_t length = 0, count = sizeof PRINTED / sizeof *PRINTED;
-    while (*text) {
-        size_t k = 0;
-        while (k < count && strncmp(text, PRINTED[k][0], strlen(PRINTED[k][0])) != 0) k++;
-        if (length + 1 == UNIT_SIZE) return false;
-        typed[length++] = k < count ? *PRINTED[k][1] : *text;
-        text += k < count ? strlen(PRINTED[k][0]) : 1;
-    }
-    typed[length] = 0;
-    return true;
-}
-
 // All of `printed` is a unit.
 static bool read_unit(const char *printed, Unit *product)
 {
     int32_t sign = 1;
-    char typed[UNIT_SIZE];
+    char typed[UNIT_SIZE];   // with letters of the keyboard in the place of PRINTED
     const char *text = typed;
+    size_t length = 0, count = sizeof PRINTED / sizeof *PRINTED;
     *product = (Unit){0};
-    if (!type_unit(printed, typed)) return false;
+    while (*printed) {
+        size_t k = 0;
+        while (k < count && strncmp(printed, PRINTED[k][0], strlen(PRINTED[k][0])) != 0) k++;
+        if (length + 1 == UNIT_SIZE) return false;   // longer than any unit
+        typed[length++] = k < count ? *PRINTED[k][1] : *printed;
+        printed += k < count ? strlen(PRINTED[k][0]) : 1;
+    }
+    typed[length] = 0;
     product->ten = strcmp(text, "%") == 0 ? -2 : 0;   // numbers: "mu (-)", "mu/1", "mu (%)"
     if (strcmp(text, "-") == 0 || strcmp(text, "1") == 0 || strcmp(text, "%") == 0) return true;
     if (strncmp(text, "1/", 2) == 0) {   // 1/s

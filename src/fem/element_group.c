@@ -36,40 +36,6 @@ static int32_t corners_of(const Mesh *mesh, int32_t e)
     return element_node_count(mesh->kind[e]) == corners ? corners : 0;
 }
 
-// Both sides of the edges between two elements of one region that may be grouped; their number.
-// sides: [4 * elements].
-static int32_t list_sides(const Mesh *mesh, const uint8_t *is_mean, Side *sides)
-{
-    int32_t count = 0, kept = 0;
-    for (int32_t e = 0; e < mesh->element_count; e++) {
-        bool plane = element_dim((ElementKind)mesh->kind[e]) == 2;
-        int32_t corners = plane && is_mean[mesh_region(mesh, e)] ? corners_of(mesh, e) : 0;
-        const int32_t *node = mesh->element_nodes + mesh->first_node[e];
-        for (int32_t a = 0; a < corners; a++) {
-            int32_t one = node[a], two = node[(a + 1) % corners];
-            double square = 0;
-            for (int32_t d = 0; d < mesh->dim; d++) {
-                double way = mesh_place(mesh, two)[d] - mesh_place(mesh, one)[d];
-                square += way * way;
-            }
-            sides[count++] = (Side){one < two ? one : two, one < two ? two : one, square, e, -1};
-        }
-    }
-    qsort(sides, (size_t)count, sizeof *sides, by_edge);
-    for (int32_t k = 0; k + 1 < count; k++) {
-        Side *one = &sides[k], *two = &sides[k + 1];
-        if (one->low != two->low || one->high != two->high ||
-            mesh_region(mesh, one->element) != mesh_region(mesh, two->element))
-            continue;
-        one->other = two->element;
-        two->other = one->element;
-    }
-    for (int32_t k = 0; k < count; k++)
-        if (sides[k].other >= 0) sides[kept++] = sides[k];
-    qsort(sides, (size_t)kept, sizeof *sides, by_length);
-    return kept;
-}
-
 static bool is_alone(const Mesh *mesh, int32_t e)
 {
     return mesh->kind[e] == ELEMENT_T3 && mesh->mean_next[e] == e;
@@ -92,7 +58,7 @@ static void join(Mesh *mesh, int32_t one, int32_t other)
 
 bool element_groups_find(const uint8_t *is_mean, Mesh *mesh, Error *err)
 {
-    int32_t elements = mesh->element_count, marked = 0, count, *best = NULL;
+    int32_t elements = mesh->element_count, marked = 0, listed = 0, count = 0, *best = NULL;
     Side *sides = NULL;
     for (int32_t e = 0; e < elements; e++)
         marked += is_mean[mesh_region(mesh, e)] && corners_of(mesh, e) > 0;
@@ -102,7 +68,36 @@ bool element_groups_find(const uint8_t *is_mean, Mesh *mesh, Error *err)
     if (!mesh->mean_next || !sides) goto cleanup;
     for (int32_t e = 0; e < elements; e++)
         mesh->mean_next[e] = is_mean[mesh_region(mesh, e)] && corners_of(mesh, e) > 0 ? e : -1;
-    count = list_sides(mesh, is_mean, sides);
+
+    // Both sides of the edges between two elements of one region that may be grouped.
+    for (int32_t e = 0; e < elements; e++) {
+        bool plane = element_dim((ElementKind)mesh->kind[e]) == 2;
+        int32_t corners = plane && mesh->mean_next[e] >= 0 ? corners_of(mesh, e) : 0;
+        const int32_t *node = mesh->element_nodes + mesh->first_node[e];
+        for (int32_t a = 0; a < corners; a++) {
+            int32_t one = node[a], two = node[(a + 1) % corners];
+            double square = 0;
+            for (int32_t d = 0; d < mesh->dim; d++) {
+                double way = mesh_place(mesh, two)[d] - mesh_place(mesh, one)[d];
+                square += way * way;
+            }
+            sides[listed++] = (Side){one < two ? one : two, one < two ? two : one, square, e, -1};
+        }
+    }
+    qsort(sides, (size_t)listed, sizeof *sides, by_edge);
+    for (int32_t k = 0; k + 1 < listed; k++) {
+        Side *one = &sides[k], *two = &sides[k + 1];
+        if (one->low != two->low || one->high != two->high ||
+            mesh_region(mesh, one->element) != mesh_region(mesh, two->element))
+            continue;
+        one->other = two->element;
+        two->other = one->element;
+    }
+    for (int32_t k = 0; k < listed; k++)
+        if (sides[k].other >= 0) sides[count++] = sides[k];
+    qsort(sides, (size_t)count, sizeof *sides, by_length);
+
+    // Triangles are joined in pairs, over the longest edges first.
     for (int32_t k = 0; k < count; k++)
         if (is_alone(mesh, sides[k].element) && is_alone(mesh, sides[k].other))
             join(mesh, sides[k].element, sides[k].other);

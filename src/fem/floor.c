@@ -208,19 +208,6 @@ static void set_points(const Shadow *corner, int32_t count, int32_t dim, PiecePo
     }
 }
 
-static int32_t first_floor_face(const Mortar *mortar, double low)
-{
-    int32_t from = 0, to = mortar->floor_count;
-    while (from < to) {
-        int32_t middle = from + (to - from) / 2;
-        if (mortar->floor[middle].low[0] < low)
-            from = middle + 1;
-        else
-            to = middle;
-    }
-    return from;
-}
-
 // Adds the rows of one face of the contact.
 static bool add_face(Mortar *mortar, const char *pad, FaceNodes face, const char *floor, Error *err)
 {
@@ -230,8 +217,19 @@ static bool add_face(Mortar *mortar, const char *pad, FaceNodes face, const char
     Shadow corner[POLYGON_MAX];
     PiecePoints points;
     mortar->pair_count = 0;
-    for (int32_t k = first_floor_face(mortar, own.low[0] - mortar->widest);
-         k < mortar->floor_count && mortar->floor[k].low[0] < own.high[0]; k++) {
+
+    // Faces of the floor are sorted by where they begin: the first that may reach the own one.
+    int32_t first = 0, behind = mortar->floor_count;
+    while (first < behind) {
+        int32_t middle = first + (behind - first) / 2;
+        if (mortar->floor[middle].low[0] < own.low[0] - mortar->widest)
+            first = middle + 1;
+        else
+            behind = middle;
+    }
+
+    // Integrals over what both have of the contact.
+    for (int32_t k = first; k < mortar->floor_count && mortar->floor[k].low[0] < own.high[0]; k++) {
         const ShadowFace *under = &mortar->floor[k];
         if (dim == 2 && (under->high[1] <= own.low[1] || under->low[1] >= own.high[1])) continue;
         int32_t corners = overlap(&own, under, dim, corner);
@@ -319,37 +317,6 @@ static int compare_shadows(const void *a, const void *b)
     return (one->face.node[0] > other->face.node[0]) - (one->face.node[0] < other->face.node[0]);
 }
 
-// Sums entries of one place, over the total of their row; leaves out rows without weight and shares
-// of rounding.
-static bool fill_rows(Mortar *mortar, Floor *floor, Error *err)
-{
-    int32_t nodes = mortar->mesh->node_count, count = mortar->entry_count, filled = 0, k = 0;
-    const FloorEntry *entry = mortar->entries;
-    double largest = 0;
-    TRY((floor->start = NEW_ARRAY(int32_t, (int64_t)nodes + 1, err)));
-    TRY((floor->node = NEW_ARRAY(int32_t, count, err)));
-    TRY((floor->share = NEW_ARRAY(double, count, err)));
-    if (count > 0) qsort(mortar->entries, (size_t)count, sizeof *entry, compare_entries);
-    for (int32_t i = 0; i < nodes; i++) largest = fmax(largest, mortar->total[i]);
-    floor->matches = true;
-    for (int32_t i = 0; i < nodes; i++) {
-        bool weightless = mortar->total[i] < SHARE_ROUNDING * largest;
-        while (k < count && entry[k].contact == i) {
-            int32_t node = entry[k].node;
-            double share = 0;
-            for (; k < count && entry[k].contact == i && entry[k].node == node; k++)
-                share += entry[k].value / mortar->total[i];
-            if (weightless || fabs(share) < SHARE_ROUNDING) continue;
-            floor->node[filled] = node;
-            floor->share[filled++] = fabs(share - 1) < SHARE_ROUNDING ? 1 : share;
-        }
-        floor->start[i + 1] = filled;
-        floor->matches = floor->matches && filled <= floor->start[i] + 1;
-    }
-cleanup:
-    return error_is_clean(err);
-}
-
 bool floor_find(const char (*names)[GROUP_NAME_SIZE], int32_t name_count, const char *floor,
                 Mesh *mesh, Error *err)
 {
@@ -380,7 +347,33 @@ bool floor_find(const char (*names)[GROUP_NAME_SIZE], int32_t name_count, const 
         for (int32_t k = 0; k < contact.pads[c].face_count; k++)
             TRY(add_face(&mortar, contact.pads[c].name, mesh_boundary_face(&contact.pads[c], k),
                          floor, err));
-    TRY(fill_rows(&mortar, &mesh->floor, err));
+
+    // Entries of one place are summed, over the total of their row; rows without weight and shares
+    // of rounding are left out.
+    Floor *rows = &mesh->floor;
+    int32_t count = mortar.entry_count, filled = 0, at = 0;
+    const FloorEntry *entry = mortar.entries;
+    double largest = 0;
+    TRY((rows->start = NEW_ARRAY(int32_t, (int64_t)mesh->node_count + 1, err)));
+    TRY((rows->node = NEW_ARRAY(int32_t, count, err)));
+    TRY((rows->share = NEW_ARRAY(double, count, err)));
+    if (count > 0) qsort(mortar.entries, (size_t)count, sizeof *entry, compare_entries);
+    for (int32_t i = 0; i < mesh->node_count; i++) largest = fmax(largest, mortar.total[i]);
+    rows->matches = true;
+    for (int32_t i = 0; i < mesh->node_count; i++) {
+        bool weightless = mortar.total[i] < SHARE_ROUNDING * largest;
+        while (at < count && entry[at].contact == i) {
+            int32_t node = entry[at].node;
+            double share = 0;
+            for (; at < count && entry[at].contact == i && entry[at].node == node; at++)
+                share += entry[at].value / mortar.total[i];
+            if (weightless || fabs(share) < SHARE_ROUNDING) continue;
+            rows->node[filled] = node;
+            rows->share[filled++] = fabs(share - 1) < SHARE_ROUNDING ? 1 : share;
+        }
+        rows->start[i + 1] = filled;
+        rows->matches = rows->matches && filled <= rows->start[i] + 1;
+    }
 
     // The block stands on the base, nowhere in it.
     int32_t lowest = -1;

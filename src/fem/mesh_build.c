@@ -77,29 +77,6 @@ static void add_probe(ElementKind kind, const double *point, ProbePoints *probes
     probes->shape[kind][probes->count[kind]++] = shape_at(kind, point);
 }
 
-// Evaluated once a mesh. At nodes, because a corner's angle may exceed 180 degrees while
-// determinants at the quadrature points are positive; at quadrature points, because integrals are
-// taken there; in hexahedra and wedges of first order, whose determinant is of second order,
-// between the corners too: a twisted one turns inside out in the middle.
-static void set_probes(ProbePoints *probes)
-{
-    for (ElementKind kind = 0; kind < ELEMENT_KIND_COUNT; kind++) {
-        if (element_dim(kind) < 2) continue;   // a face
-        Quadrature rule = shape_quadrature(kind);
-        for (int32_t a = 0; a < element_node_count(kind); a++)
-            add_probe(kind, shape_node(kind, a), probes);
-        for (int32_t q = 0; q < rule.count; q++) add_probe(kind, rule.point[q], probes);
-    }
-    for (int32_t a = element_node_count(ELEMENT_HEX8); a < element_node_count(ELEMENT_HEX27); a++)
-        add_probe(ELEMENT_HEX8, shape_node(ELEMENT_HEX27, a), probes);
-    for (int32_t a = 0; a < element_node_count(ELEMENT_T6); a++)
-        for (int32_t level = -1; level <= 1; level++) {
-            const double *seen_from_above = shape_node(ELEMENT_T6, a);
-            MeshPlace point = {seen_from_above[0], seen_from_above[1], level};
-            add_probe(ELEMENT_WEDGE6, point, probes);
-        }
-}
-
 // Smallest and largest determinant of element e over its probes, over the scale; its centre.
 static void determinant_range(const Mesh *mesh, const ProbePoints *probes, int32_t e,
                               double range[2], MeshPlace centre)
@@ -130,35 +107,53 @@ static void determinant_range(const Mesh *mesh, const ProbePoints *probes, int32
     for (int32_t k = 0; k < 2; k++) range[k] = scale > 0 ? range[k] / scale : 0;
 }
 
-// Where node a of a kind goes when the first two axes of its reference element are exchanged.
-static int32_t exchanged_node(ElementKind kind, int32_t a)
-{
-    const double *at = shape_node(kind, a);
-    for (int32_t b = 0; b < element_node_count(kind); b++) {
-        const double *other = shape_node(kind, b);
-        if (other[0] == at[1] && other[1] == at[0] && other[2] == at[2]) return b;
-    }
-    return a;
-}
-
 // An element whose determinant is negative throughout runs the other way round, as those of a
 // reversed surface do: it is turned. One whose determinant is 0 or changes its sign is an error.
 static bool orient_elements(Mesh *mesh, Error *err)
 {
     ProbePoints *probes = NEW_ARRAY(ProbePoints, 1, err);
     if (!probes) goto cleanup;
-    set_probes(probes);
+
+    // Probes, evaluated once a mesh. At nodes, because a corner's angle may exceed 180 degrees
+    // while determinants at the quadrature points are positive; at quadrature points, because
+    // integrals are taken there; in hexahedra and wedges of first order, whose determinant is of
+    // second order, between the corners too: a twisted one turns inside out in the middle.
+    for (ElementKind kind = 0; kind < ELEMENT_KIND_COUNT; kind++) {
+        if (element_dim(kind) < 2) continue;   // a face
+        Quadrature rule = shape_quadrature(kind);
+        for (int32_t a = 0; a < element_node_count(kind); a++)
+            add_probe(kind, shape_node(kind, a), probes);
+        for (int32_t q = 0; q < rule.count; q++) add_probe(kind, rule.point[q], probes);
+    }
+    for (int32_t a = element_node_count(ELEMENT_HEX8); a < element_node_count(ELEMENT_HEX27); a++)
+        add_probe(ELEMENT_HEX8, shape_node(ELEMENT_HEX27, a), probes);
+    for (int32_t a = 0; a < element_node_count(ELEMENT_T6); a++)
+        for (int32_t level = -1; level <= 1; level++) {
+            const double *seen_from_above = shape_node(ELEMENT_T6, a);
+            MeshPlace point = {seen_from_above[0], seen_from_above[1], level};
+            add_probe(ELEMENT_WEDGE6, point, probes);
+        }
+
+    // Elements.
     for (int32_t e = 0; e < mesh->element_count; e++) {
         double range[2];
         MeshPlace centre;
         determinant_range(mesh, probes, e, range, centre);
         if (range[1] < -AREA_TOLERANCE) {
             // Exchanges nodes so that the element runs the other way round, from the same first
-            // corner.
+            // corner: the first two axes of its reference element are exchanged.
+            ElementKind kind = mesh->kind[e];
             int32_t *nodes = mesh->element_nodes + mesh->first_node[e];
-            int32_t old[ELEMENT_NODES_MAX], count = element_node_count(mesh->kind[e]);
+            int32_t old[ELEMENT_NODES_MAX], count = element_node_count(kind);
             memcpy(old, nodes, (size_t)count * sizeof *nodes);
-            for (int32_t a = 0; a < count; a++) nodes[a] = old[exchanged_node(mesh->kind[e], a)];
+            for (int32_t a = 0; a < count; a++) {
+                const double *at = shape_node(kind, a);
+                for (int32_t b = 0; b < count; b++) {
+                    const double *other = shape_node(kind, b);
+                    if (other[0] == at[1] && other[1] == at[0] && other[2] == at[2])
+                        nodes[a] = old[b];
+                }
+            }
             continue;
         }
         if (range[0] > AREA_TOLERANCE) continue;
@@ -235,33 +230,12 @@ cleanup:
 
 // --- building -----------------------------------------------------------------------------------
 
-// The base: every part that has nodes of the boundary called `floor`, where one part is left that
-// has none. Else nothing is marked.
-static bool mark_base(const MeshParts *parts, const char *floor, Mesh *mesh, Error *err)
-{
-    int32_t left = parts->count;
-    uint8_t *in_base = NEW_ARRAY(uint8_t, parts->count, err);
-    if (!in_base) return false;
-    for (int32_t g = 0; g < mesh->group_count; g++) {
-        const MeshGroup *group = &mesh->groups[g];
-        if (group->dimension != mesh->dim - 1 || strcmp(group->name, floor) != 0) continue;
-        for (int32_t k = 0; k < group->node_count; k++) {
-            int32_t part = parts->part[group->nodes[k]];
-            if (!in_base[part]) left--;
-            in_base[part] = 1;
-        }
-    }
-    if (left == 1 && (mesh->is_base = NEW_ARRAY(uint8_t, mesh->node_count, err)))
-        for (int32_t i = 0; i < mesh->node_count; i++) mesh->is_base[i] = in_base[parts->part[i]];
-    memory_free(in_base);
-    return error_is_clean(err);
-}
-
 // Each check may rely on those before it.
 bool mesh_build_parts(MeshFile *file, const char *path, const char *floor, Mesh *mesh,
                       MeshParts *parts, Error *err)
 {
     MeshFaces faces = {0};
+    uint8_t *in_base = NULL;   // [parts] 1 for those of the base; owned
     *parts = (MeshParts){0};
 
     // The arrays move; `file` is empty afterwards, so destroying both is always right.
@@ -296,12 +270,33 @@ bool mesh_build_parts(MeshFile *file, const char *path, const char *floor, Mesh 
     TRY(mesh_faces_build(mesh, &faces, err));
     TRY(check_boundaries(mesh, &faces, err));
     TRY(mesh_parts_find(mesh, parts, err));
-    if (floor && parts->count > 1) TRY(mark_base(parts, floor, mesh, err));
-    if (mesh->is_base) mesh_find_extent(mesh);
+
+    // The base: every part that has nodes of the boundary called `floor`, where one part is left
+    // that has none. Else nothing is marked.
+    if (floor && parts->count > 1) {
+        int32_t left = parts->count;
+        TRY(in_base = NEW_ARRAY(uint8_t, parts->count, err));
+        for (int32_t g = 0; g < mesh->group_count; g++) {
+            const MeshGroup *group = &mesh->groups[g];
+            if (group->dimension != mesh->dim - 1 || strcmp(group->name, floor) != 0) continue;
+            for (int32_t k = 0; k < group->node_count; k++) {
+                int32_t part = parts->part[group->nodes[k]];
+                if (!in_base[part]) left--;
+                in_base[part] = 1;
+            }
+        }
+        if (left == 1) {
+            TRY(mesh->is_base = NEW_ARRAY(uint8_t, mesh->node_count, err));
+            for (int32_t i = 0; i < mesh->node_count; i++)
+                mesh->is_base[i] = in_base[parts->part[i]];
+            mesh_find_extent(mesh);
+        }
+    }
     if (parts->count == 1 || mesh->is_base) TRY(mesh_check_inside(mesh, &faces, err));
     for (int32_t g = 0; g < mesh->group_count; g++)
         mesh_sort_nodes(mesh, mesh->groups[g].nodes, mesh->groups[g].node_count);
 cleanup:
+    memory_free(in_base);
     mesh_faces_destroy(&faces);
     return error_is_clean(err);
 }

@@ -188,30 +188,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Merges the nodes of the pads; a shared one keeps the first.
-static bool merge_nodes(const Mesh *mesh, MeshContact *contact, Error *err)
-{
-    int32_t *owner = NULL;   // by mesh node: 1 + pad
-    int32_t total = 0;
-    for (int32_t c = 0; c < contact->pad_count; c++) total += contact->pads[c].node_count;
-    if (!(owner = NEW_ARRAY(int32_t, mesh->node_count, err))) goto cleanup;
-    if (!(contact->nodes = NEW_ARRAY(int32_t, total, err))) goto cleanup;
-    if (!(contact->pad_of = NEW_ARRAY(int32_t, total, err))) goto cleanup;
-    for (int32_t c = 0; c < contact->pad_count; c++)
-        for (int32_t k = 0; k < contact->pads[c].node_count; k++) {
-            int32_t i = contact->pads[c].nodes[k];
-            if (owner[i]) continue;
-            owner[i] = c + 1;
-            contact->nodes[contact->node_count++] = i;
-        }
-    mesh_sort_nodes(mesh, contact->nodes, contact->node_count);
-    for (int32_t k = 0; k < contact->node_count; k++)
-        contact->pad_of[k] = owner[contact->nodes[k]] - 1;
-cleanup:
-    memory_free(owner);
-    return error_is_clean(err);
-}
-
 // The block does not reach below the substrate, and comes down to it. No two contact nodes are over
 // one place: the sides of a crack, parts of a mesh that were not joined, or a boundary that goes
 // straight up.
@@ -289,11 +265,35 @@ cleanup:
     return error_is_clean(err);
 }
 
-// In the plane: a curve that turns back has nodes of another stretch between those of an edge.
-static bool check_order(const Mesh *mesh, const MeshContact *contact, Error *err)
+// Places first: the order relies on them.
+bool mesh_contact(const Mesh *mesh, const char (*names)[GROUP_NAME_SIZE], int32_t name_count,
+                  MeshContact *contact, Error *err)
 {
-    int32_t *place = NEW_ARRAY(int32_t, mesh->node_count, err);
-    if (!place) goto cleanup;
+    int32_t *owner = NULL, *place = NULL, total = 0;   // [nodes] 1 + pad; place in contact->nodes
+    *contact = (MeshContact){0};
+    TRY(pick_pads(mesh, names, name_count, contact, err));
+    TRY(check_boundary(mesh, contact, err));
+
+    // The nodes of all pads; a shared one keeps the first.
+    for (int32_t c = 0; c < contact->pad_count; c++) total += contact->pads[c].node_count;
+    TRY(owner = NEW_ARRAY(int32_t, mesh->node_count, err));
+    TRY(contact->nodes = NEW_ARRAY(int32_t, total, err));
+    TRY(contact->pad_of = NEW_ARRAY(int32_t, total, err));
+    for (int32_t c = 0; c < contact->pad_count; c++)
+        for (int32_t k = 0; k < contact->pads[c].node_count; k++) {
+            int32_t i = contact->pads[c].nodes[k];
+            if (owner[i]) continue;
+            owner[i] = c + 1;
+            contact->nodes[contact->node_count++] = i;
+        }
+    mesh_sort_nodes(mesh, contact->nodes, contact->node_count);
+    for (int32_t k = 0; k < contact->node_count; k++)
+        contact->pad_of[k] = owner[contact->nodes[k]] - 1;
+    TRY(check_places(mesh, contact, err));
+    if (mesh->dim > 2) goto cleanup;
+
+    // In the plane: a curve that turns back has nodes of another stretch between those of an edge.
+    TRY(place = NEW_ARRAY(int32_t, mesh->node_count, err));
     for (int32_t k = 0; k < contact->node_count; k++) place[contact->nodes[k]] = k;
     for (int32_t c = 0; c < contact->pad_count; c++) {
         const MeshBoundary *curve = &contact->pads[c];
@@ -306,19 +306,6 @@ static bool check_order(const Mesh *mesh, const MeshContact *contact, Error *err
         }
     }
 cleanup:
-    memory_free(place);
+    memory_free_all(owner, place);
     return error_is_clean(err);
-}
-
-// Places first: the order relies on them.
-bool mesh_contact(const Mesh *mesh, const char (*names)[GROUP_NAME_SIZE], int32_t name_count,
-                  MeshContact *contact, Error *err)
-{
-    *contact = (MeshContact){0};
-    if (!pick_pads(mesh, names, name_count, contact, err)) return false;
-    if (!check_boundary(mesh, contact, err)) return false;
-    if (!merge_nodes(mesh, contact, err)) return false;
-    if (!check_places(mesh, contact, err)) return false;
-    if (mesh->dim == 2 && !check_order(mesh, contact, err)) return false;
-    return true;
 }

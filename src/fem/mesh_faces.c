@@ -71,33 +71,6 @@ static const char *describe(const Mesh *mesh, const FaceKey *key, char text[PLAC
     return text;
 }
 
-// Two elements on either side of a face have its corners in opposite order, as each sees them from
-// its outside. ERROR_INPUT: in the same order, so that both lie on one side of it; in another.
-static bool faces_fit(const Mesh *mesh, const MeshFace *one, const MeshFace *two, Error *err)
-{
-    int32_t first_nodes[FACE_NODES_MAX], second_nodes[FACE_NODES_MAX], begin = 0;
-    char what[PLACE_TEXT_SIZE + 8];
-    FaceNodes first = mesh_element_face(mesh, one->element, one->side, first_nodes);
-    FaceNodes second = mesh_element_face(mesh, two->element, two->side, second_nodes);
-    int32_t corners = element_corner_count(first.kind);
-    bool opposite = true, same = true;
-    while (second.node[begin] != first.node[0]) begin++;   // it has the same corners
-    for (int32_t k = 0; k < corners; k++) {
-        opposite = opposite && second.node[(begin + corners - k) % corners] == first.node[k];
-        same = same && second.node[(begin + k) % corners] == first.node[k];
-    }
-    if (mesh->dim == 2) opposite = second.node[0] == first.node[1];
-    if (opposite) return true;
-    return REFUSE(err, "%s: elements %lld and %lld %s the %s: %s", mesh->path,
-                  (long long)mesh->element_number[one->element],
-                  (long long)mesh->element_number[two->element],
-                  same || mesh->dim == 2 ? "lie on one side of" : "do not fit together on",
-                  describe(mesh, &one->key, what),
-                  same || mesh->dim == 2 ? "the mesh is folded over there"
-                                         : "they have its corners in different order, so one of "
-                                           "them is twisted");
-}
-
 // Puts a face (elements = 1) into its bucket, or counts one more element on it. ERROR_INPUT: the
 // mesh does not fit together there.
 static bool add_face(const Mesh *mesh, const MeshFace *face, MeshFaces *table, Error *err)
@@ -116,13 +89,34 @@ static bool add_face(const Mesh *mesh, const MeshFace *face, MeshFaces *table, E
                       (long long)mesh->element_number[face->element],
                       describe(mesh, &face->key, what));
     known->elements++;
-    if (known->elements == 2 && !faces_fit(mesh, known, face, err)) return false;
     if (known->elements > 2)
         return REFUSE(err,
                       "%s: the %s is on more than two elements (%lld among them): elements overlap",
                       mesh->path, describe(mesh, &face->key, what),
                       (long long)mesh->element_number[face->element]);
-    return error_is_clean(err);
+
+    // Two elements on either side of a face have its corners in opposite order, as each sees them
+    // from its outside. In the same order both lie on one side of it.
+    int32_t first_nodes[FACE_NODES_MAX], second_nodes[FACE_NODES_MAX], begin = 0;
+    FaceNodes first = mesh_element_face(mesh, known->element, known->side, first_nodes);
+    FaceNodes second = mesh_element_face(mesh, face->element, face->side, second_nodes);
+    int32_t corners = element_corner_count(first.kind);
+    bool opposite = true, same = true;
+    while (second.node[begin] != first.node[0]) begin++;   // it has the same corners
+    for (int32_t k = 0; k < corners; k++) {
+        opposite = opposite && second.node[(begin + corners - k) % corners] == first.node[k];
+        same = same && second.node[(begin + k) % corners] == first.node[k];
+    }
+    if (mesh->dim == 2) opposite = second.node[0] == first.node[1];
+    if (opposite) return true;
+    return REFUSE(err, "%s: elements %lld and %lld %s the %s: %s", mesh->path,
+                  (long long)mesh->element_number[known->element],
+                  (long long)mesh->element_number[face->element],
+                  same || mesh->dim == 2 ? "lie on one side of" : "do not fit together on",
+                  describe(mesh, &known->key, what),
+                  same || mesh->dim == 2 ? "the mesh is folded over there"
+                                         : "they have its corners in different order, so one of "
+                                           "them is twisted");
 }
 
 // A first pass counts a face once for each element on it: at most twice the room that is needed.

@@ -27,58 +27,6 @@ static int compare_points(const void *a, const void *b)
     return (first->element > second->element) - (first->element < second->element);
 }
 
-// A point just outside of the middle of a face.
-static ProbePoint point_before(const Mesh *mesh, const MeshFace *face)
-{
-    static const double triangle[] = {1. / 3, 1. / 3}, square[] = {0, 0};
-    int32_t nodes[FACE_NODES_MAX];
-    MeshPlace position[FACE_NODES_MAX], normal;
-    ProbePoint point = {.element = face->element};
-    FaceNodes seen = mesh_element_face(mesh, face->element, face->side, nodes);
-    int32_t count = element_node_count(seen.kind);
-    double area = 0;
-    mesh_places(mesh, nodes, count, position);
-    ShapeValues shape =
-        shape_at(seen.kind, element_corner_count(seen.kind) == 3 ? triangle : square);
-    shape_normal(seen.kind, &shape, (const MeshPlace *)position, normal);
-    for (int32_t d = 0; d < mesh->dim; d++) area = hypot(area, normal[d]);
-    double size = mesh->dim == 2 ? area : sqrt(area);
-    double outwards = mesh->dim == 2 ? -1 : 1;   // the normal of a line is to its left
-    for (int32_t d = 0; d < mesh->dim; d++) {
-        for (int32_t a = 0; a < count; a++) point.on_face[d] += shape.value[a] * position[a][d];
-        point.place[d] = point.on_face[d] + outwards * OUTSIDE * size * normal[d] / area;
-    }
-    return point;
-}
-
-// A point that lies in element e of the same body, NULL: none does.
-static const ProbePoint *point_inside(const Mesh *mesh, int32_t e, const ProbePoint *points,
-                                      int32_t count)
-{
-    MeshPlace low, high;
-    int32_t from = 0, to = count;   // becomes the first point with x >= low
-    mesh_element_box(mesh, e, low, high);
-    while (from < to) {
-        int32_t middle = from + (to - from) / 2;
-        if (points[middle].place[0] < low[0])
-            from = middle + 1;
-        else
-            to = middle;
-    }
-    for (int32_t k = from; k < count; k++) {
-        const ProbePoint *point = &points[k];
-        if (point->place[0] > high[0]) break;
-        if (point->element == e) continue;
-        if (mesh_element_in_base(mesh, point->element) != mesh_element_in_base(mesh, e)) continue;
-        bool in_box = true;
-        for (int32_t d = 1; d < mesh->dim; d++)
-            in_box = in_box && point->place[d] >= low[d] && point->place[d] <= high[d];
-        MeshPlace at;
-        if (in_box && mesh_element_holds(mesh, e, point->place, at)) return point;
-    }
-    return NULL;
-}
-
 bool mesh_check_inside(const Mesh *mesh, const MeshFaces *faces, Error *err)
 {
     int32_t count = 0, room = 0;
@@ -88,13 +36,56 @@ bool mesh_check_inside(const Mesh *mesh, const MeshFaces *faces, Error *err)
         for (int32_t k = faces->first[i]; k < faces->last[i]; k++)
             room += faces->faces[k].elements == 1;
     if (!(points = NEW_ARRAY(ProbePoint, room, err))) return false;
+
+    // A point just outside of the middle of each face that is on one element.
     for (int32_t i = 0; i < mesh->node_count; i++)
-        for (int32_t k = faces->first[i]; k < faces->last[i]; k++)
-            if (faces->faces[k].elements == 1)
-                points[count++] = point_before(mesh, &faces->faces[k]);
+        for (int32_t k = faces->first[i]; k < faces->last[i]; k++) {
+            static const double triangle[] = {1. / 3, 1. / 3}, square[] = {0, 0};
+            const MeshFace *face = &faces->faces[k];
+            int32_t nodes[FACE_NODES_MAX];
+            MeshPlace position[FACE_NODES_MAX], normal;
+            if (face->elements != 1) continue;
+            FaceNodes seen = mesh_element_face(mesh, face->element, face->side, nodes);
+            int32_t corners = element_corner_count(seen.kind);
+            int32_t face_nodes = element_node_count(seen.kind);
+            mesh_places(mesh, nodes, face_nodes, position);
+            ShapeValues shape = shape_at(seen.kind, corners == 3 ? triangle : square);
+            shape_normal(seen.kind, &shape, (const MeshPlace *)position, normal);
+            double area = 0;
+            for (int32_t d = 0; d < mesh->dim; d++) area = hypot(area, normal[d]);
+            double size = mesh->dim == 2 ? area : sqrt(area);
+            double outwards = mesh->dim == 2 ? -1 : 1;   // the normal of a line is to its left
+            ProbePoint *point = &points[count++];
+            point->element = face->element;
+            for (int32_t d = 0; d < mesh->dim; d++) {
+                for (int32_t a = 0; a < face_nodes; a++)
+                    point->on_face[d] += shape.value[a] * position[a][d];
+                point->place[d] = point->on_face[d] + outwards * OUTSIDE * size * normal[d] / area;
+            }
+        }
     qsort(points, (size_t)count, sizeof *points, compare_points);
+
+    // Whether one of them lies in another element of the same body.
     for (int32_t e = 0; e < mesh->element_count; e++) {
-        const ProbePoint *found = point_inside(mesh, e, points, count);
+        const ProbePoint *found = NULL;
+        MeshPlace low, high, inside;
+        int32_t from = 0, to = count;   // becomes the first point with x >= low
+        mesh_element_box(mesh, e, low, high);
+        while (from < to) {
+            int32_t middle = from + (to - from) / 2;
+            if (points[middle].place[0] < low[0])
+                from = middle + 1;
+            else
+                to = middle;
+        }
+        for (int32_t k = from; !found && k < count && !(points[k].place[0] > high[0]); k++) {
+            const ProbePoint *point = &points[k];
+            bool in_box = point->element != e && mesh_element_in_base(mesh, point->element) ==
+                                                     mesh_element_in_base(mesh, e);
+            for (int32_t d = 1; d < mesh->dim; d++)
+                in_box = in_box && point->place[d] >= low[d] && point->place[d] <= high[d];
+            if (in_box && mesh_element_holds(mesh, e, point->place, inside)) found = point;
+        }
         if (!found) continue;
         FAIL(
             err, ERROR_INPUT,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Which element a place lies in, and where in it. Used by fem/mesh_inside and model/probe_places.
+// Which element a place lies in, and where in it. Used by fem/mesh_inside and model/obtain.
 #ifndef AMONTONS_FEM_MESH_LOCATE_H
 #define AMONTONS_FEM_MESH_LOCATE_H
 

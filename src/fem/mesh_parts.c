@@ -89,22 +89,19 @@ const char *mesh_part_text(const Mesh *mesh, const MeshParts *parts, int32_t par
     return text;
 }
 
-// Names that a scene gives the boundaries of a block where it says nothing else.
-static bool is_of_block(const char *name)
-{
-    return strncmp(name, "contact", strlen("contact")) == 0 || strcmp(name, "top") == 0 ||
-           strcmp(name, "rod") == 0;
-}
-
 const char *mesh_parts_advice(const Mesh *mesh, const MeshParts *parts, char text[PART_TEXT_SIZE])
 {
     int32_t best = 0, most = -1;
     char regions[PART_TEXT_SIZE / 2] = "";
     for (int32_t part = 0; part < parts->count; part++) {
         int32_t known = 0;
-        for (int32_t g = 0; g < mesh->group_count; g++)
-            known += is_of_block(mesh->groups[g].name) &&
-                     group_has(mesh, &mesh->groups[g], parts, part);
+        for (int32_t g = 0; g < mesh->group_count; g++) {
+            // Names that a scene gives the boundaries of a block where it says nothing else.
+            const char *name = mesh->groups[g].name;
+            bool of_block = strncmp(name, "contact", strlen("contact")) == 0 ||
+                            strcmp(name, "top") == 0 || strcmp(name, "rod") == 0;
+            known += of_block && group_has(mesh, &mesh->groups[g], parts, part);
+        }
         if (known <= most) continue;
         most = known;
         best = part;

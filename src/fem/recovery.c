@@ -67,57 +67,24 @@ static int32_t place_in_row(NodalStress *stress, int32_t point, int32_t node)
     return k;
 }
 
-// To the row of the point at element `e`'s node `at`: `share` of the slopes d/dx, d/dz of its shape
-// functions there. What other elements said of a node is added to.
-static void add_to_row(const Mesh *mesh, int32_t e, int32_t at, double share, NodalStress *stress)
+// Kept over a run and filled anew at each time that is written.
+bool nodal_stress_create(const Mesh *mesh, NodalStress *stress, Error *err)
 {
-    const int32_t *element = mesh->element_nodes + mesh->first_node[e];
-    int32_t nodes = mesh->first_node[e + 1] - mesh->first_node[e];
-    int32_t point = nodal_stress_points(stress, mesh, e)[at];
-    MeshPlace position[ELEMENT_NODES_MAX];
-    double b[STRAINS_MAX][ELEMENT_DOFS_MAX];
-    mesh_places(mesh, element, nodes, position);
-    element_strain_matrix(mesh->kind[e], (const MeshPlace *)position, shape_node(mesh->kind[e], at),
-                          b);
-    for (int32_t a = 0; a < nodes; a++) {
-        int32_t k = place_in_row(stress, point, element[a]);
-        for (int32_t d = 0; d < mesh->dim; d++)
-            stress->slope[k][d] += share * b[d][node_dof(mesh->dim, a, d)];
-    }
-
-    if (mesh->mean_next && mesh->mean_next[e] >= 0) {
-        // And of what the mean areal strain of the element's group is above that of its own slopes.
-        double mean[ELEMENT_DOFS_MAX];
-        ElementGroup group;
-        element_group_of(mesh, e, &group);
-        element_group_areal(mesh, &group, mean);
-        for (int32_t a = 0; a < group.node_count; a++)
-            for (int32_t d = 0; d < mesh->dim; d++)
-                stress->areal[place_in_row(stress, point, group.node[a])][d] +=
-                    share * mean[node_dof(mesh->dim, a, d)];
-        for (int32_t a = 0; a < nodes; a++)
-            for (int32_t d = 0; d < mesh->dim; d++)
-                stress->areal[place_in_row(stress, point, element[a])][d] -=
-                    share * b[d][node_dof(mesh->dim, a, d)];
-    }
-}
-
-// A row has room for all nodes of its point's elements.
-static bool prepare_rows(const Mesh *mesh, NodalStress *stress, Error *err)
-{
-    int32_t points = stress->point_count, room = 0;
+    int32_t *shares = NULL, room = 0;   // shares: [points] elements around each
+    *stress = (NodalStress){.dim = mesh->dim, .point_count = mesh->node_count};
+    if (mesh->region) TRY(split_nodes(mesh, stress, err));
+    int32_t points = stress->point_count;
     const int32_t *point = nodal_stress_points(stress, mesh, 0);
-    int32_t *shares = NEW_ARRAY(int32_t, points, err);
-    stress->row = NEW_ARRAY(int32_t, points, err);
-    stress->row_length = NEW_ARRAY(int32_t, points, err);
-    if (!error_is_clean(err)) goto cleanup;
+    TRY(shares = NEW_ARRAY(int32_t, points, err));
+    TRY(stress->row = NEW_ARRAY(int32_t, points, err));
+    TRY(stress->row_length = NEW_ARRAY(int32_t, points, err));
+
+    // A row has room for all nodes of its point's elements, or of their groups.
     for (int32_t e = 0; e < mesh->element_count; e++)
         for (int32_t a = mesh->first_node[e]; a < mesh->first_node[e + 1]; a++) {
-            // How many nodes element e brings to a row: its own, or those of its group.
             ElementGroup group;
             element_group_of(mesh, e, &group);
             stress->row[point[a]] += group.node_count;
-
             shares[point[a]]++;
         }
     for (int32_t k = 0; k < points; k++) {
@@ -127,24 +94,48 @@ static bool prepare_rows(const Mesh *mesh, NodalStress *stress, Error *err)
     TRY(stress->column = NEW_ARRAY(int32_t, room, err));
     TRY(stress->slope = memory_array(room, sizeof *stress->slope, err));
     if (mesh->mean_next) TRY(stress->areal = memory_array(room, sizeof *stress->areal, err));
+
+    // To the row of the point at each node of an element: its share of the slopes d/dx, d/dz of the
+    // element's shape functions there. What other elements said of a node is added to.
     for (int32_t e = 0; e < mesh->element_count; e++)
-        for (int32_t a = mesh->first_node[e]; a < mesh->first_node[e + 1]; a++)
-            add_to_row(mesh, e, a - mesh->first_node[e], 1.0 / shares[point[a]], stress);
+        for (int32_t a = mesh->first_node[e]; a < mesh->first_node[e + 1]; a++) {
+            const int32_t *element = mesh->element_nodes + mesh->first_node[e];
+            int32_t at = a - mesh->first_node[e];
+            int32_t nodes = mesh->first_node[e + 1] - mesh->first_node[e];
+            double share = 1.0 / shares[point[a]], b[STRAINS_MAX][ELEMENT_DOFS_MAX];
+            MeshPlace position[ELEMENT_NODES_MAX];
+            mesh_places(mesh, element, nodes, position);
+            element_strain_matrix(mesh->kind[e], (const MeshPlace *)position,
+                                  shape_node(mesh->kind[e], at), b);
+            for (int32_t n = 0; n < nodes; n++) {
+                int32_t k = place_in_row(stress, point[a], element[n]);
+                for (int32_t d = 0; d < mesh->dim; d++)
+                    stress->slope[k][d] += share * b[d][node_dof(mesh->dim, n, d)];
+            }
+            if (!mesh->mean_next || mesh->mean_next[e] < 0) continue;
+
+            // And of what the mean areal strain of the element's group is above that of its own
+            // slopes.
+            double mean[ELEMENT_DOFS_MAX];
+            ElementGroup group;
+            element_group_of(mesh, e, &group);
+            element_group_areal(mesh, &group, mean);
+            for (int32_t n = 0; n < group.node_count; n++)
+                for (int32_t d = 0; d < mesh->dim; d++)
+                    stress->areal[place_in_row(stress, point[a], group.node[n])][d] +=
+                        share * mean[node_dof(mesh->dim, n, d)];
+            for (int32_t n = 0; n < nodes; n++)
+                for (int32_t d = 0; d < mesh->dim; d++)
+                    stress->areal[place_in_row(stress, point[a], element[n])][d] -=
+                        share * b[d][node_dof(mesh->dim, n, d)];
+        }
+
+    // The stresses.
+    stress->elastic = NEW_ARRAY(double, strain_count(mesh->dim) * (int64_t)points, err);
+    stress->total = NEW_ARRAY(double, strain_count(mesh->dim) * (int64_t)points, err);
+    stress->von_mises = NEW_ARRAY(double, points, err);
 cleanup:
     memory_free(shares);
-    return error_is_clean(err);
-}
-
-// Kept over a run and filled anew at each time that is written.
-bool nodal_stress_create(const Mesh *mesh, NodalStress *stress, Error *err)
-{
-    *stress = (NodalStress){.dim = mesh->dim, .point_count = mesh->node_count};
-    if (mesh->region && !split_nodes(mesh, stress, err)) return false;
-    if (!prepare_rows(mesh, stress, err)) return false;
-    int64_t count = stress->point_count;
-    stress->elastic = NEW_ARRAY(double, strain_count(mesh->dim) * count, err);
-    stress->total = NEW_ARRAY(double, strain_count(mesh->dim) * count, err);
-    stress->von_mises = NEW_ARRAY(double, count, err);
     return error_is_clean(err);
 }
 

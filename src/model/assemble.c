@@ -13,40 +13,7 @@
 #include <math.h>
 #include <stdio.h>
 
-// A material in space is neither in plane stress nor in plane strain: lambda is that of plane
-// strain. ERROR_INPUT: it keeps its volume.
-static bool take_to_space(Model *model, Error *err)
-{
-    Materials *materials = &model->materials;
-    bool possible = true;
-    for (int32_t k = 0; k < materials->count; k++) {
-        materials->list[k].plane_strain = true;
-        possible = possible && materials->list[k].poisson < 0.5;
-    }
-    materials->mean.plane_strain = true;
-    if (!possible)
-        error_set(err, ERROR_INPUT, __FILE__, __LINE__,
-                  "a mesh in space needs Poisson's ratios below 0.5");
-    return scene_blame(model->scene, "material.poisson", possible, err);
-}
-
-static bool blame_across(const Scene *scene, const char *key, Error *err)
-{
-    error_set(err, ERROR_INPUT, __FILE__, __LINE__, "the mesh is in the plane: there is no y");
-    return scene_blame(scene, key, false, err);
-}
-
-static bool refuse_across(const Scene *scene, Error *err)
-{
-    if (scene->rod.breadth > 0) return blame_across(scene, "rod.breadth", err);
-    for (int32_t k = 0; k < scene->load.traction_count; k++)
-        if (scene->load.tractions[k].y != 0) return blame_across(scene, "load.tractions", err);
-    for (int32_t k = 0; k < scene->load.support_count; k++)
-        if (scene->load.supports[k].y) return blame_across(scene, "load.supports", err);
-    return true;
-}
-
-// Where gmsh has to make it, the slowest part of a small run (76 ms to load).
+// Where gmsh has to make it, the slowest part of a small run.
 bool model_read_mesh(const ChildWatch *watch, Model *model, Error *err)
 {
     const Scene *scene = model->scene;
@@ -60,7 +27,32 @@ bool model_read_mesh(const ChildWatch *watch, Model *model, Error *err)
     model->middle = 0.5 * (mesh->x_min + mesh->x_max);
     model->height = mesh->z_max - mesh->z_min;
     if (mesh->dim > 2) model->breadth = mesh->y_max - mesh->y_min;
-    TRY(mesh->dim > 2 ? take_to_space(model, err) : refuse_across(scene, err));
+
+    const char *wrong = NULL;   // the key of what the mesh's dimension does not allow
+    if (mesh->dim > 2) {
+        // A material in space is neither in plane stress nor in plane strain: lambda is that of
+        // plane strain, which a material that keeps its volume has none of.
+        Materials *materials = &model->materials;
+        for (int32_t k = 0; k < materials->count; k++) {
+            materials->list[k].plane_strain = true;
+            if (!(materials->list[k].poisson < 0.5)) wrong = "material.poisson";
+        }
+        materials->mean.plane_strain = true;
+    } else {
+        for (int32_t k = 0; k < scene->load.support_count; k++)
+            if (scene->load.supports[k].y) wrong = "load.supports";
+        for (int32_t k = 0; k < scene->load.traction_count; k++)
+            if (scene->load.tractions[k].y != 0) wrong = "load.tractions";
+        if (scene->rod.breadth > 0) wrong = "rod.breadth";
+    }
+    if (wrong) {
+        error_set(err, ERROR_INPUT, __FILE__, __LINE__,
+                  mesh->dim > 2 ? "a mesh in space needs Poisson's ratios below 0.5"
+                                : "the mesh is in the plane: there is no y");
+        TRY(scene_blame(scene, wrong, false, err));
+    }
+
+    // Loads and the machine's stiffness, which a scene may give as forces, are those of this mesh.
     TRY(scene_check_thickness(scene, mesh, err));
     TRY(scene_pressure(scene, mesh, &model->pressure, err));
     for (int32_t k = 0; k < scene->load.traction_count; k++)
@@ -177,31 +169,44 @@ bool model_lay_bulk(Model *model, Error *err)
     return scene_blame(scene, "materials", done, err);
 }
 
-// An unknown of a contact node over a base is its jump, which is 0 where the floor under the node
-// is held, too. Else the node is left to its neighbours, as a rod leaves it to the floor.
-static bool may_hold(const Model *model, int32_t dof)
-{
-    const Mesh *mesh = &model->mesh;
-    const Floor *floor = &mesh->floor;
-    int32_t node = dof_node(mesh->dim, dof);
-    for (int32_t k = floor_start(floor, node); k < floor_end(floor, node); k++)
-        if (!model->bulk.held[node_dof(mesh->dim, floor->node[k], dof_axis(mesh->dim, dof))])
-            return false;
-    return true;
-}
-
-// Rigid motions of the base that supports, or the rod, leave free are singular values of what they
-// hold.
-static bool check_base(const Model *model, Error *err)
+bool model_hold_supports(Model *model, Error *err)
 {
     enum { MOTIONS_MAX = DIM_MAX * (DIM_MAX + 1) / 2 };
     static const double FREE = 1e-12;   // of the largest
+    const Scene *scene = model->scene;
     const Mesh *mesh = &model->mesh;
-    const Bulk *bulk = &model->bulk;
-    int32_t dim = mesh->dim, motions = rigid_count(dim);
+    Bulk *bulk = &model->bulk;
+    int32_t dim = mesh->dim;
+
+    // The base first: an unknown of a contact node over a base is its jump, which is 0 where the
+    // floor under the node is held, too. Else the node is left to its neighbours, as a rod leaves
+    // it to the floor.
+    for (int32_t pass = 0; pass < 2; pass++)
+        for (int32_t k = 0; k < scene->load.support_count; k++) {
+            const SceneSupport *support = &scene->load.supports[k];
+            MeshBoundary boundary;
+            bool found = mesh_boundary(mesh, support->group, &boundary, err);
+            if (!scene_blame(scene, "load.supports", found, err)) return false;
+            const bool along[] = {support->x, dim > 2 ? support->y : support->z, support->z};
+            for (int32_t i = 0; i < boundary.node_count; i++) {
+                int32_t node = boundary.nodes[i], end = floor_end(&mesh->floor, node);
+                if (mesh_in_base(mesh, node) != (pass == 0)) continue;
+                for (int32_t d = 0; d < dim; d++) {
+                    bool floor_holds = true;
+                    for (int32_t l = floor_start(&mesh->floor, node); l < end; l++)
+                        floor_holds = floor_holds &&
+                                      bulk->held[node_dof(dim, mesh->floor.node[l], d)];
+                    if (along[d] && floor_holds) bulk_hold(node_dof(dim, node, d), bulk);
+                }
+            }
+        }
+    if (!mesh->is_base) return true;
+
+    // Rigid motions of the base that supports, or the rod, leave free are singular values of what
+    // they hold.
+    int32_t motions = rigid_count(dim);
     double gram[MOTIONS_MAX * MOTIONS_MAX] = {0}, values[MOTIONS_MAX];
     double work[DENSE_EIGEN_WORK(MOTIONS_MAX)], motion[MOTIONS_MAX];
-    if (!mesh->is_base) return true;
     for (int32_t dof = 0; dof < bulk->dof_count; dof++) {
         int32_t node = dof_node(dim, dof);
         bool held = bulk->held[dof];
@@ -220,29 +225,5 @@ static bool check_base(const Model *model, Error *err)
     return REFUSE(err,
                   "%s: the base can move freely: hold it, as by `load: {supports: [{group: bottom, "
                   "x: true, %sz: true}]}`",
-                  model->scene->path, dim > 2 ? "y: true, " : "");
-}
-
-// The base first: whether the block may be held at the contact goes by it.
-bool model_hold_supports(Model *model, Error *err)
-{
-    const Scene *scene = model->scene;
-    const Mesh *mesh = &model->mesh;
-    for (int32_t pass = 0; pass < 2; pass++)
-        for (int32_t k = 0; k < scene->load.support_count; k++) {
-            const SceneSupport *support = &scene->load.supports[k];
-            MeshBoundary boundary;
-            bool found = mesh_boundary(mesh, support->group, &boundary, err);
-            if (!scene_blame(scene, "load.supports", found, err)) return false;
-            const bool along[] = {support->x, mesh->dim > 2 ? support->y : support->z, support->z};
-            for (int32_t i = 0; i < boundary.node_count; i++) {
-                int32_t node = boundary.nodes[i];
-                if (mesh_in_base(mesh, node) != (pass == 0)) continue;
-                for (int32_t d = 0; d < mesh->dim; d++) {
-                    int32_t dof = node_dof(mesh->dim, node, d);
-                    if (along[d] && may_hold(model, dof)) bulk_hold(dof, &model->bulk);
-                }
-            }
-        }
-    return check_base(model, err);
+                  scene->path, dim > 2 ? "y: true, " : "");
 }

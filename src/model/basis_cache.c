@@ -32,30 +32,6 @@ static void archive_images(Transform *by, int32_t count, int32_t whole, Archive 
     }
 }
 
-static void archive_part(ReducedPart *part, int32_t border, Archive *archive)
-{
-    ReductionErrors *errors = &part->errors;
-    archive_length(archive, &part->full_dofs);
-    archive_length(archive, &part->border_count);
-    archive_length(archive, &part->interior_count);
-    part->count = part->border_count + part->interior_count;
-    int64_t m = part->border_count, all = part->count;
-    archive_require(archive, all > 0);
-    archive_index(archive, &errors->count, 0, REDUCTION_LEVELS_MAX + 1);
-    archive_numbers(archive, errors->inertia, errors->count);
-    archive_numbers(archive, errors->error, errors->count);
-    archive_lend_numbers(archive, &part->load, all);
-    archive_lend_numbers(archive, &part->mass, m * m);
-    archive_lend_numbers(archive, &part->coupling, (all - m) * m);
-    archive_lend_numbers(archive, &part->masses, all - m);
-    archive_lend_numbers(archive, &part->damping, all * all);
-    archive_lend_numbers(archive, &part->stiffness, m * m);
-    archive_index(archive, &part->shape_count, 0, SPECTRUM_SHAPES_MAX + 1);
-    for (int32_t j = 0; j < part->shape_count; j++)
-        archive_lend_numbers(archive, &part->shape[j], all * all);
-    archive_images(&part->border, part->border_count, border, archive);
-}
-
 static void archive_basis(void *self, Archive *archive)
 {
     ReducedBulk *reduced = self;
@@ -72,7 +48,26 @@ static void archive_basis(void *self, Archive *archive)
     archive_require(archive, left >= 0);
     for (int p = 0; p < reduced->part_count; p++) {
         ReducedPart *part = &reduced->part[p];
-        archive_part(part, m + n, archive);
+        ReductionErrors *errors = &part->errors;
+        archive_length(archive, &part->full_dofs);
+        archive_length(archive, &part->border_count);
+        archive_length(archive, &part->interior_count);
+        part->count = part->border_count + part->interior_count;
+        int64_t own = part->border_count, all = part->count;
+        archive_require(archive, all > 0);
+        archive_index(archive, &errors->count, 0, REDUCTION_LEVELS_MAX + 1);
+        archive_numbers(archive, errors->inertia, errors->count);
+        archive_numbers(archive, errors->error, errors->count);
+        archive_lend_numbers(archive, &part->load, all);
+        archive_lend_numbers(archive, &part->mass, own * own);
+        archive_lend_numbers(archive, &part->coupling, (all - own) * own);
+        archive_lend_numbers(archive, &part->masses, all - own);
+        archive_lend_numbers(archive, &part->damping, all * all);
+        archive_lend_numbers(archive, &part->stiffness, own * own);
+        archive_index(archive, &part->shape_count, 0, SPECTRUM_SHAPES_MAX + 1);
+        for (int32_t j = 0; j < part->shape_count; j++)
+            archive_lend_numbers(archive, &part->shape[j], all * all);
+        archive_images(&part->border, part->border_count, m + n, archive);
         border -= part->border_count;
         left -= part->interior_count;
         dofs += part->full_dofs;

@@ -7,23 +7,6 @@
 
 #include <math.h>
 
-static bool add_formula(const char *text, Interface *interface, Error *err)
-{
-    Formula formula;
-    double ignored;
-    for (int32_t i = 0; i < interface->contact_count; i++) {
-        if ((i == 0 || interface->y) &&
-            !place_formula_read(text, interface->y ? &interface->y[i] : NULL, &formula, err))
-            return false;
-        double gap = formula_at(&formula, interface->x[i], &ignored);
-        if (!(gap >= 0 && isfinite(gap)))
-            return REFUSE(err, "at x = %g the gap is %g; a number >= 0 is needed", interface->x[i],
-                          gap);
-        interface->gap[i] += gap;
-    }
-    return true;
-}
-
 // Measured no farther than the contact nodes reach: what lies beyond is not guessed.
 static bool reaches_over(const char *path, const char *axis, const double measured[2],
                          const double contact[2], Error *err)
@@ -72,6 +55,7 @@ bool model_lay_gaps(Model *model, Error *err)
 {
     const Scene *scene = model->scene;
     Interface *interface = &model->interface;
+    Formula formula;
     double radius = scene->contact.radius;
     bool profile = *scene->contact.profile;
     if (!(radius > 0) && !*scene->contact.gap && !profile) return true;
@@ -86,9 +70,18 @@ bool model_lay_gaps(Model *model, Error *err)
         }
     }
 
-    if (*scene->contact.gap &&
-        !scene_blame(scene, "contact.gap", add_formula(scene->contact.gap, interface, err), err))
-        return false;
+    // The formula, in the plane of x alone: it is read once.
+    for (int32_t i = 0; *scene->contact.gap && i < interface->contact_count; i++) {
+        const double *y = interface->y ? &interface->y[i] : NULL;
+        double ignored, gap = 0;
+        bool done = (i > 0 && !y) || place_formula_read(scene->contact.gap, y, &formula, err);
+        if (done) gap = formula_at(&formula, interface->x[i], &ignored);
+        if (done && !(gap >= 0 && isfinite(gap)))
+            done = REFUSE(err, "at x = %g the gap is %g; a number >= 0 is needed", interface->x[i],
+                          gap);
+        if (!scene_blame(scene, "contact.gap", done, err)) return false;
+        interface->gap[i] += gap;
+    }
     return !profile ||
            scene_blame(scene, "contact.profile", add_profile(scene, interface, err), err);
 }

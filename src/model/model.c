@@ -26,13 +26,6 @@ _Static_assert(MATERIALS_MAX == SCENE_MATERIALS_MAX + 1, "a material for each re
 // material, touch the floor and no other material does.
 static const double FLOOR_PART = 0.9;
 
-static bool is_alike(const Material *a, const Material *b)
-{
-    return a->young == b->young && a->poisson == b->poisson && a->density == b->density &&
-           a->eta1 == b->eta1 && a->eta2 == b->eta2 && a->branch_count == b->branch_count &&
-           memcmp(a->branch, b->branch, (size_t)a->branch_count * sizeof *a->branch) == 0;
-}
-
 // Branches, and the modulus as that of the long-time response. A scene that leaves none was refused
 // (scene/check).
 static void set_branches(const Scene *scene, const SceneMaterial *region, Material *material)
@@ -49,19 +42,19 @@ static void set_branches(const Scene *scene, const SceneMaterial *region, Materi
     material_relax(material);
 }
 
-// 0 its `material`, then its regions in their order; areas are not known yet. A scene of one
-// material, however it is written, is stepped as one.
-static Materials scene_materials(const Scene *scene)
+Model model_of(const Scene *scene)
 {
+    // The scene's `material`, then its regions in their order; areas are not known yet.
     bool alike = true;
     Materials made = {.count = 1 + scene->materials.count};
-    made.list[0] = (Material){.young = scene->material.young,
-                              .poisson = scene->material.poisson,
-                              .density = scene->material.density,
-                              .eta1 = scene->material.eta1,
-                              .eta2 = scene->material.eta2,
-                              .plane_strain = scene->material.plane == PLANE_STRAIN};
-    set_branches(scene, NULL, &made.list[0]);
+    Material *first = &made.list[0];
+    *first = (Material){.young = scene->material.young,
+                        .poisson = scene->material.poisson,
+                        .density = scene->material.density,
+                        .eta1 = scene->material.eta1,
+                        .eta2 = scene->material.eta2,
+                        .plane_strain = scene->material.plane == PLANE_STRAIN};
+    set_branches(scene, NULL, first);
     for (int32_t i = 0; i < scene->materials.count; i++) {
         const SceneMaterial *region = &scene->materials.region[i];
         Material *one = &made.list[i + 1];
@@ -70,19 +63,20 @@ static Materials scene_materials(const Scene *scene)
                           .density = scene_material_number(scene, region, MATERIAL_DENSITY),
                           .eta1 = scene_material_number(scene, region, MATERIAL_ETA1),
                           .eta2 = scene_material_number(scene, region, MATERIAL_ETA2),
-                          .plane_strain = made.list[0].plane_strain};
+                          .plane_strain = first->plane_strain};
         set_branches(scene, region, one);
-        alike = alike && is_alike(one, &made.list[0]);
+        alike = alike && one->young == first->young && one->poisson == first->poisson &&
+                one->density == first->density && one->eta1 == first->eta1 &&
+                one->eta2 == first->eta2 && one->branch_count == first->branch_count &&
+                memcmp(one->branch, first->branch,
+                       (size_t)one->branch_count * sizeof *one->branch) == 0;
     }
+
+    // A scene of one material, however it is written, is stepped as one.
     if (alike) made.count = 1;
     made.mean = made.list[0];
-    return made;
-}
-
-Model model_of(const Scene *scene)
-{
     return (Model){.scene = scene,
-                   .materials = scene_materials(scene),
+                   .materials = made,
                    .friction = friction_everywhere(friction_node(&scene->friction, 1)),
                    .breadth = 1};
 }
@@ -109,23 +103,20 @@ double model_slip_per_mu(const Model *model)
     return friction_slip(&one, pressure, model->height, model->materials.mean.young);
 }
 
-// Mean height of the layer or the pads that the block stands on, where these have a material of
-// their own; else 0, as where they stand beside others.
-static double floor_height(const Model *model)
-{
-    const Materials *materials = &model->materials;
-    double touching = 0, width = materials->width[model->contact_region];
-    if (materials->count == 1 || !(width > 0)) return 0;
-    for (int32_t i = 0; i < model->interface.contact_count; i++)
-        touching += model->interface.weight[i];
-    return width < FLOOR_PART * touching ? 0 : materials->area[model->contact_region] / width;
-}
-
 double model_crossing(const Model *model)
 {
-    const Material *floor = &model->materials.list[model->contact_region];
-    return fmax(model->length / materials_slip_speed(&model->materials),
-                floor_height(model) / material_slip_speed(floor));
+    const Materials *materials = &model->materials;
+    const Material *layer = &materials->list[model->contact_region];
+
+    // Mean height of the layer or the pads that the block stands on, where these have a material of
+    // their own; else 0, as where they stand beside others.
+    double touching = 0, height = 0, width = materials->width[model->contact_region];
+    for (int32_t i = 0; i < model->interface.contact_count; i++)
+        touching += model->interface.weight[i];
+    if (materials->count > 1 && width > 0 && !(width < FLOOR_PART * touching))
+        height = materials->area[model->contact_region] / width;
+    return fmax(model->length / materials_slip_speed(materials),
+                height / material_slip_speed(layer));
 }
 
 double model_settling_time(const Model *model)
@@ -159,22 +150,22 @@ static RodGround ground_of(const Model *model, int32_t region)
     return (RodGround){half_plane(material_elastic(face)), half_plane(material_viscous(face))};
 }
 
-// Where materials meet within what the strip's end covers: as their pieces yield one after the
-// other, so that the force changes without a jump as the strip is moved over the joint.
-static RodGround rod_ground(const Model *model, const RodEnd *end)
-{
-    RodGround below = ground_of(model, end->region[0]), above = ground_of(model, end->region[1]);
-    double part = end->below;
-    if (end->region[0] == end->region[1]) return below;
-    double viscous = part / below.viscosity + (1 - part) / above.viscosity;
-    return (RodGround){.modulus = 1 / (part / below.modulus + (1 - part) / above.modulus),
-                       .viscosity = isfinite(viscous) ? 1 / viscous : 0};
-}
-
 bool model_build_rod(const Model *model, RodKind kind, Rod *rod, Error *err)
 {
     RodGround ground[2];
-    for (int k = 0; k < 2; k++) ground[k] = rod_ground(model, &model->rod_end[k]);
+    for (int k = 0; k < 2; k++) {
+        // Where materials meet within what the strip's end covers: as their pieces yield one after
+        // the other, so that the force changes without a jump as the strip is moved over the joint.
+        const RodEnd *end = &model->rod_end[k];
+        RodGround below = ground_of(model, end->region[0]);
+        RodGround above = ground_of(model, end->region[1]);
+        double part = end->below;
+        ground[k] = below;
+        if (end->region[0] == end->region[1]) continue;
+        double viscous = part / below.viscosity + (1 - part) / above.viscosity;
+        ground[k].modulus = 1 / (part / below.modulus + (1 - part) / above.modulus);
+        ground[k].viscosity = isfinite(viscous) ? 1 / viscous : 0;
+    }
     if (!rod_build(&model->interface, kind, 0, rod, err)) return false;
     rod->stiffness = model_machine(model).stiffness;
     rod_soften(&model->interface, ground, rod);

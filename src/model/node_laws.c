@@ -44,42 +44,27 @@ static bool take_mean(Part part, bool plane, const char *text, double *factor, E
     return true;
 }
 
-// Number of the item of the piece of contact on which node i lies, else of its group; -1: none.
-static int32_t item_of(const Model *model, int32_t i)
-{
-    const SceneContactLaws *laws = &model->scene->contact_laws;
-    const char *name = model->interface.pad_name[model->interface.pad[i]];
-    for (int32_t k = 0; k < laws->count; k++)
-        if (strcmp(laws->item[k].group, name) == 0) return k;
-    for (int32_t k = 0; k < laws->count; k++)
-        if (mesh_piece_is_of(name, laws->item[k].group)) return k;
-    return -1;
-}
-
-static bool check_groups(const Model *model, Error *err)
-{
-    const SceneContactLaws *laws = &model->scene->contact_laws;
-    const Interface *interface = &model->interface;
-    for (int32_t k = 0; k < laws->count; k++) {
-        bool found = false;
-        for (int32_t p = 0; p < interface->pad_count; p++)
-            found = found || mesh_piece_is_of(interface->pad_name[p], laws->item[k].group);
-        if (!found)
-            return REFUSE(err, "`%s` is no contact group; the first is `%s`, of %d",
-                          laws->item[k].group, interface->pad_name[0], interface->pad_count);
-    }
-    return true;
-}
-
 // Makes the laws: the scene's, and behind it that of item k at law_of[k]. Nodes of one law point to
 // one entry, so that both sides of a contact can be compared (stepping/half_step).
 static bool make_laws(Model *model, int32_t law_of[SCENE_CONTACT_LAWS_MAX], Error *err)
 {
     const Scene *scene = model->scene;
     const SceneContactLaws *items = &scene->contact_laws;
+    const Interface *interface = &model->interface;
     int32_t count = 1;
     const char *word = "law";
     char key[40];
+
+    // Each item is of a group of contact that is there.
+    for (int32_t k = 0; k < items->count; k++) {
+        bool found = false;
+        for (int32_t p = 0; p < interface->pad_count; p++)
+            found = found || mesh_piece_is_of(interface->pad_name[p], items->item[k].group);
+        if (!found)
+            found = REFUSE(err, "`%s` is no contact group; the first is `%s`, of %d",
+                           items->item[k].group, interface->pad_name[0], interface->pad_count);
+        if (!scene_blame(scene, "friction.contacts", found, err)) return false;
+    }
     model->laws = NEW_ARRAY(FrictionLaw, items->count + 1, err);
     if (!model->laws) return false;
     bool made = scene_law_at(scene, model->pressure, &model->laws[0], &word, err);
@@ -113,7 +98,6 @@ bool model_lay_laws(Model *model, Error *err)
     Part part = {0};
     bool alike = scene->contact_laws.count == 0 && !*scene->friction_keys.along;
     if (alike && !scene->friction.remembers) return true;
-    if (!scene_blame(scene, "friction.contacts", check_groups(model, err), err)) return false;
     if (!make_laws(model, law_of, err)) return false;
     model->friction_nodes = NEW_ARRAY(FrictionNode, count, err);
     if (!model->friction_nodes) return false;
@@ -125,7 +109,16 @@ bool model_lay_laws(Model *model, Error *err)
         all.y[1] = fmax(all.y[1], interface->y[i]);
     }
     for (int32_t i = 0; i < count; i++) {
-        int32_t k = item_of(model, i);
+        // The number of the item of the piece of contact on which the node lies, else of its group;
+        // -1: none.
+        const SceneContactLaws *laws = &scene->contact_laws;
+        const char *pad = interface->pad_name[interface->pad[i]];
+        int32_t k = -1;
+        for (int32_t l = 0; l < laws->count && k < 0; l++)
+            if (strcmp(laws->item[l].group, pad) == 0) k = l;
+        for (int32_t l = 0; l < laws->count && k < 0; l++)
+            if (mesh_piece_is_of(pad, laws->item[l].group)) k = l;
+
         double factor = 1, x = interface->x[i], weight = interface->weight[i];
         if (plane) {
             // The part that node i stands for, behind that of the node before it: as long as its
@@ -147,7 +140,7 @@ bool model_lay_laws(Model *model, Error *err)
         }
         bool done = take_mean(part, plane, scene->friction_keys.along, &factor, err);
         if (!scene_blame(scene, "friction.along", done, err)) return false;
-        done = k < 0 || take_mean(part, plane, scene->contact_laws.item[k].along, &factor, err);
+        done = k < 0 || take_mean(part, plane, laws->item[k].along, &factor, err);
         if (!scene_blame(scene, "friction.contacts", done, err)) return false;
         model->friction_nodes[i] = friction_node(&model->laws[k < 0 ? 0 : law_of[k]], factor);
     }

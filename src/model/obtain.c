@@ -8,6 +8,7 @@
 #include "base/system.h"
 #include "contact/contact_half.h"
 #include "fem/floor.h"
+#include "fem/mesh_locate.h"
 #include "reduction/mirror.h"
 #include "reduction/symmetry_reduction.h"
 #include "reduction/reduction_block.h"
@@ -15,10 +16,8 @@
 #include "model/assemble.h"
 #include "model/basis_cache.h"
 #include "model/node_laws.h"
-#include "model/extremes.h"
 #include "model/gaps.h"
 #include "model/memory.h"
-#include "model/probe_places.h"
 #include "model/scene_mesh.h"
 #include "scene/materials.h"
 #include "scene/programs.h"
@@ -35,18 +34,6 @@ static const double REDUCTION_TOLERANCES[] = {
 static bool wants_modes(const Scene *scene)
 {
     return scene->output.fields || scene->output.whole_block || scene->output.probes.count > 0;
-}
-
-// E, eta, rho L^2 (in space times L) and the size of the load: what the reduced matrices are
-// normalised with.
-static BulkScales bulk_scales(const Model *model, double load)
-{
-    const Material *material = &model->materials.mean;
-    double length = model->length, deep = model->interface.dim > 2 ? length : 1;
-    return (BulkScales){.stiffness = material->young * deep,
-                        .damping = (material->eta1 + material->eta2) * deep,
-                        .mass = material->density * length * length * deep,
-                        .load = load};
 }
 
 // As the scene says, else by the accuracy it wants.
@@ -70,6 +57,69 @@ static bool load_basis(Model *model, const ReductionBlock *block, const char *na
     *found = false;
     reduced_bulk_destroy(reduced);
     return true;
+}
+
+// Below this a quotient is nothing unusual, and what failed is not its fault.
+static const double USUAL = 1e4;
+
+typedef struct Extreme {
+    const char *key, *what;
+    double quotient;
+} Extreme;
+
+static void compare(Extreme *extreme, const char *key, const char *what, double quotient)
+{
+    if (quotient > extreme->quotient) *extreme = (Extreme){key, what, quotient};
+}
+
+// After a reduction that failed with `err`: which numbers of the scene are too far apart. Under
+// reduction.use: auto an error of computing is taken back (true), and model->not_reduced says why
+// the whole mesh is stepped: the largest quotient of the block's numbers, where one is unusual.
+// Under `always` the error names its key. Other errors, such as lack of memory, stay: bits must not
+// depend on them.
+static bool blame_extremes(Model *model, Error *err)
+{
+    // The largest quotient of numbers of the scene, by its key.
+    Extreme largest = {"reduction.use", "", USUAL};
+    const Materials *materials = &model->materials;
+    bool regions = model->scene->materials.count > 0;
+    double softest = INFINITY, stiffest = 0;
+    for (int32_t k = 0; k < materials->count; k++) {
+        const Material *one = &materials->list[k];
+        double viscosities = one->eta1 / one->eta2;
+        if (one->plane_strain)
+            compare(&largest, regions ? "materials" : "material.poisson",
+                    "stiffness of volume over that of shear in plane strain",
+                    2 * (1 - one->poisson) / (1 - 2 * one->poisson));
+        compare(&largest, regions ? "materials" : "material.eta2", "one viscosity over the other",
+                fmax(viscosities, 1 / viscosities));
+        softest = fmin(softest, one->young);
+        stiffest = fmax(stiffest, one->young);
+    }
+    double slender = model->height / model->length;
+    compare(&largest, "materials", "Young's modulus of one region over another's",
+            stiffest / softest);
+    bool given = model->scene->mesh.parameter_count > 0;
+    compare(&largest, given ? "mesh.set" : "mesh.file", "one side of the block over the other",
+            fmax(slender, 1 / slender));
+
+    if (err->code != ERROR_COMPUTE && err->code != ERROR_LIBRARY) return false;
+    if (largest.quotient > USUAL)
+        snprintf(model->not_reduced, NOT_REDUCED_SIZE,
+                 "%s is %.3g, too much for the rounding of a reduction", largest.what,
+                 largest.quotient);
+    else
+        snprintf(model->not_reduced, NOT_REDUCED_SIZE, "%.*s", NOT_REDUCED_SIZE - 1, err->message);
+    if (model->scene->reduction.use == REDUCE_AUTO) {
+        error_clear(err);
+        return true;
+    }
+    if (largest.quotient > USUAL)
+        error_context(err, "%s (reduction.use: auto steps on the whole mesh)", model->not_reduced);
+    else
+        error_context(err, "reduction.use: auto steps on the whole mesh");
+    err->code = ERROR_INPUT;
+    return scene_blame(model->scene, largest.key, false, err);
 }
 
 // The basis of `block`, built and kept in the cache under its name. Of processes that need it at
@@ -99,7 +149,7 @@ static bool build_basis(Model *model, const ReductionBlock *block, const char *n
         basis_cache_store(name, &model->reduced, model->cache_note);
     } else {
         reduced_bulk_destroy(&model->reduced);
-        TRY(model_blame_extremes(model, err));
+        TRY(blame_extremes(model, err));
     }
 cleanup:
     file_lock_release(&lock);
@@ -134,24 +184,6 @@ static bool ask_reducible(const Scene *scene, bool *reducible, Error *err)
     if (!obstacle || scene->reduction.use != REDUCE_ALWAYS) return true;
     error_set(err, ERROR_INPUT, __FILE__, __LINE__, "`always`, but %s: auto or never", obstacle);
     return scene_blame(scene, "reduction.use", false, err);
-}
-
-// A pushing rod comes from behind: on the leading face it would have to stand inside the block.
-static bool check_rod(const Model *model, Error *err)
-{
-    const Scene *scene = model->scene;
-    const Interface *interface = &model->interface;
-    double reach = 0;   // the greatest x of a rod node, from the trailing end
-    for (int32_t j = 0; j < interface->rod_count; j++)
-        reach =
-            fmax(reach, mesh_place(&model->mesh, interface->rod_node[j])[0] - model->mesh.x_min);
-    if (scene->rod.kind == ROD_PUSH && reach / model->length > 0.5)
-        return REFUSE(err,
-                      "%s: rod.kind: push, but group `%s` is on the leading half of the block, "
-                      "which a rod that moves along +x cannot push; let it pull there (rod.kind: "
-                      "bonded) or name the trailing face (groups.rod)",
-                      scene->path, scene->groups.rod);
-    return true;
 }
 
 // Part of the computer's memory from which on parts of a reduction are built one after another,
@@ -197,69 +229,99 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Fills the block that would be reduced, with its matrices where the cache does not have its basis.
-static bool make_block(Model *model, ReductionBlock *block, char name[HASH_TEXT_SIZE],
-                       int32_t *parts, Error *err)
+// Finds the probes of the scene in its mesh, places [SCENE_PROBES_MAX]. ERROR_INPUT: a probe has
+// another number of coordinates than the mesh, or lies outside of all bodies; it says which body is
+// nearest, and where.
+static bool find_probes(const Scene *scene, const Mesh *mesh, ProbePlace *places, Error *err)
 {
-    double load = model->unit_load.size * load_reference(model);
-    const Interface *interface = &model->interface;
-    if (!reduction_block_create(&model->mesh, &model->bulk, &model->materials, load, block, err))
-        return false;
+    const SceneProbes *probes = &scene->output.probes;
+    for (int32_t k = 0; k < probes->count; k++) {
+        const SceneProbe *probe = &probes->probe[k];
+        char asked[PLACE_TEXT_SIZE], nearest[PLACE_TEXT_SIZE];
+        char low[PLACE_TEXT_SIZE], high[PLACE_TEXT_SIZE];
+        double distance = 0;
+        if (probe->at.count != mesh->dim) {
+            error_set(err, ERROR_INPUT, __FILE__, __LINE__,
+                      "`%s` has `at` with %d number%s; allowed: %s, as the mesh is in %s",
+                      probe->name, probe->at.count, probe->at.count == 1 ? "" : "s",
+                      mesh->dim == 2 ? "[x, z]" : "[x, y, z]",
+                      mesh->dim == 2 ? "the plane" : "space");
+            return scene_blame(scene, "output.probes", false, err);
+        }
+        places[k].element = mesh_locate(mesh, probe->at.value, places[k].at);
+        if (places[k].element >= 0) continue;
 
-    // Its name in the cache is a hash of all that the basis depends on; empty for none.
-    Hash hash = computation_hash_bits();
-    name[0] = 0;
-    if (model->scene->reduction.cache) {
-        hash_number(&hash, reduction_tolerance(model->scene));
-        reduction_block_hash(block, &model->mesh, interface->dofs, interface->count, &hash);
-        hash_write(&hash, name);
+        // The place is outside: says what is nearest to it, and how far the block reaches.
+        int32_t node = mesh_nearest_node(mesh, probe->at.value, &distance);
+        MeshPlace from = {mesh->x_min, mesh->dim == 2 ? mesh->z_min : mesh->y_min, mesh->z_min};
+        MeshPlace to = {mesh->x_max, mesh->dim == 2 ? mesh->z_max : mesh->y_max, mesh->z_max};
+        error_set(
+            err, ERROR_INPUT, __FILE__, __LINE__,
+            "`%s` is at %s, outside of the block%s: %s at %s, %g away; the block reaches from "
+            "%s to %s",
+            probe->name, place_text(mesh->dim, probe->at.value, asked),
+            mesh->is_base ? " and its base" : "",
+            !mesh->is_base             ? "its nearest node is"
+            : mesh_in_base(mesh, node) ? "the nearest node is one of the base,"
+                                       : "the nearest node is one of the block,",
+            mesh_place_text(mesh, node, nearest), distance, place_text(mesh->dim, from, low),
+            place_text(mesh->dim, to, high));
+        return scene_blame(scene, "output.probes", false, err);
     }
-    if (!load_basis(model, block, name, err)) return false;
-    *parts = model->reduced.part_count;   // where it is from the cache
-    return model->from_cache || (reduction_block_assemble(&model->mesh, block, err) &&
-                                 mirror_count_parts(&block->bulk, block->image, interface->dofs,
-                                                    interface->count, parts, err));
+    return true;
 }
 
 // Up to where matrices are factored: mesh, loads, interface, the basis if the cache has it, and
-// whether the bulk is to be reduced.
+// whether the bulk is to be reduced. name: of the basis in the cache, if the bulk is reduced.
 static bool prepare(const StageNotice *notice, Model *model, ReductionBlock *block,
                     char name[HASH_TEXT_SIZE], Error *err)
 {
+    const Scene *scene = model->scene;
     int32_t parts = 1;
     int64_t limit;   // of the cache that is to be used
-    if (!ask_reducible(model->scene, &model->is_reduced, err)) return false;
-    if (model->scene->reduction.cache && !cache_folder_limit(&limit, err)) return false;
+    if (!ask_reducible(scene, &model->is_reduced, err)) return false;
+    if (scene->reduction.cache && !cache_folder_limit(&limit, err)) return false;
     if (notice && !notice->tell(notice->self, "meshing", err)) return false;
     ChildWatch watch = {0};
     if (notice) watch = (ChildWatch){.goes_on = notice->goes_on, .self = notice->self};
     if (!model_read_mesh(notice ? &watch : NULL, model, err) || !model_lay_bulk(model, err))
         return false;
-    if (!probe_places_find(model->scene, &model->mesh, model->probes, err)) return false;
-    if (!check_rod(model, err) || !model_hold_supports(model, err)) return false;
-    if (model->is_reduced && !make_block(model, block, name, &parts, err)) return false;
-    return check_memory(model, parts, err);
-}
+    if (!find_probes(scene, &model->mesh, model->probes, err)) return false;
 
-// Explicit steps move nodes, one by one: over a base they need matrices that know of no jumps.
-static bool assemble_nodes(Model *model, Error *err)
-{
-    Bulk *nodes = &model->bulk_of_nodes;
-    Mesh apart = model->mesh;   // borrows all
-    apart.floor = (Floor){0};
-    if (!model->mesh.is_base || model->scene->time.scheme != SCHEME_EXPLICIT) return true;
-    if (!model->mesh.floor.matches)
+    // A pushing rod comes from behind: on the leading face it would have to stand inside the block.
+    const Interface *interface = &model->interface;
+    double reach = 0;   // the greatest x of a rod node, from the trailing end
+    for (int32_t j = 0; j < interface->rod_count; j++)
+        reach =
+            fmax(reach, mesh_place(&model->mesh, interface->rod_node[j])[0] - model->mesh.x_min);
+    if (scene->rod.kind == ROD_PUSH && reach / model->length > 0.5)
         return REFUSE(err,
-                      "%s: time.scheme: explicit needs a floor whose nodes lie under those of the "
-                      "contact, each under one; implicit steps take any",
-                      model->scene->path);
-    if (!bulk_create(&apart, nodes, err)) return false;
-    size_t unknowns = (size_t)nodes->dof_count;
-    memcpy(nodes->load, model->bulk.load, unknowns * sizeof *nodes->load);
-    floor_scatter(&model->mesh, nodes->load);
-    nodes->spectrum = model->bulk.spectrum;
-    memcpy(nodes->held, model->bulk.held, unknowns * sizeof *nodes->held);
-    return bulk_assemble(&apart, model->materials.list, nodes, err);
+                      "%s: rod.kind: push, but group `%s` is on the leading half of the block, "
+                      "which a rod that moves along +x cannot push; let it pull there (rod.kind: "
+                      "bonded) or name the trailing face (groups.rod)",
+                      scene->path, scene->groups.rod);
+    if (!model_hold_supports(model, err)) return false;
+    if (!model->is_reduced) return check_memory(model, parts, err);
+
+    // The block that is reduced, with its matrices where the cache does not have its basis. Its
+    // name in the cache is a hash of all that the basis depends on; empty for none.
+    double load = model->unit_load.size * load_reference(model);
+    if (!reduction_block_create(&model->mesh, &model->bulk, &model->materials, load, block, err))
+        return false;
+    Hash hash = computation_hash_bits();
+    name[0] = 0;
+    if (scene->reduction.cache) {
+        hash_number(&hash, reduction_tolerance(scene));
+        reduction_block_hash(block, &model->mesh, interface->dofs, interface->count, &hash);
+        hash_write(&hash, name);
+    }
+    if (!load_basis(model, block, name, err)) return false;
+    parts = model->reduced.part_count;   // where it is from the cache
+    if (!model->from_cache && !(reduction_block_assemble(&model->mesh, block, err) &&
+                                mirror_count_parts(&block->bulk, block->image, interface->dofs,
+                                                   interface->count, &parts, err)))
+        return false;
+    return check_memory(model, parts, err);
 }
 
 bool model_forecast(const Scene *scene, Model *model, Error *err)
@@ -283,14 +345,20 @@ bool model_obtain(const Scene *scene, const StageNotice *notice, Model *model, E
     if (notice && !model->from_cache) TRY(notice->tell(notice->self, "reducing", err));
     if (model->is_reduced && !model->from_cache) TRY(build_basis(model, &block, name, notice, err));
     if (!model->is_reduced) reduction_block_destroy(&block);
+    const Material *material = &model->materials.mean;
+    double length = model->length;
     if (model->is_reduced) {
         // Steps on the reduced bulk that is there. Matrices are kept normalised; the scales of this
-        // scene (E, eta, rho L^2, load) are set here and multiply whatever is asked of them.
-        double load = model->unit_load.size * load_reference(model);
-        model->reduced.scales = bulk_scales(model, load);
-        double deep = model->reduced.scales.stiffness / model->materials.mean.young;
-        model->reduced.spectrum = spectrum_scaled(&model->bulk.spectrum, deep, 1);
-        TRY(bulk_operator_reduce(&model->reduced, model->length,
+        // scene are set here and multiply whatever is asked of them: E, eta, rho L^2 (in space
+        // times L) and the size of the load.
+        double deep = interface->dim > 2 ? length : 1;
+        model->reduced.scales = (BulkScales){.stiffness = material->young * deep,
+                                             .damping = (material->eta1 + material->eta2) * deep,
+                                             .mass = material->density * length * length * deep,
+                                             .load = model->unit_load.size * load_reference(model)};
+        double depth = model->reduced.scales.stiffness / material->young;
+        model->reduced.spectrum = spectrum_scaled(&model->bulk.spectrum, depth, 1);
+        TRY(bulk_operator_reduce(&model->reduced, length,
                                  model->reduced.area * model->reduced.scales.mass, &model->system,
                                  err));
     } else
@@ -298,13 +366,29 @@ bool model_obtain(const Scene *scene, const StageNotice *notice, Model *model, E
             bulk_operator_create(&model->bulk, model->mesh.position, interface->dofs,
                                  interface->count, &model->system, err));
     model->system.machine = model_machine(model);
-    TRY(assemble_nodes(model, err));
+
+    // Explicit steps move nodes, one by one: over a base they need matrices that know of no jumps.
+    if (model->mesh.is_base && scene->time.scheme == SCHEME_EXPLICIT) {
+        Bulk *nodes = &model->bulk_of_nodes;
+        Mesh apart = model->mesh;   // borrows all
+        apart.floor = (Floor){0};
+        if (!model->mesh.floor.matches)
+            FAIL(err, ERROR_INPUT,
+                 "%s: time.scheme: explicit needs a floor whose nodes lie under those of the "
+                 "contact, each under one; implicit steps take any",
+                 scene->path);
+        TRY(bulk_create(&apart, nodes, err));
+        size_t unknowns = (size_t)nodes->dof_count;
+        memcpy(nodes->load, model->bulk.load, unknowns * sizeof *nodes->load);
+        floor_scatter(&model->mesh, nodes->load);
+        nodes->spectrum = model->bulk.spectrum;
+        memcpy(nodes->held, model->bulk.held, unknowns * sizeof *nodes->held);
+        TRY(bulk_assemble(&apart, model->materials.list, nodes, err));
+    }
     TRY(model_lay_laws(model, err));
     TRY(model_lay_gaps(model, err));
 
     // Scales by which velocities and times are measured.
-    const Material *material = &model->materials.mean;
-    double length = model->length;
     model->scales.length = length;
     model->scales.trailing = model->middle - 0.5 * length;
     model->scales.time = length / material_speeds(material).longitudinal +

@@ -6,113 +6,97 @@
 
 #include <math.h>
 
-// The elements of region i, which no other has. owner: [elements] 1 + region.
-static bool claim_elements(const Model *model, int32_t i, uint8_t *owner, Error *err)
+bool model_mark_regions(Model *model, Error *err)
 {
     const SceneMaterials *named = &model->scene->materials;
-    const Mesh *mesh = &model->mesh;
-    const char *name = named->region[i].group;
-    MeshFile view = {.group_count = mesh->group_count, .groups = mesh->groups};
-    const MeshGroup *group = mesh_file_group(&view, mesh->path, name, mesh->dim, err);
-    if (!group) return false;
-    for (int32_t k = 0; k < group->element_count; k++) {
-        int32_t e = group->elements[k];
-        if (owner[e])
-            return REFUSE(err, "%s: element %lld is in both '%s' and '%s': of which material?",
-                          mesh->path, (long long)mesh->element_number[e],
-                          named->region[owner[e] - 1].group, name);
-        owner[e] = (uint8_t)(i + 1);
-    }
-    return error_is_clean(err);
-}
+    Materials *materials = &model->materials;
+    Mesh *mesh = &model->mesh;
+    uint8_t is_mean[MATERIALS_MAX], *owner = NULL;   // [elements] 1 + region; owned
 
-// Mean width of the elements of region k; 0 where there are none.
-static double mean_width(const Model *model, int32_t k)
-{
-    const Mesh *mesh = &model->mesh;
-    double low = INFINITY, high = -INFINITY;
-    for (int32_t e = 0; e < mesh->element_count; e++) {
-        for (int32_t a = mesh->first_node[e]; a < mesh->first_node[e + 1]; a++) {
-            double z = mesh_height(mesh, mesh->element_nodes[a]);
-            if (mesh_region(mesh, e) != k) continue;
-            low = fmin(low, z);
-            high = fmax(high, z);
+    // The elements of each region, which no other has.
+    MeshFile view = {.group_count = mesh->group_count, .groups = mesh->groups};
+    if (named->count > 0) TRY(owner = NEW_ARRAY(uint8_t, mesh->element_count, err));
+    for (int32_t i = 0; i < named->count; i++) {
+        const char *name = named->region[i].group;
+        const MeshGroup *group = mesh_file_group(&view, mesh->path, name, mesh->dim, err);
+        bool done = group != NULL;
+        for (int32_t k = 0; done && k < group->element_count; k++) {
+            int32_t e = group->elements[k];
+            if (owner[e])
+                done = REFUSE(err, "%s: element %lld is in both '%s' and '%s': of which material?",
+                              mesh->path, (long long)mesh->element_number[e],
+                              named->region[owner[e] - 1].group, name);
+            owner[e] = (uint8_t)(i + 1);
+        }
+        TRY(scene_blame(model->scene, "materials", done, err));
+    }
+
+    // Several materials: their areas, their mean, and the mean width of each one's elements.
+    if (named->count > 0 && materials->count > 1) {
+        for (int32_t e = 0; e < mesh->element_count; e++) {
+            double area = mesh_element_area(mesh, e);
+            materials->area[owner[e]] += area;
+            if (mesh_element_in_base(mesh, e)) materials->base_area[owner[e]] += area;
+        }
+        materials_find_mean(materials);
+        mesh->region = owner;
+        owner = NULL;
+        for (int32_t k = 0; k < materials->count; k++) {
+            double low = INFINITY, high = -INFINITY;
+            for (int32_t e = 0; e < mesh->element_count; e++) {
+                if (mesh_region(mesh, e) != k) continue;
+                for (int32_t a = mesh->first_node[e]; a < mesh->first_node[e + 1]; a++) {
+                    double z = mesh_height(mesh, mesh->element_nodes[a]);
+                    low = fmin(low, z);
+                    high = fmax(high, z);
+                }
+            }
+            materials->width[k] = high > low ? materials->area[k] / (high - low) : 0;
         }
     }
-    return high > low ? model->materials.area[k] / (high - low) : 0;
-}
 
-static bool mark_materials(Model *model, Error *err)
-{
-    Mesh *mesh = &model->mesh;
-    Materials *materials = &model->materials;
-    uint8_t *owner = NEW_ARRAY(uint8_t, mesh->element_count, err);
-    if (!owner) goto cleanup;
-    for (int32_t i = 0; i < model->scene->materials.count; i++)
-        TRY(scene_blame(model->scene, "materials", claim_elements(model, i, owner, err), err));
-    if (materials->count == 1) goto cleanup;
-    for (int32_t e = 0; e < mesh->element_count; e++) {
-        double area = mesh_element_area(mesh, e);
-        materials->area[owner[e]] += area;
-        if (mesh_element_in_base(mesh, e)) materials->base_area[owner[e]] += area;
-    }
-    materials_find_mean(materials);
-    mesh->region = owner;
-    for (int32_t k = 0; k < materials->count; k++) materials->width[k] = mean_width(model, k);
-    owner = NULL;
+    // A mean over one TET4 is what it has already, and a mean over several was not found.
+    for (int32_t k = 0; k < materials->count; k++)
+        is_mean[k] = material_resists_area(&materials->list[k]);
+    for (int32_t e = 0; e < mesh->element_count; e++)
+        if (mesh->kind[e] == ELEMENT_TET4 && is_mean[mesh_region(mesh, e)])
+            FAIL(err, ERROR_INPUT,
+                 "%s: TET4 lock in a material whose volume resists so much more than its shape; "
+                 "take hexahedra, wedges or order 2",
+                 mesh->path);
+    TRY(element_groups_find(is_mean, mesh, err));
 cleanup:
     memory_free(owner);
     return error_is_clean(err);
 }
 
-bool model_mark_regions(Model *model, Error *err)
-{
-    uint8_t is_mean[MATERIALS_MAX];
-    if (model->scene->materials.count > 0 && !mark_materials(model, err)) return false;
-    for (int32_t k = 0; k < model->materials.count; k++)
-        is_mean[k] = material_resists_area(&model->materials.list[k]);
-
-    // A mean over one TET4 is what it has already, and a mean over several was not found.
-    const Mesh *mesh = &model->mesh;
-    for (int32_t e = 0; e < mesh->element_count; e++)
-        if (mesh->kind[e] == ELEMENT_TET4 && is_mean[mesh_region(mesh, e)])
-            return REFUSE(err,
-                          "%s: TET4 lock in a material whose volume resists so much more than its "
-                          "shape; take hexahedra, wedges or order 2",
-                          mesh->path);
-    return element_groups_find(is_mean, &model->mesh, err);
-}
-
 // A branch is a viscosity where rate * time stays below this: its modulus is off by this part then.
 static const double FOLDED = 1e-3;
-
-// The rate of the fastest wave within an element, c/h, if what relaxes within `time` has relaxed.
-static double element_rate(const Model *model, double time)
-{
-    const Mesh *mesh = &model->mesh;
-    double area = 0, fastest = 0;
-    for (int32_t e = 0; e < mesh->element_count; e++) area += mesh_element_area(mesh, e);
-    for (int32_t k = 0; k < model->materials.count; k++) {
-        Material slow = model->materials.list[k];
-        int32_t kept = 0;
-        if (!materials_use(&model->materials, k)) continue;
-        for (int32_t i = 0; i < slow.branch_count; i++)
-            if (slow.branch[i].time > time) slow.branch[kept++] = slow.branch[i];
-        slow.branch_count = kept;
-        fastest = fmax(fastest, material_slip_speed(&slow));
-    }
-    return fastest / pow(area / mesh->element_count, 1.0 / mesh->dim);
-}
 
 bool model_lay_branches(Model *model, Error *err)
 {
     Spectrum *spectrum = &model->bulk.spectrum;
     Materials *materials = &model->materials;
-    double folded = 0;
-    if (!spectrum_find(materials, model->mesh.dim, spectrum, err)) return false;
+    const Mesh *mesh = &model->mesh;
+    double folded = 0, area = 0;
+    if (!spectrum_find(materials, mesh->dim, spectrum, err)) return false;
+    for (int32_t e = 0; spectrum->count > 0 && e < mesh->element_count; e++)
+        area += mesh_element_area(mesh, e);
+    double size = pow(area / mesh->element_count, 1.0 / mesh->dim);   // of an element
     for (int32_t k = 0; k < spectrum->count; k++) {
-        double time = spectrum->time[k];
-        if (time > folded && time * element_rate(model, time) < FOLDED) folded = time;
+        // The rate of the fastest wave within an element, c/h, if what relaxes within `time` has
+        // relaxed.
+        double time = spectrum->time[k], fastest = 0;
+        for (int32_t m = 0; m < materials->count; m++) {
+            Material slow = materials->list[m];
+            int32_t kept = 0;
+            if (!materials_use(materials, m)) continue;
+            for (int32_t i = 0; i < slow.branch_count; i++)
+                if (slow.branch[i].time > time) slow.branch[kept++] = slow.branch[i];
+            slow.branch_count = kept;
+            fastest = fmax(fastest, material_slip_speed(&slow));
+        }
+        if (time > folded && time * (fastest / size) < FOLDED) folded = time;
     }
     if (folded == 0 || !spectrum_fold(folded, materials, spectrum)) return true;
     model->folded_time = folded;

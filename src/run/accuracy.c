@@ -230,28 +230,6 @@ static bool find_levels(Accuracy *accuracy, Error *err)
     return true;
 }
 
-// Time was up in the first run of all: what it has is reported, without a bar.
-static bool report_cut(Accuracy *accuracy, ResultFolder *folder, RunSummary *summary, Error *err)
-{
-    Simulation *simulation = accuracy->cut;
-    const LevelCut *cut = &accuracy->levels.cut;
-    if (!(result_folder_clear(folder, err) && result_folder_settle(folder, err))) return false;
-    simulation->folder = *folder;   // its lock, too
-    *folder = (ResultFolder){0};
-    simulation->options.on_report = accuracy->options->on_report;
-    simulation->options.context = accuracy->options->context;
-    simulation->options.folder = accuracy->options->folder;
-    simulation->started = accuracy->started;
-    simulation->levels = &accuracy->levels;
-    accuracy->levels.count = 0;
-    warnings_add(
-        &simulation->warnings,
-        "error bar not met: its first run was cut short (%.0f contact nodes, %.0f %% of its "
-        "way): time was up (--within, accuracy.within)",
-        cut->contact_nodes, isnan(cut->part) ? 0 : 100 * cut->part);
-    return simulation_finish(simulation, NULL, summary, err);
-}
-
 // The scene itself on the last mesh, with its files. It counts as one more run where it is as
 // settled as the others and went as far as one of them; a branch that it found is a reason for more
 // of them.
@@ -324,7 +302,24 @@ bool amontons_run(const Scene *scene, const RunOptions *options, RunSummary *sum
     TRY(result_folder_claim(options->folder, options->overwrite, &folder, err));
     TRY(find_levels(accuracy, err));
     if (!levels_have_runs(&accuracy->levels)) {
-        TRY(report_cut(accuracy, &folder, summary, err));
+        // Time was up in the first run of all: what it has is reported, without a bar.
+        Simulation *simulation = accuracy->cut;
+        const LevelCut *cut = &accuracy->levels.cut;
+        TRY(result_folder_clear(&folder, err));
+        TRY(result_folder_settle(&folder, err));
+        simulation->folder = folder;   // its lock, too
+        folder = (ResultFolder){0};
+        simulation->options.on_report = options->on_report;
+        simulation->options.context = options->context;
+        simulation->options.folder = options->folder;
+        simulation->started = accuracy->started;
+        simulation->levels = &accuracy->levels;
+        accuracy->levels.count = 0;
+        warnings_add(&simulation->warnings,
+                     "error bar not met: its first run was cut short (%.0f contact nodes, %.0f %% "
+                     "of its way): time was up (--within, accuracy.within)",
+                     cut->contact_nodes, isnan(cut->part) ? 0 : 100 * cut->part);
+        TRY(simulation_finish(simulation, NULL, summary, err));
         goto cleanup;
     }
     result_folder_release(&folder);   // the last run claims it for itself

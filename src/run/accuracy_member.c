@@ -185,20 +185,6 @@ static void note_cut(Accuracy *accuracy, const Simulation *simulation, Error *er
         (void)FAULT(err, ERROR_INTERRUPT, "stopped on mesh %.0f of an error bar", cut->mesh);
 }
 
-// Nothing new is learnt on a mesh with no more contact nodes than the last, or with too few, or
-// whose cells are too long for slip.
-static bool is_too_coarse(const Accuracy *accuracy, const Interface *interface)
-{
-    const Level *last = &accuracy->levels.list[accuracy->levels.count - 1];
-    bool same = accuracy->levels.count > 1 && last->contact_nodes <= last[-1].contact_nodes;
-    bool space = interface->dim > 2;
-    if (last->undamped || same) return true;
-    for (int32_t pad = 0; pad < interface->pad_count; pad++)
-        if (pad_size(interface, pad).nodes < (space ? SPACE_PAD_NODES_MIN : PAD_NODES_MIN))
-            return true;
-    return interface->contact_count < (space ? SPACE_NODES_MIN : CONTACT_NODES_MIN);
-}
-
 void accuracy_count_run(Accuracy *accuracy, const Simulation *simulation, double pressure,
                         const Answers *answers)
 {
@@ -247,7 +233,19 @@ bool accuracy_run_member(Accuracy *accuracy, bool *coarse, Error *err)
     simulation->deadline = deadline;   // one step is made, whatever time there is
     const Interface *interface = &simulation->model.interface;
     one_mesh_read(simulation, level);
-    if (coarse && (*coarse = is_too_coarse(accuracy, interface))) goto cleanup;
+
+    // Nothing new is learnt on a mesh with no more contact nodes than the last, or with too few, or
+    // whose cells are too long for slip.
+    bool space = interface->dim > 2;
+    if (coarse) {
+        *coarse = level->undamped ||
+                  (accuracy->levels.count > 1 && level->contact_nodes <= level[-1].contact_nodes) ||
+                  interface->contact_count < (space ? SPACE_NODES_MIN : CONTACT_NODES_MIN);
+        for (int32_t pad = 0; pad < interface->pad_count; pad++)
+            *coarse = *coarse || pad_size(interface, pad).nodes <
+                                     (space ? SPACE_PAD_NODES_MIN : PAD_NODES_MIN);
+        if (*coarse) goto cleanup;
+    }
 
     // Steps. Where they come to no end, as where slip weakens faster than viscosity can damp on a
     // cell, the mesh is passed over: a finer one may.

@@ -17,9 +17,13 @@
 #include <math.h>
 #include <stdio.h>
 
-static void write_model(JsonWriter *json, const Model *model, int64_t relaxation_steps)
+// The model; of a block on a base also how unlike they are, and how far the block went.
+static void write_model(JsonWriter *json, const Simulation *simulation)
 {
-    WaveSpeeds speeds = material_speeds(&model->materials.list[model->contact_region]);
+    const Model *model = &simulation->model;
+    const Material *block = &model->materials.list[model->contact_region];
+    const Material *base = &model->materials.list[model->floor_region];
+    WaveSpeeds speeds = material_speeds(block);
     json_begin_object(json, "model");
     json_numbers_of(json, {"contact_nodes", model->interface.contact_count},
                     {"rod_nodes", model->interface.rod_count},
@@ -35,22 +39,13 @@ static void write_model(JsonWriter *json, const Model *model, int64_t relaxation
     json_object_of(json, "wave_speeds", {"longitudinal", speeds.longitudinal},
                    {"shear", speeds.shear}, {"rayleigh", speeds.rayleigh});
     json_number(json, "wave_damping",
-                material_wave_damping(&model->materials.list[model->contact_region],
-                                      fmax(model->length, model->height)));
-    json_integer(json, "relaxation_steps", relaxation_steps);
+                material_wave_damping(block, fmax(model->length, model->height)));
+    json_integer(json, "relaxation_steps", simulation->relaxation_steps);
     json_text(json, "cache_note", model->cache_note[0] ? model->cache_note : NULL);
     json_end(json);
-}
 
-// A block on a base: how unlike they are, and how far the block went. Nothing where the floor is
-// rigid.
-static void write_base(JsonWriter *json, const Simulation *simulation)
-{
-    const Model *model = &simulation->model;
-    const Material *block = &model->materials.list[model->contact_region];
-    const Material *base = &model->materials.list[model->floor_region];
     double slip = base_slip(model, &simulation->control.now);
-    if (isnan(slip)) return;
+    if (isnan(slip)) return;   // the floor is rigid
     Dundurs dundurs = materials_dundurs(block, base);
     json_begin_object(json, "base");
     json_boolean(json, "matches", model->mesh.floor.matches);
@@ -70,45 +65,6 @@ static void write_slip(JsonWriter *json, const Event *event, const Pads *pads)
     json_text(json, "slip_pad", named ? pads->list[event->pad].name : NULL);
     json_numbers_of(json, {"slip_length", event ? event->slip_length : NAN},
                     {"slip_cells", event ? event->slip_cells : NAN});
-}
-
-// In order of time, slow ones too; only rapid ones have a front to follow.
-static void write_events(JsonWriter *json, const Events *events, const Pads *pads,
-                         double wave_speed)
-{
-    json_begin_list(json, "events");
-    for (int32_t k = 0; k < events->count; k++) {
-        const Event *event = &events->list[k];
-        json_begin_object(json, NULL);
-        json_text(json, "kind", event_name(event->kind));
-        json_numbers_of(json, {"U_start", event->U_start}, {"U_stop", event->U_stop},
-                        {"t_start", event->t_start}, {"t_stop", event->t_stop},
-                        {"front_start", event->front_start}, {"reach", event->reach});
-        if (events->in_space) {
-            json_numbers_of(json, {"slipped_over_A", event->slipped / events->size},
-                            {"slip_before_over_A", event->slip_before / events->size});
-        }
-        json_numbers_of(json, {"peak_slip_rate", event->peak_slip_rate},
-                        {"front_speed", event->front_speed});
-        if (events->in_space) json_number(json, "area_front_speed", event->area_front_speed);
-        if (event->kind != EVENT_QUASI_STATIC) {
-            write_slip(json, event, pads);
-
-            // When the front of a rapid event came to each station, how fast it went in between,
-            // and whether that is faster than the fastest wave anywhere.
-            double speeds[FRONT_STATIONS - 1];
-            bool faster = fabs(event->front_speed) > wave_speed;
-            for (int32_t s = 0; s < FRONT_STATIONS - 1; s++) {
-                speeds[s] = front_path_speed(&events->path, event->front_times, s);
-                faster = faster || fabs(speeds[s]) > wave_speed;
-            }
-            json_boolean(json, "faster_than_waves", faster);
-            json_number_list(json, "front_times", event->front_times, FRONT_STATIONS);
-            json_number_list(json, "front_speeds", speeds, FRONT_STATIONS - 1);
-        }
-        json_end(json);
-    }
-    json_end(json);
 }
 
 static void write_results(JsonWriter *json, const RunReport *report)
@@ -132,10 +88,45 @@ static void write_results(JsonWriter *json, const RunReport *report)
     if (simulation->turning.contact && model->interface.dim > 2)
         turning_write_json(&simulation->turning, json);
     if (simulation->readings.course) program_results_json(&simulation->readings, json);
+
+    // Events in order of time, slow ones too; only rapid ones have a front to follow.
+    const Events *events = &simulation->events;
     const Material *material =
         model->materials.count > 0 ? &model->materials.list[model->contact_region] : NULL;
-    write_events(json, &simulation->events, &simulation->pads,
-                 material ? material_speeds(material).longitudinal : (double)NAN);
+    double wave_speed = material ? material_speeds(material).longitudinal : (double)NAN;
+    json_begin_list(json, "events");
+    for (int32_t k = 0; k < events->count; k++) {
+        const Event *event = &events->list[k];
+        json_begin_object(json, NULL);
+        json_text(json, "kind", event_name(event->kind));
+        json_numbers_of(json, {"U_start", event->U_start}, {"U_stop", event->U_stop},
+                        {"t_start", event->t_start}, {"t_stop", event->t_stop},
+                        {"front_start", event->front_start}, {"reach", event->reach});
+        if (events->in_space) {
+            json_numbers_of(json, {"slipped_over_A", event->slipped / events->size},
+                            {"slip_before_over_A", event->slip_before / events->size});
+        }
+        json_numbers_of(json, {"peak_slip_rate", event->peak_slip_rate},
+                        {"front_speed", event->front_speed});
+        if (events->in_space) json_number(json, "area_front_speed", event->area_front_speed);
+        if (event->kind != EVENT_QUASI_STATIC) {
+            write_slip(json, event, &simulation->pads);
+
+            // When the front of a rapid event came to each station, how fast it went in between,
+            // and whether that is faster than the fastest wave anywhere.
+            double speeds[FRONT_STATIONS - 1];
+            bool faster = fabs(event->front_speed) > wave_speed;
+            for (int32_t s = 0; s < FRONT_STATIONS - 1; s++) {
+                speeds[s] = front_path_speed(&events->path, event->front_times, s);
+                faster = faster || fabs(speeds[s]) > wave_speed;
+            }
+            json_boolean(json, "faster_than_waves", faster);
+            json_number_list(json, "front_times", event->front_times, FRONT_STATIONS);
+            json_number_list(json, "front_speeds", speeds, FRONT_STATIONS - 1);
+        }
+        json_end(json);
+    }
+    json_end(json);
     json_end(json);
 }
 
@@ -230,8 +221,7 @@ static void write_all(JsonWriter *json, const char *folder, const RunReport *rep
                    {"solve", timing->solve}, {"output", timing->output}, {"total", timing->total},
                    {"outside_loop_cpu", timing->outside});
 
-    write_model(json, &simulation->model, simulation->relaxation_steps);
-    write_base(json, simulation);
+    write_model(json, simulation);
     write_results(json, report);
     if (simulation->levels) levels_write_json(simulation->levels, json);
     write_energy(json, simulation);

@@ -12,7 +12,6 @@
 #include "io/files/own_list.h"
 #include "model/obtain.h"
 #include "run/checkpoint.h"
-#include "run/explicit_loop.h"
 #include "run/one_mesh.h"
 #include "run/output.h"
 #include "run/report.h"
@@ -155,7 +154,7 @@ static bool go_on(Simulation *simulation, const SavedState *state, Error *err)
     TRY(result_folder_take_up(&simulation->folder, err));
     simulation->goes_on = true;
     start_programs(simulation);
-    TRY(explicit_loop_prepare(simulation, err));
+    TRY(start_explicit_steps(simulation, err));
     TRY(open_recorders(simulation, err));
     TRY(amontons_simulation_restore(simulation, state, err));
     simulation->resumed++;
@@ -244,7 +243,7 @@ bool simulation_create_by(const Scene *scene, const RunOptions *options, double 
         TRY(tell_stage(simulation, "relaxing", err));
         TRY(start_relax(simulation, err));
         simulation->timing.outside -= clock_processor_seconds() - begun;
-        TRY(explicit_loop_prepare(simulation, err));
+        TRY(start_explicit_steps(simulation, err));
         TRY(result_folder_clear(&simulation->folder, err));
         TRY(open_recorders(simulation, err));
         TRY(record_step(simulation, err));

@@ -188,10 +188,25 @@ static bool check_relaxation(const Check *check, const SceneMaterial *region, co
         name, dot, young, shear > 0 ? "bulk" : "shear", shear > 0 ? bulk : shear);
 }
 
-// The number is that of the region, or else that of `material`.
-static bool check_materials(const Check *check)
+// The block and what rests on it: its load, its materials, the names of its boundaries.
+static bool check_block(const Check *check)
 {
     const Scene *scene = check->scene;
+
+    // Something must press the block down, hold it, or send it down: else there is no contact to
+    // look at.
+    bool held = scene->load.support_count > 0 || scene->start.velocity_z < 0;
+    if (scene->material.plane == PLANE_STRAIN && scene->material.poisson >= 0.5)
+        return blame(check, "material.poisson", "%g; plane strain needs less than 0.5",
+                     scene->material.poisson);
+    if (scene->load.force > 0 && is_given(check, "load.pressure"))
+        return blame(check, "load.force", "give either this or load.pressure");
+    if (scene->load.pressure == 0 && scene->load.force == 0 && scene->load.traction_count == 0 &&
+        !held)
+        return blame(check, "load.pressure",
+                     "0, and no load.tractions: nothing presses the block down");
+
+    // The number of a material is that of the region, or else that of `material`.
     for (int32_t i = 0; i < scene->materials.count; i++) {
         const SceneMaterial *region = &scene->materials.region[i];
         double poisson = scene_material_number(scene, region, MATERIAL_POISSON);
@@ -202,37 +217,15 @@ static bool check_materials(const Check *check)
             return blame(check, "materials", "%s: %s", region->group, TWO_MODULI);
         if (!check_relaxation(check, region, "materials")) return false;
     }
-    if (is_given(check, "material.young") && scene->material.young_short > 0)
+    bool is_short = scene->material.young_short > 0;
+    if (is_given(check, "material.young") && is_short)
         return blame(check, "material.young_short", "%s", TWO_MODULI);
-    return check_relaxation(check, NULL,
-                            scene->material.young_short > 0 ? "material.young_short"
-                                                            : "material.relaxation");
-}
+    if (!check_relaxation(check, NULL, is_short ? "material.young_short" : "material.relaxation"))
+        return false;
 
-// Something must press the block down, hold it, or send it down: else there is no contact to look
-// at.
-static bool check_load(const Check *check)
-{
-    const Scene *scene = check->scene;
-    if (scene->material.plane == PLANE_STRAIN && scene->material.poisson >= 0.5)
-        return blame(check, "material.poisson", "%g; plane strain needs less than 0.5",
-                     scene->material.poisson);
-    if (scene->load.force > 0 && is_given(check, "load.pressure"))
-        return blame(check, "load.force", "give either this or load.pressure");
-    bool held = scene->load.support_count > 0 || scene->start.velocity_z < 0;
-    if (scene->load.pressure == 0 && scene->load.force == 0 && scene->load.traction_count == 0 &&
-        !held)
-        return blame(check, "load.pressure",
-                     "0, and no load.tractions: nothing presses the block down");
-    return true;
-}
-
-// One curve has one meaning; and a unit of lengths is one of an SI scene.
-static bool check_mesh(const Check *check)
-{
-    const Scene *scene = check->scene;
+    // One boundary has one meaning. A block's own boundary may have the name that a base's floor
+    // has where nothing is given.
     const char *top = scene->groups.top, *rod = scene->groups.rod;
-    // A block's own boundary may have the name that a base's floor has where nothing is given.
     const char *floor = is_given(check, "groups.floor") ? scene->groups.floor : "";
     if (strcmp(top, rod) == 0) return blame(check, "groups.rod", "`%s` is groups.top as well", rod);
     if (strcmp(floor, top) == 0 || strcmp(floor, rod) == 0)
@@ -286,12 +279,14 @@ static double least_factor(const SceneProgram *program)
     return least;
 }
 
-// A program that is given by U needs a U that rises.
-static bool check_rod_and_programs(const Check *check)
+// How rod and load go, and when the run ends.
+static bool check_course(const Check *check)
 {
     const Scene *scene = check->scene;
     const SceneProgram *rod = &scene->rod.program, *load = &scene->load.program;
     bool moves = scene->rod.kind != ROD_NONE;
+
+    // A program that is given by U needs a U that rises.
     if (!moves && is_given(check, "rod.stiffness"))
         return blame(check, "rod.stiffness", "the scene has no rod (rod.kind: none); leave it out");
     if (!check_points(check, "rod.program", rod) || !check_points(check, "load.program", load))
@@ -312,15 +307,8 @@ static bool check_rod_and_programs(const Check *check)
                      "begins with %g, not with 1: the block relaxes under load.pressure and "
                      "load.tractions as they are",
                      load->factor.value[0]);
-    return true;
-}
 
-// time.until: U needs a rod; a scene that is no static one must say when to stop; step_min is at
-// most step_max.
-static bool check_time(const Check *check)
-{
-    const Scene *scene = check->scene;
-    bool moves = scene->rod.kind != ROD_NONE;
+    // An end by U needs a rod; a scene that is no static one must say when to stop.
     if (scene->time.until_U > 0 && !moves)
         return blame(check, "time.until.U", "the scene has no rod (rod.kind: none); give t");
     if (!(scene->time.until_U > 0) && !(scene->time.until_t > 0) && !is_static(scene))
@@ -424,7 +412,6 @@ bool scene_check(const Scene *scene, const SceneValue *sources, const YamlDocume
                  Error *err)
 {
     Check check = {.scene = scene, .sources = sources, .file = file, .err = err};
-    return check_required(&check) && check_friction(&check) && check_load(&check) &&
-           check_materials(&check) && check_mesh(&check) && check_rod_and_programs(&check) &&
-           check_time(&check) && check_output(&check);
+    return check_required(&check) && check_friction(&check) && check_block(&check) &&
+           check_course(&check) && check_output(&check);
 }

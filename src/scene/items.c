@@ -171,21 +171,6 @@ static bool set_item(const SceneKey *key, int32_t k, const SceneValue *value, Sc
                                 items->noun, lacks);
 }
 
-// A name of a state of friction.state: letters, digits and _, of which no formula has another
-// meaning.
-static bool may_be_state(const char *name)
-{
-    // Names that scene/friction_law or every formula uses already.
-    static const char *const taken[] = {"v",     "p",   "sqrt", "exp", "log",   "tanh",
-                                        "asinh", "abs", "min",  "max", "round", "points"};
-    if (!isalpha((unsigned char)*name) || strlen(name) >= STATE_NAME_SIZE) return false;
-    for (const char *at = name; *at; at++)
-        if (!isalnum((unsigned char)*at) && *at != '_') return false;
-    for (size_t k = 0; k < sizeof taken / sizeof *taken; k++)
-        if (strcmp(name, taken[k]) == 0) return false;
-    return scene_friction_number(name) < 0;
-}
-
 // The number of the item that `name` [length] names, as it is or a new one; of a list a new one.
 // -1: it is refused.
 static int32_t take_item(const SceneKey *key, const char *name, size_t length,
@@ -204,9 +189,20 @@ static int32_t take_item(const SceneKey *key, const char *name, size_t length,
                        (int)items->name_size - 1);
         return -1;
     }
+
+    // A name of a state of friction.state has letters, digits and _, and no other meaning in a
+    // formula: names that every formula or scene/friction_law uses are taken.
+    static const char *const taken[] = {"v",     "p",   "sqrt", "exp", "log",   "tanh",
+                                        "asinh", "abs", "min",  "max", "round", "points"};
     char word[GROUP_NAME_SIZE];
     snprintf(word, sizeof word, "%.*s", (int)length, name);
-    if (items == &scene_state_items && !may_be_state(word)) {
+    bool allowed = isalpha((unsigned char)*word) && strlen(word) < STATE_NAME_SIZE &&
+                   scene_friction_number(word) < 0;
+    for (const char *at = word; *at; at++)
+        allowed = allowed && (isalnum((unsigned char)*at) || *at == '_');
+    for (size_t k = 0; k < sizeof taken / sizeof *taken; k++)
+        allowed = allowed && strcmp(word, taken[k]) != 0;
+    if (items == &scene_state_items && !allowed) {
         yaml_key_error(value->document, value->node, err,
                        "%s: `%.40s` cannot be the name of a state; allowed: letters, digits and _, "
                        "at most 31, and not v, p, a function or a number of friction (mu_S, D_c, "

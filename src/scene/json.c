@@ -12,24 +12,8 @@
 
 enum { LEVELS_MAX = 4 };
 
-static void write_items(const SceneItems *items, const Scene *scene, JsonWriter *json,
-                        const char *name)
-{
-    (items->named ? json_begin_object : json_begin_list)(json, name);
-    for (int32_t k = 0; k < scene_items_count(items, scene); k++) {
-        json_begin_object(json, items->named ? scene_item(items, scene, k) : NULL);
-        if (!items->named) json_text(json, "group", scene_item(items, scene, k));
-        for (const ScenePart *part = items->parts; part->word; part++) {
-            SceneKey key = scene_part_key(items, part, k, part->word);
-            if (part->shown || scene_part_is_there(items, part, scene, k))
-                scene_write_value(&key, scene, json, part->word);
-        }
-        json_end(json);
-    }
-    json_end(json);
-}
-
-// If output.fields is a map, its keys follow by themselves.
+// If output.fields is a map, its keys follow by themselves. Words of items are written by this
+// function, too.
 void scene_write_value(const SceneKey *key, const Scene *scene, JsonWriter *json, const char *name)
 {
     const void *field = (const char *)scene + key->offset;
@@ -79,7 +63,19 @@ void scene_write_value(const SceneKey *key, const Scene *scene, JsonWriter *json
         json_end(json);
         return;
     case KEY_ITEMS:
-        write_items(key->items, scene, json, name);
+        (key->items->named ? json_begin_object : json_begin_list)(json, name);
+        for (int32_t k = 0; k < scene_items_count(key->items, scene); k++) {
+            const char *item = scene_item(key->items, scene, k);
+            json_begin_object(json, key->items->named ? item : NULL);
+            if (!key->items->named) json_text(json, "group", item);
+            for (const ScenePart *part = key->items->parts; part->word; part++) {
+                SceneKey own = scene_part_key(key->items, part, k, part->word);
+                if (part->shown || scene_part_is_there(key->items, part, scene, k))
+                    scene_write_value(&own, scene, json, part->word);
+            }
+            json_end(json);
+        }
+        json_end(json);
         return;
     case KEY_BRANCHES:
         json_begin_list(json, name);

@@ -52,43 +52,6 @@ typedef struct MaterialTable {
     MaterialColumn at, storage, loss;   // that are used; COLUMNS: none
 } MaterialTable;
 
-static bool find_columns(MaterialTable *table, SceneUnits units, Error *err)
-{
-    const CsvTable *csv = &table->csv;
-    CsvUnit unit[COLUMNS];
-    for (int32_t k = 0; k < COLUMNS; k++)
-        if (!csv_find_any(csv, NAMES[k], &table->column[k], &unit[k], err)) return false;
-    const int32_t *has = table->column;
-    bool over_time = has[TIME] >= 0 && has[FREQUENCY] < 0 && has[ANGULAR] < 0;   // else a clock
-    table->at = over_time ? TIME : has[ANGULAR] >= 0 ? ANGULAR : FREQUENCY;
-    table->storage = has[SHEAR] >= 0 ? SHEAR : YOUNG;
-    table->loss = over_time ? COLUMNS
-                  : has[TANGENT] >= 0 && has[table->storage + 1] < 0
-                      ? TANGENT
-                      : (MaterialColumn)(table->storage + 1);
-    bool both = has[YOUNG] >= 0 && has[SHEAR] >= 0;
-    if (both)
-        return csv_refuse(csv, -1, has[SHEAR], err, "stands beside %s: one of them is enough",
-                          csv_name(csv, has[YOUNG]));
-    if (has[table->at] < 0 || has[table->storage] < 0 ||
-        (table->loss < COLUMNS && has[table->loss] < 0))
-        return REFUSE(err, "%s:%d: columns are missing; %s", csv->path, csv->line[0], WANTED);
-    for (int32_t k = 0; k < COLUMNS; k++) {
-        table->factor[k] = 1;
-        if (has[k] >= 0 && DIMENSIONS[k] &&
-            !csv_to_scene(csv, has[k], unit[k], DIMENSIONS[k], units == UNITS_SI, &table->factor[k],
-                          err))
-            return false;
-    }
-    if (table->at == TIME) return true;
-    // Hz and 1/s are of a frequency but where it is called omega; rad/s are of an angular one.
-    char text[CSV_UNIT_SIZE];
-    snprintf(text, sizeof text, "%.*s", unit[table->at].length, unit[table->at].text);
-    bool cycles = table->at == FREQUENCY ? !strstr(text, "rad") : strstr(text, "Hz") != NULL;
-    if (cycles) table->factor[table->at] *= TWO_PI;
-    return true;
-}
-
 static bool read_value(const MaterialTable *table, int32_t row, MaterialColumn k, double *value,
                        Error *err)
 {
@@ -107,8 +70,44 @@ bool material_data_read(const char *path, SceneUnits units, const double *wlf, d
     double *at = NULL, *storage = NULL, *loss = NULL;
     *data = (MaterialData){0};
     TRY(csv_read(path, &table.csv, err));
-    TRY(find_columns(&table, units, err));
-    int32_t rows = table.csv.rows;
+
+    // Which columns there are, and which of them are used.
+    const CsvTable *csv = &table.csv;
+    const int32_t *has = table.column;
+    CsvUnit unit[COLUMNS];
+    for (int32_t k = 0; k < COLUMNS; k++)
+        TRY(csv_find_any(csv, NAMES[k], &table.column[k], &unit[k], err));
+    bool over_time = has[TIME] >= 0 && has[FREQUENCY] < 0 && has[ANGULAR] < 0;   // else a clock
+    table.at = over_time ? TIME : has[ANGULAR] >= 0 ? ANGULAR : FREQUENCY;
+    table.storage = has[SHEAR] >= 0 ? SHEAR : YOUNG;
+    table.loss = over_time ? COLUMNS
+                 : has[TANGENT] >= 0 && has[table.storage + 1] < 0
+                     ? TANGENT
+                     : (MaterialColumn)(table.storage + 1);
+    if (has[YOUNG] >= 0 && has[SHEAR] >= 0)
+        TRY(csv_refuse(csv, -1, has[SHEAR], err, "stands beside %s: one of them is enough",
+                       csv_name(csv, has[YOUNG])));
+    if (has[table.at] < 0 || has[table.storage] < 0 ||
+        (table.loss < COLUMNS && has[table.loss] < 0))
+        FAIL(err, ERROR_INPUT, "%s:%d: columns are missing; %s", csv->path, csv->line[0], WANTED);
+
+    // Factors to the scene's units. Hz and 1/s are of a frequency but where it is called omega;
+    // rad/s are of an angular one.
+    for (int32_t k = 0; k < COLUMNS; k++) {
+        table.factor[k] = 1;
+        if (has[k] >= 0 && DIMENSIONS[k])
+            TRY(csv_to_scene(csv, has[k], unit[k], DIMENSIONS[k], units == UNITS_SI,
+                             &table.factor[k], err));
+    }
+    if (!over_time) {
+        char text[CSV_UNIT_SIZE];
+        snprintf(text, sizeof text, "%.*s", unit[table.at].length, unit[table.at].text);
+        bool cycles = table.at == FREQUENCY ? !strstr(text, "rad") : strstr(text, "Hz") != NULL;
+        if (cycles) table.factor[table.at] *= TWO_PI;
+    }
+
+    // Rows.
+    int32_t rows = csv->rows;
     if (rows < 2 || rows > RELAXATION_POINTS_MAX)
         FAIL(err, ERROR_INPUT, "%s has %d rows; allowed: 2 to %d", path, rows,
              RELAXATION_POINTS_MAX);

@@ -254,26 +254,6 @@ static bool store_from(Reader *reader, int32_t first, Scene *scene, Error *err)
 
 // --- formulas -----------------------------------------------------------------------------------
 
-// A setting that was gathered later gives the formula's key, or a map that it is in.
-static bool is_replaced(const Reader *reader, const FormulaSetting *formula)
-{
-    for (int32_t i = formula->before; i < reader->setting_count; i++) {
-        const Setting *setting = &reader->settings[i];
-        char name[2 * SCENE_KEY_SIZE];
-        bool below = setting->key >= 0 && setting->value.part;
-        const char *key = setting->key >= 0 ? reader->keys[setting->key].name : setting->group;
-        snprintf(name, sizeof name, "%s%s%s", key, below ? "." : "", below ? setting->group : "");
-        size_t length = strlen(name);
-        if (strncmp(formula->name, name, length) == 0 &&
-            (!formula->name[length] || formula->name[length] == '.'))
-            return true;
-    }
-    for (const FormulaSetting *later = formula + 1;
-         later < reader->formulas + reader->formula_count; later++)
-        if (strcmp(later->name, formula->name) == 0) return true;
-    return false;
-}
-
 // Numbers of a scene of which some formulas are not worked out yet.
 typedef struct Numbers {
     const Reader *reader;
@@ -309,10 +289,29 @@ static bool work_out_formulas(Reader *reader, Scene *scene, Error *err)
     int32_t left = 0, found = 1;
     Numbers numbers = {reader, scene, waiting};
     forget_values(reader, 0);
+
+    // A formula waits unless what was gathered later gives its key, or a map that this is in.
     for (int32_t k = 0; k < reader->formula_count; k++) {
-        waiting[k] = !is_replaced(reader, &reader->formulas[k]);
+        const FormulaSetting *formula = &reader->formulas[k];
+        waiting[k] = true;
+        for (int32_t i = formula->before; i < reader->setting_count; i++) {
+            const Setting *setting = &reader->settings[i];
+            char name[2 * SCENE_KEY_SIZE];
+            bool below = setting->key >= 0 && setting->value.part;
+            const char *key = setting->key >= 0 ? reader->keys[setting->key].name : setting->group;
+            snprintf(name, sizeof name, "%s%s%s", key, below ? "." : "",
+                     below ? setting->group : "");
+            size_t length = strlen(name);
+            if (strncmp(formula->name, name, length) == 0 &&
+                (!formula->name[length] || formula->name[length] == '.'))
+                waiting[k] = false;
+        }
+        for (int32_t later = k + 1; later < reader->formula_count; later++)
+            if (strcmp(reader->formulas[later].name, formula->name) == 0) waiting[k] = false;
         left += waiting[k];
     }
+
+    // Rounds.
     for (; left > 0 && found > 0; left -= found) {
         found = 0;
         memset(known, 0, sizeof known);

@@ -28,7 +28,7 @@
 // A rod on a spring couples its nodes: first its own velocity is found, for which their forces and
 // the spring's are in balance at t_n+1.
 // Where weakening outruns the node's inertia, (dt/m) r_n |mu'| > 1, a node could both stick and
-// slip; then it goes on doing what it did. Called by run/explicit_loop.
+// slip; then it goes on doing what it did. Called by run/start.
 #ifndef AMONTONS_STEPPING_EXPLICIT_REFERENCE_H
 #define AMONTONS_STEPPING_EXPLICIT_REFERENCE_H
 

@@ -10,7 +10,7 @@
 //     dt < 4 / (l_C + sqrt(l_C^2 + 4 l_K)):   2/l_C where viscosity rules, 2/sqrt(l_K) (about
 //                                             h/c) without it.
 //
-// Called by run/explicit_loop.
+// Called by run/start.
 #ifndef AMONTONS_STEPPING_STABLE_STEP_H
 #define AMONTONS_STEPPING_STABLE_STEP_H
 

@@ -143,10 +143,10 @@ NOT_A_CHOICE = {
     "friction/laws/table.c": {"BETWEEN": "looks between two points"},
     "friction/friction_response.c": {"DECADES": "looks", "DECADE": "looks", "HALVINGS": "all digits"},
     "friction/friction_start.c": {
-        "SLIGHT": "as in friction/friction_look.c", "LEFT": "1/e", "NO_FRICTION": "rounding of a law that is 0 at rest",
+        "SLIGHT": "as in friction/friction_make.c", "LEFT": "1/e", "NO_FRICTION": "rounding of a law that is 0 at rest",
         "DECADES": "looks", "DECADE": "looks", "STAYS": "a state that is steady: rounding of stages of 1e29",
         "FIRST": "of a rest: nothing", "GROWTH": "the midpoint rule errs by 1e-5 of an exponential"},
-    "friction/friction_look.c": {
+    "friction/friction_make.c": {
         "DECADE": "looks", "DECADES": "looks", "LAST": "looks",
         "SAME": "rounding of a formula", "JUMP": "halved as long as it is larger",
         "STEP": "of differences: half the digits", "SLOPE_ERROR": "that differences leave",
@@ -156,9 +156,9 @@ NOT_A_CHOICE = {
     "contact/interface.c": {"ROUNDING": "rounding of an integral that is 0", "LINE_ROUNDING": ROUNDING,
                             "STRIP_TOLERANCE": ROUNDING},
     "contact/rod.c": {"PI": "pi", "WHOLE": ROUNDING},
-    "record/contact_arrays.c": {"SLIGHT": "as in friction/friction_look.c"},
+    "record/contact_arrays.c": {"SLIGHT": "as in friction/friction_make.c"},
     "stepping/friction_states.c": {"PRESSED": "of mu: the contact problem's own rounding"},
-    "stepping/certificate.c": {"BETWEEN_RUNGS": "(sqrt 2 + 1/sqrt 2)/2: dt doubles from level to level",
+    "stepping/certificate.c": {"BETWEEN_LEVELS": "(sqrt 2 + 1/sqrt 2)/2: dt doubles from level to level",
                                "BETWEEN_MEMORIES": "proven: 1.1242, dt doubles from level to level",
                                "SETTLED": "digits that tell a ratio from 1, with room"},
     "contact/contact_discs.c": {
@@ -206,15 +206,14 @@ NOT_A_CHOICE = {
     "reduction/responses.h": {"RESPONSE_BLOCKS_MAX": SIZE,
                        "RESPONSES_TOGETHER": "columns whose image stays in the cache"},
     "fem/assembly.c": {"ROUNDING": "rounding of an integral that is 0"},
-    "reduction/responses.c": {"FAR": "condition of two equations", "ALL_PRODUCTS": "K, C, M"},
+    "reduction/responses.c": {"FAR": "condition of two equations"},
     "reduction/symmetry_reduction.c": {"TOGETHER": "parts in memory at once"},
     "reduction/factored_points.c": {"SLOTS_MAX": "factors in memory at once"},
-    "reduction/reduction_block.c": {"GRID": "single precision that a cache stores"},
     "record/observation.c": {"CREEP": "of V: what counts as at rest where nothing ever sticks; no scene of the table has such a law"},
     "record/events.c": {"AFTER_SLIP": "of what counts: ringing is a hundred times slower, precursors in a row are alike", "RATE_START": "what is called rapid: twice the rod's velocity; 1 and 4 change no event",
                         "RATE_STOP": "the end of it; 0.5 and 2 change no event", "FIRST_ROOM": SIZE},
     "record/drops.c": {"FIRST_ROOM": SIZE},
-    "record/drops.h": {"SLIP_CELLS_ENOUGH": "of slip: 48 cases, in run/warnings; scatter by cells in priors.md"},
+    "answers/drop_series.h": {"SLIP_CELLS_ENOUGH": "of slip: 48 cases, in run/warnings; scatter by cells in priors.md"},
     "record/fields.c": {"PATH_SIZE": SIZE, "FIRST_ROOM": SIZE,
                         "LIST_EVERY": "times in a list that is late"},
     "record/fields.h": {"FIELD_SLOTS": SIZE},
@@ -251,7 +250,6 @@ NOT_A_CHOICE = {
     "record/history.c": {"FLUSH_EVERY": "seconds of a run that a kill may cost"},
     "record/window.h": {"WINDOW_SLIDINGS_MAX": "slidings that a scene may ask for as the last: room for their states"},
     "record/observation.h": {"RECORDERS_MAX": SIZE},
-    "model/extremes.c": {"USUAL": "from which on a message names a quotient"},
     "model/gaps.c": {"ROUNDING": "digits of a file, far below a cell"},
     "model/scene_mesh.c": {"NODE_BYTES": "memory"},
     "stepping/growth.c": {
@@ -265,6 +263,7 @@ NOT_A_CHOICE = {
         "FLOOR_PART": "of the contact: as mean widths are exact for upright layers and pads, any above a half",
         "standard_middle": "the rod's default place", "standard_width": "the rod's default"},
     "model/obtain.c": {
+        "USUAL": "from which on a message names a quotient",
         "REDUCTION_TOLERANCES": "draft and fine: as standard",
         "ONE_BY_ONE_FROM": "of the memory; below, two parts side by side are faster on two cores"},
     "model/memory.c": {

@@ -62,20 +62,6 @@ bool cache_folder_limit(int64_t *bytes, Error *err)
                   given);
 }
 
-// 32 digits and letters, and an ending that only we use (.shape: until 0.2); or a part of such a
-// file.
-static bool is_ours(const char *name)
-{
-#define ENDING(kind, ending, name) "." ending, "." ending PART,
-    static const char *const endings[] = {CACHE_KINDS(ENDING) ".shape"};
-#undef ENDING
-    size_t key = strspn(name, "0123456789abcdef");
-    if (key != 32) return false;
-    for (size_t k = 0; k < sizeof endings / sizeof *endings; k++)
-        if (strcmp(name + key, endings[k]) == 0) return true;
-    return false;
-}
-
 static int by_use(const void *left, const void *right)
 {
     const CacheFolderEntry *a = left, *b = right;
@@ -83,21 +69,13 @@ static int by_use(const void *left, const void *right)
     return strcmp(a->name, b->name);
 }
 
-static bool add_entry(CacheFolder *folder, const char *name, const struct stat *about, Error *err)
-{
-    if (!memory_grow(&folder->entries, folder->count, &folder->room, sizeof *folder->entries, err))
-        return false;
-    CacheFolderEntry *entry = &folder->entries[folder->count++];
-    double read = (double)about->st_atim.tv_sec + 1e-9 * (double)about->st_atim.tv_nsec;
-    double written = (double)about->st_mtim.tv_sec + 1e-9 * (double)about->st_mtim.tv_nsec;
-    *entry = (CacheFolderEntry){.bytes = about->st_size, .used = read > written ? read : written};
-    memcpy(entry->name, name, strlen(name));   // is_ours: 43 characters at most
-    folder->bytes += entry->bytes;
-    return true;
-}
-
 bool cache_folder_read(CacheFolder *folder, Error *err)
 {
+    // A file of ours has a name of 32 digits and letters, and an ending that only we use (.shape:
+    // until 0.2); or it is a part of such a file.
+#define ENDING(kind, ending, name) "." ending, "." ending PART,
+    static const char *const endings[] = {CACHE_KINDS(ENDING) ".shape"};
+#undef ENDING
     DIR *listing = NULL;
     *folder = (CacheFolder){0};
     if (!cache_folder_path(folder->path)) return true;
@@ -105,10 +83,24 @@ bool cache_folder_read(CacheFolder *folder, Error *err)
     if (!listing && errno != ENOENT)
         FAIL(err, ERROR_FILE, "cannot read the folder %s: %s", folder->path, strerror(errno));
     for (struct dirent *file; listing && (file = readdir(listing));) {
+        const char *name = file->d_name;
+        size_t key = strspn(name, "0123456789abcdef");
+        bool ours = false;
         struct stat about;
-        bool there = is_ours(file->d_name) &&
-                     fstatat(dirfd(listing), file->d_name, &about, AT_SYMLINK_NOFOLLOW) == 0;
-        if (there && S_ISREG(about.st_mode)) TRY(add_entry(folder, file->d_name, &about, err));
+        for (size_t k = 0; key == 32 && k < sizeof endings / sizeof *endings; k++)
+            ours = ours || strcmp(name + key, endings[k]) == 0;
+        if (!ours || fstatat(dirfd(listing), name, &about, AT_SYMLINK_NOFOLLOW) != 0 ||
+            !S_ISREG(about.st_mode))
+            continue;
+        TRY(memory_grow(&folder->entries, folder->count, &folder->room, sizeof *folder->entries,
+                        err));
+        CacheFolderEntry *entry = &folder->entries[folder->count++];
+        double read = (double)about.st_atim.tv_sec + 1e-9 * (double)about.st_atim.tv_nsec;
+        double written = (double)about.st_mtim.tv_sec + 1e-9 * (double)about.st_mtim.tv_nsec;
+        *entry =
+            (CacheFolderEntry){.bytes = about.st_size, .used = read > written ? read : written};
+        memcpy(entry->name, name, strlen(name));   // 43 characters at most
+        folder->bytes += entry->bytes;
     }
     if (folder->count > 0)
         qsort(folder->entries, (size_t)folder->count, sizeof *folder->entries, by_use);
@@ -123,19 +115,6 @@ void cache_folder_destroy(CacheFolder *folder)
     *folder = (CacheFolder){0};
 }
 
-// A part is what a killed process left; or somebody writes it, and it stays.
-static bool remove_file(char *path)
-{
-    char *part = path + strlen(path) - strlen(PART);
-    PartFile file = {0};
-    Error unseen = {0};
-    if (strcmp(part, PART) != 0) return unlink(path) == 0;
-    *part = 0;
-    bool left = part_file_try(&file, path, &unseen);
-    part_file_discard(&file);
-    return left;
-}
-
 int32_t cache_folder_trim(const CacheFolder *folder, int64_t limit, const char *keep,
                           int64_t *bytes)
 {
@@ -144,7 +123,20 @@ int32_t cache_folder_trim(const CacheFolder *folder, int64_t limit, const char *
     for (int32_t k = 0; k < folder->count && folder->bytes - *bytes > limit; k++) {
         char path[PATH_MAX + CACHE_ENTRY_SIZE + 1];
         snprintf(path, sizeof path, "%s/%s", folder->path, folder->entries[k].name);
-        if ((keep && strcmp(path, keep) == 0) || !remove_file(path)) continue;
+        if (keep && strcmp(path, keep) == 0) continue;
+        char *part = path + strlen(path) - strlen(PART);
+        bool gone = false;
+        if (strcmp(part, PART) == 0) {
+            // A part is what a killed process left; or somebody writes it, and it stays.
+            PartFile file = {0};
+            Error unseen = {0};
+            *part = 0;
+            gone = part_file_try(&file, path, &unseen);
+            part_file_discard(&file);
+        } else {
+            gone = unlink(path) == 0;
+        }
+        if (!gone) continue;
         removed++;
         *bytes += folder->entries[k].bytes;
     }

@@ -59,24 +59,6 @@ static bool find_path(const char *key, const char *ending, char path[PATH_SIZE])
 
 // --- reading ------------------------------------------------------------------------------------
 
-// All of a file, as it may be replaced meanwhile; *bytes NULL when it cannot be opened.
-static bool read_bytes(const char *path, void **bytes, int64_t *size, Error *err)
-{
-    struct stat what;
-    Error unseen = {0};
-    int descriptor = open_to_read(path, &unseen);
-    if (descriptor < 0) return true;
-    if (fstat(descriptor, &what) == 0 && S_ISREG(what.st_mode)) {
-        // Read now: io/cache/cache_folder removes what was not for the longest time.
-        const struct timespec times[2] = {{.tv_nsec = UTIME_NOW}, {.tv_nsec = UTIME_OMIT}};
-        futimens(descriptor, times);
-        *bytes = memory_bytes(what.st_size, err);
-        if (*bytes) *size = transfer_read(descriptor, *bytes, what.st_size, -1);
-    }
-    close(descriptor);
-    return error_is_clean(err);
-}
-
 // Returns what is wrong with the bytes of a file, or NULL. *length: bytes between head and
 // checksum.
 static const char *find_fault(const CacheItem *item, const char *bytes, int64_t size,
@@ -100,26 +82,36 @@ static const char *find_fault(const CacheItem *item, const char *bytes, int64_t 
     return NULL;
 }
 
-// As `list` wants it.
-static bool take(const CacheItem *item, const char *bytes, int64_t length, Error *err)
-{
-    Archive archive = archive_read(bytes + sizeof(Head), length);
-    archive.err = err;
-    item->list(item->self, &archive);
-    return !archive.failed && archive.at == length;
-}
-
 bool cache_load(const CacheItem *item, double **lent, bool *found, char *note, Error *err)
 {
     char path[PATH_SIZE];
     void *bytes = NULL;
     int64_t size = 0, length = 0;
+    struct stat what;
+    Error unseen = {0};
     *found = false;
     if (!find_path(item->key, endings[item->kind], path)) return true;
-    TRY(read_bytes(path, &bytes, &size, err));
+
+    // All of the file, as it may be replaced meanwhile.
+    int descriptor = open_to_read(path, &unseen);
+    if (descriptor >= 0 && fstat(descriptor, &what) == 0 && S_ISREG(what.st_mode)) {
+        // Read now: io/cache/cache_folder removes what was not for the longest time.
+        const struct timespec times[2] = {{.tv_nsec = UTIME_NOW}, {.tv_nsec = UTIME_OMIT}};
+        futimens(descriptor, times);
+        bytes = memory_bytes(what.st_size, err);
+        if (bytes) size = transfer_read(descriptor, bytes, what.st_size, -1);
+    }
+    if (descriptor >= 0) close(descriptor);
     if (!bytes) goto cleanup;
+
+    // Its head and checksum, then its contents, as `list` wants them.
     const char *fault = find_fault(item, bytes, size, &length);
-    if (!fault && !take(item, bytes, length, err)) fault = "an array is missing or wrong";
+    if (!fault) {
+        Archive archive = archive_read((char *)bytes + sizeof(Head), length);
+        archive.err = err;
+        item->list(item->self, &archive);
+        if (archive.failed || archive.at != length) fault = "an array is missing or wrong";
+    }
     *found = !fault;
     if (fault && note)
         snprintf(note, CACHE_NOTE_SIZE, "a cached %s is not used: %s", names[item->kind], fault);
@@ -182,9 +174,11 @@ static void stay_below_limit(const char *path, int64_t written)
     cache_folder_destroy(&folder);
 }
 
-static bool write_item(const CacheItem *item, const char *path, Error *err)
+bool cache_store(const CacheItem *item, char *note)
 {
-    char digest[HASH_TEXT_SIZE];
+    char path[PATH_SIZE], digest[HASH_TEXT_SIZE];
+    Error failure = {0}, *err = &failure;
+    if (!find_path(item->key, endings[item->kind], path)) return true;
     Writing file = {.hash = hash_start(), .err = err};
     Archive measured = archive_measure(), archive = archive_send(append, &file);
     item->list(item->self, &measured);
@@ -204,19 +198,10 @@ static bool write_item(const CacheItem *item, const char *path, Error *err)
 cleanup:
     part_file_discard(&file.part);
     memory_free(file.block);
-    return error_is_clean(err);
-}
-
-bool cache_store(const CacheItem *item, char *note)
-{
-    char path[PATH_SIZE];
-    Error err = {0};
-    if (!find_path(item->key, endings[item->kind], path)) return true;
-    bool stored = write_item(item, path, &err);
-    if (!stored && note)
+    if (!error_is_clean(err) && note)
         snprintf(note, CACHE_NOTE_SIZE, "the %s is not kept for the next run: %.180s",
-                 names[item->kind], err.message);
-    return stored;
+                 names[item->kind], err->message);
+    return error_is_clean(err);
 }
 
 void cache_remove(CacheKind kind, const char *key)

@@ -101,19 +101,6 @@ static bool take_kinds(const FieldPart *part, FieldFrame *frame, Error *err)
 
 enum { PLANE_STRESSES = 3 };   // of a node; in space twice as many
 
-static bool take_values(const FieldPart *part, int32_t components, const FieldFrame *frame,
-                        double **values, Error *err)
-{
-    memory_free(*values);
-    *values = NULL;
-    if (part->components != components || part->count != frame->node_count)
-        return FAULT(err, ERROR_FILE, "its array %s is not one of %d numbers a node", part->name,
-                     components);
-    if (!(*values = NEW_ARRAY(double, components * part->count, err))) return false;
-    memcpy(*values, part->values, (size_t)(components * part->count) * sizeof(double));
-    return true;
-}
-
 // Grid before fields, points first: as the module hands them on. What is not known is passed over.
 static bool take_part(void *context, const FieldPart *part, Error *err)
 {
@@ -130,9 +117,19 @@ static bool take_part(void *context, const FieldPart *part, Error *err)
     if (part->count > COUNT_MAX)
         return FAULT(err, ERROR_FILE, "it has more than %d nodes", COUNT_MAX);
     if (strcmp(part->name, "points") == 0) frame->node_count = (int32_t)part->count;
-    for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++)
-        if (strcmp(arrays[k].name, part->name) == 0)
-            return take_values(part, arrays[k].components, frame, arrays[k].values, err);
+    for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) {
+        int32_t components = arrays[k].components;
+        double **values = arrays[k].values;
+        if (strcmp(arrays[k].name, part->name) != 0) continue;
+        memory_free(*values);
+        *values = NULL;
+        if (part->components != components || part->count != frame->node_count)
+            return FAULT(err, ERROR_FILE, "its array %s is not one of %d numbers a node",
+                         part->name, components);
+        if (!(*values = NEW_ARRAY(double, components * part->count, err))) return false;
+        memcpy(*values, part->values, (size_t)(components * part->count) * sizeof **values);
+        return true;
+    }
     if (strcmp(part->name, "offsets") == 0) {
         frame->element_count = (int32_t)part->count - 1;
         return take_indices(part, INT32_MAX, &frame->first_node, err);

@@ -55,29 +55,6 @@ LockTry file_lock_try(int descriptor)
     return LOCK_OURS;
 }
 
-// `held` only where the file still has its name. false: it could not be opened.
-static bool try_once(FileLock *lock, const char *path)
-{
-    sigset_t before;
-    char why[OPEN_WHY_SIZE];
-    hold_signals(&before);
-    lock->descriptor = open_to_write(path, OPEN_KEPT, why);
-    int cause = errno;
-    LockTry got = lock->descriptor >= 0 ? file_lock_try(lock->descriptor) : LOCK_NONE;
-    lock->busy = got == LOCK_BUSY;
-    lock->alone = got == LOCK_OURS;
-    lock->held = lock->descriptor >= 0 && !lock->busy && file_is_named(path, lock->descriptor);
-    if (lock->held) {
-        lock->owner = getpid();
-        exchange_held(NULL, lock);
-    } else if (lock->descriptor >= 0) {
-        close(lock->descriptor);
-    }
-    pthread_sigmask(SIG_SETMASK, &before, NULL);
-    errno = cause;
-    return lock->descriptor >= 0;
-}
-
 // Tried again and again, as flock itself cannot wait for a limited time.
 bool file_lock_take(FileLock *lock, const char *path, double seconds)
 {
@@ -85,7 +62,26 @@ bool file_lock_take(FileLock *lock, const char *path, double seconds)
     *lock = (FileLock){0};
     if (snprintf(lock->path, sizeof lock->path, "%s", path) >= (int)sizeof lock->path) return false;
     for (;;) {
-        if (!try_once(lock, path)) return false;
+        // One try: `held` only where the file still has its name.
+        sigset_t before;
+        char why[OPEN_WHY_SIZE];
+        hold_signals(&before);
+        lock->descriptor = open_to_write(path, OPEN_KEPT, why);
+        int cause = errno;
+        LockTry got = lock->descriptor >= 0 ? file_lock_try(lock->descriptor) : LOCK_NONE;
+        lock->busy = got == LOCK_BUSY;
+        lock->alone = got == LOCK_OURS;
+        lock->held = lock->descriptor >= 0 && !lock->busy && file_is_named(path, lock->descriptor);
+        if (lock->held) {
+            lock->owner = getpid();
+            exchange_held(NULL, lock);
+        } else if (lock->descriptor >= 0) {
+            close(lock->descriptor);
+        }
+        pthread_sigmask(SIG_SETMASK, &before, NULL);
+        errno = cause;
+
+        if (lock->descriptor < 0) return false;
         if (lock->held) return true;
         if (!lock->busy) continue;   // its holder removed the file meanwhile
         if (clock_seconds() >= until) return false;

@@ -90,39 +90,11 @@ bool open_holds_something(const char *path)
     return lstat(path, &status) == 0 && !(S_ISREG(status.st_mode) && status.st_size == 0);
 }
 
-// Returns why the open file must not be written to, or NULL.
-static const char *objection(const struct stat *status)
-{
-    if (!S_ISREG(status->st_mode)) return kind_of(status);
-    return status->st_nlink > 1 ? "a file with a second name (a hard link)" : NULL;
-}
-
 static int refuse(const char *path, const char *what, char why[OPEN_WHY_SIZE])
 {
     snprintf(why, OPEN_WHY_SIZE, "%.250s is %s: move it away", path, what);
     errno = EEXIST;
     return -1;
-}
-
-// One that is there. O_NONBLOCK: a pipe is not waited for.
-static int open_there(const char *path, char why[OPEN_WHY_SIZE])
-{
-    struct stat status;
-    int file = open(path, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
-    if (file < 0) {
-        int cause = errno;
-        snprintf(why, OPEN_WHY_SIZE, "%s", strerror(cause));
-        if (lstat(path, &status) == 0 && S_ISLNK(status.st_mode))
-            return refuse(path, "a symbolic link, which is not followed", why);
-        if (lstat(path, &status) == 0 && kind_of(&status))
-            return refuse(path, kind_of(&status), why);
-        errno = cause;
-        return -1;
-    }
-    const char *against = fstat(file, &status) == 0 ? objection(&status) : "not to be looked at";
-    if (!against) return file;
-    close(file);
-    return refuse(path, against, why);
 }
 
 int open_to_write(const char *path, OpenAs as, char why[OPEN_WHY_SIZE])
@@ -137,7 +109,27 @@ int open_to_write(const char *path, OpenAs as, char why[OPEN_WHY_SIZE])
                 return -1;
             }
         }
-        file = open_there(path, why);
-        if (file >= 0 || errno != ENOENT || as == OPEN_THERE || turn > 9) return file;
+
+        // One that is there. O_NONBLOCK: a pipe is not waited for.
+        struct stat status;
+        file = open(path, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+        if (file >= 0) {
+            const char *against = "not to be looked at";   // why it must not be written to, or NULL
+            if (fstat(file, &status) == 0)
+                against = !S_ISREG(status.st_mode) ? kind_of(&status)
+                          : status.st_nlink > 1    ? "a file with a second name (a hard link)"
+                                                   : NULL;
+            if (!against) return file;
+            close(file);
+            return refuse(path, against, why);
+        }
+        int cause = errno;
+        snprintf(why, OPEN_WHY_SIZE, "%s", strerror(cause));
+        if (lstat(path, &status) == 0 && S_ISLNK(status.st_mode))
+            return refuse(path, "a symbolic link, which is not followed", why);
+        if (lstat(path, &status) == 0 && kind_of(&status))
+            return refuse(path, kind_of(&status), why);
+        errno = cause;
+        if (cause != ENOENT || as == OPEN_THERE || turn > 9) return -1;
     }
 }

@@ -19,30 +19,23 @@ static bool check_size(const char *path, int64_t size, int32_t size_max, Error *
     return true;
 }
 
-// The buffer grows as bytes come in.
-static bool read_stream(FILE *stream, const char *path, int32_t size_max, char **bytes,
-                        int32_t *size, Error *err)
-{
-    int32_t capacity = 4096;
-    if (!(*bytes = memory_array(capacity + 1, 1, err))) return false;
-    for (;;) {
-        *size += (int32_t)fread(*bytes + *size, 1, (size_t)(capacity - *size), stream);
-        if (*size < capacity) break;
-        if (!check_size(path, *size, size_max, err)) return false;
-        if (!memory_resize(bytes, capacity, 2 * (int64_t)capacity + 1, 1, err)) return false;
-        capacity *= 2;
-    }
-    if (ferror(stream)) return FAULT(err, ERROR_FILE, "cannot read %s: %s", path, strerror(errno));
-    return check_size(path, *size, size_max, err);
-}
-
 bool text_file_bytes(const char *path, int32_t size_max, char **bytes, int32_t *size, Error *err)
 {
     *bytes = NULL;
     *size = 0;
     FILE *stream = NULL;
+    int32_t capacity = 4096;   // the buffer grows as bytes come in
     TRY(stream = open_stream(path, err));
-    TRY(read_stream(stream, path, size_max, bytes, size, err));
+    TRY(*bytes = memory_array(capacity + 1, 1, err));
+    for (;;) {
+        *size += (int32_t)fread(*bytes + *size, 1, (size_t)(capacity - *size), stream);
+        if (*size < capacity) break;
+        TRY(check_size(path, *size, size_max, err));
+        TRY(memory_resize(bytes, capacity, 2 * (int64_t)capacity + 1, 1, err));
+        capacity *= 2;
+    }
+    if (ferror(stream)) FAIL(err, ERROR_FILE, "cannot read %s: %s", path, strerror(errno));
+    TRY(check_size(path, *size, size_max, err));
     if (*size >= 3 && memcmp(*bytes, "\xEF\xBB\xBF", 3) == 0) {
         *size -= 3;
         memmove(*bytes, *bytes + 3, (size_t)*size);

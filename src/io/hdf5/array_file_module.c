@@ -259,37 +259,32 @@ cleanup:
     return NULL;
 }
 
-// All pieces into one file, which takes the place of the last. Where HDF5 cannot write it, it is
-// left open (io/hdf5/hdf5_library).
-static bool join_pieces(ArrayFile *file, Error *err)
-{
-    PartFile next = {0};
-    TRY(part_file_begin_next(&file->part, &next, err));
-    hid_t whole = hdf5_disk_create(next.part, err);
-    if (whole < 0 || !array_pieces_join(&file->pieces, whole, err)) {
-        error_context(err, "the parts of %s cannot be joined", file->path);
-        goto cleanup;
-    }
-    TRY(wrote(file, H5Fclose(whole), "the end", err));
-    TRY(part_file_take_next(&file->part, &next, err));
-cleanup:
-    part_file_discard(&next);
-    return error_is_clean(err);
-}
-
 // Where one of these fails the name is not given.
 static bool hdf5_close(ArrayFile *file, Error *err)
 {
     char name[PATH_MAX + 24];
+    PartFile next = {0};
     if (!file->writing) goto cleanup;
     TRY(hdf5_flush(file, err));
-    TRY(file->pieces.count == 0 || join_pieces(file, err));
+    if (file->pieces.count > 0) {
+        // All pieces into one file, which takes the place of the last. Where HDF5 cannot write it,
+        // it is left open (io/hdf5/hdf5_library).
+        TRY(part_file_begin_next(&file->part, &next, err));
+        hid_t whole = hdf5_disk_create(next.part, err);
+        if (whole < 0 || !array_pieces_join(&file->pieces, whole, err)) {
+            error_context(err, "the parts of %s cannot be joined", file->path);
+            goto cleanup;
+        }
+        TRY(wrote(file, H5Fclose(whole), "the end", err));
+        TRY(part_file_take_next(&file->part, &next, err));
+    }
     TRY(part_file_commit(&file->part, err));
     for (int32_t number = file->pieces.count; number > 0; number--) {
         array_piece_name(&file->pieces, number, name);
         unlink(name);
     }
 cleanup:
+    part_file_discard(&next);
     destroy(file);
     return error_is_clean(err);
 }

@@ -173,38 +173,39 @@ static bool only_warns(MeshRaw *raw)
 // all that it did to it (SetOrder, RefineMesh, ...), as `gmsh - FILE` does.
 static bool gmsh_load(const MeshRawRequest *request, MeshRaw *raw, Error *err)
 {
-    int status = 0;
+    int *types = NULL, status = 0, order = 1;
+    size_t count = 0;
     double algorithm = 0;
-    if (!gmsh_open(request, &status, err)) return false;
+    TRY(gmsh_open(request, &status, err));
     bool is_meshed = has_elements(model_dimension(), -1);
     // gmsh reports some errors by status, some in its log only.
     if ((status || gmsh_complained()) && !(request->generate && is_meshed && only_warns(raw))) {
         fail_with_log(request, "reading it", err);
-        return false;
+        goto cleanup;
     }
-    if (!request->generate || is_meshed) return true;
-    if (request->opened) request->opened();
-    gmshOptionGetNumber("Mesh.Algorithm", &algorithm, &status);
-    if (status == 0 && algorithm == MESH_ADAPT_QUADS)
-        return REFUSE(err,
-                      "%s: sets Mesh.Algorithm = 8, which crashes gmsh 4.8; use 6, and for "
-                      "quadrilaterals Mesh.RecombinationAlgorithm = 3 with it",
-                      request->path);
-    // Meshing threads that throw would end the program: let them log, and look at the log.
-    gmshOptionSetNumber("General.AbortOnError", 0, &status);
-    gmshModelMeshGenerate(model_dimension(), &status);
-    if ((status || gmsh_complained()) && !only_warns(raw))
-        fail_with_log(request, "meshing it", err);
-    return error_is_clean(err);
-}
 
-// Halves every edge `splits` times. gmsh makes linear elements of it, which get their order back;
-// new nodes are put onto the geometry where there is one (a .geo).
-static bool gmsh_split(const MeshRawRequest *request, const MeshRaw *raw, Error *err)
-{
-    int *types = NULL, status = 0, order = 1;
-    size_t count = 0;
-    if (request->splits == 0) return true;
+    // The mesh.
+    if (request->generate && !is_meshed) {
+        if (request->opened) request->opened();
+        gmshOptionGetNumber("Mesh.Algorithm", &algorithm, &status);
+        if (status == 0 && algorithm == MESH_ADAPT_QUADS)
+            FAIL(err, ERROR_INPUT,
+                 "%s: sets Mesh.Algorithm = 8, which crashes gmsh 4.8; use 6, and for "
+                 "quadrilaterals Mesh.RecombinationAlgorithm = 3 with it",
+                 request->path);
+        // Meshing threads that throw would end the program: let them log, and look at the log.
+        gmshOptionSetNumber("General.AbortOnError", 0, &status);
+        gmshModelMeshGenerate(model_dimension(), &status);
+        if ((status || gmsh_complained()) && !only_warns(raw)) {
+            fail_with_log(request, "meshing it", err);
+            goto cleanup;
+        }
+    }
+    if (request->splits == 0) goto cleanup;
+
+    // Every edge is halved `splits` times. gmsh makes linear elements of it, which get their order
+    // back; new nodes are put onto the geometry where there is one (a .geo).
+    status = 0;
     gmshModelMeshGetElementTypes(&types, &count, model_dimension(), -1, &status);
     for (size_t k = 0; k < count; k++) {
         if (types[k] < MSH_TRI_3 || types[k] > MSH_PRI_6) order = 2;   // not linear
@@ -214,6 +215,7 @@ static bool gmsh_split(const MeshRawRequest *request, const MeshRaw *raw, Error 
     if (status == 0 && order > 1) gmshModelMeshSetOrder(order, &status);
     if (status || (gmsh_complained() && !raw->warning[0]))
         fail_with_log(request, "splitting its cells", err);
+cleanup:
     gmshFree(types);
     return error_is_clean(err);
 }
@@ -347,7 +349,6 @@ __attribute__((visibility("default"))) bool amontons_gmsh_read(const MeshRawRequ
     gmshLoggerStart(&status);
 
     TRY(gmsh_load(request, raw, err));
-    TRY(gmsh_split(request, raw, err));
     for (int dimension = 0; dimension <= 3; dimension++) TRY(fetch_nodes(dimension, raw, err));
 
     // One entity after the other, as the groups of an element are those of its entity.

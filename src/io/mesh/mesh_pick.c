@@ -6,33 +6,6 @@
 
 #include <string.h>
 
-// Keeps the nodes and elements of a group that the mesh keeps, by their new numbers (-1: left out),
-// and the faces that have all of their nodes. False: nothing of the group is left.
-static bool keep_group(const int32_t *node, const int32_t *element, MeshGroup *group)
-{
-    int32_t faces = 0, nodes = 0, elements = 0, width = group->nodes_per_face;
-    for (int32_t f = 0; f < group->face_count; f++) {
-        const int32_t *face = group->face_nodes + (int64_t)f * width;
-        bool whole = true;
-        for (int32_t a = 0; a < width && face[a] >= 0; a++) whole = whole && node[face[a]] >= 0;
-        if (!whole) continue;
-        for (int32_t a = 0; a < width; a++)
-            group->face_nodes[(int64_t)faces * width + a] = face[a] < 0 ? -1 : node[face[a]];
-        faces++;
-    }
-    for (int32_t k = 0; k < group->node_count; k++)
-        if (node[group->nodes[k]] >= 0) group->nodes[nodes++] = node[group->nodes[k]];
-    for (int32_t k = 0; k < group->element_count; k++)
-        if (element[group->elements[k]] >= 0)
-            group->elements[elements++] = element[group->elements[k]];
-    // A face of the rest may have left a node of its rim that is the block's too.
-    bool left = group->face_count > 0 ? faces > 0 : nodes > 0 || elements > 0;
-    group->face_count = faces;
-    group->node_count = nodes;
-    group->element_count = elements;
-    return left;
-}
-
 bool mesh_file_pick(const char *path, const char (*names)[GROUP_NAME_SIZE], int32_t count,
                     MeshFile *mesh, Error *err)
 {
@@ -81,11 +54,32 @@ bool mesh_file_pick(const char *path, const char (*names)[GROUP_NAME_SIZE], int3
     mesh->first_node[kept] = at;
     mesh->element_count = kept;
 
-    // Groups, as far as something of them is left.
+    // Groups, as far as something of them is left: of the nodes and elements those that the mesh
+    // keeps, by their new numbers, and the faces that have all of their nodes.
     kept = 0;
     for (int32_t g = 0; g < mesh->group_count; g++) {
         MeshGroup *group = &mesh->groups[g];
-        if (keep_group(node, element, group))
+        int32_t faces = 0, nodes = 0, elements = 0, width = group->nodes_per_face;
+        for (int32_t f = 0; f < group->face_count; f++) {
+            const int32_t *face = group->face_nodes + (int64_t)f * width;
+            bool whole = true;
+            for (int32_t a = 0; a < width && face[a] >= 0; a++) whole = whole && node[face[a]] >= 0;
+            if (!whole) continue;
+            for (int32_t a = 0; a < width; a++)
+                group->face_nodes[(int64_t)faces * width + a] = face[a] < 0 ? -1 : node[face[a]];
+            faces++;
+        }
+        for (int32_t k = 0; k < group->node_count; k++)
+            if (node[group->nodes[k]] >= 0) group->nodes[nodes++] = node[group->nodes[k]];
+        for (int32_t k = 0; k < group->element_count; k++)
+            if (element[group->elements[k]] >= 0)
+                group->elements[elements++] = element[group->elements[k]];
+        // A face of the rest may have left a node of its rim that is the block's too.
+        bool left = group->face_count > 0 ? faces > 0 : nodes > 0 || elements > 0;
+        group->face_count = faces;
+        group->node_count = nodes;
+        group->element_count = elements;
+        if (left)
             mesh->groups[kept++] = *group;
         else
             memory_free_all(group->face_nodes, group->nodes, group->elements);

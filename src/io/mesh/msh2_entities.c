@@ -89,30 +89,6 @@ static void skip_line(Msh2File *file)
     if (file->at < file->size) file->at++;
 }
 
-// Tags and nodes of an element whose type is known.
-static bool read_element(Msh2File *file, int64_t tags, Msh2Element *element, Error *err)
-{
-    int64_t value = 0, needed = file->nodes_used + NODES_MAX;
-    element->tags = (int32_t)tags;
-    element->after_entity = file->at;
-    for (int64_t k = 0; k < tags; k++) {
-        if (!read_int(file, &value) || value < INT_MIN || value > INT_MAX) return false;
-        if (k == 0) element->group = (int32_t)value;
-        if (k == 1) element->entity = (int32_t)value;
-        if (k <= 1) element->after_entity = file->at;
-    }
-    if (needed > file->nodes_room) {
-        int64_t room = 2 * file->nodes_room + 1000 * NODES_MAX;
-        if (!memory_resize(&file->nodes, file->nodes_room, room, sizeof *file->nodes, err))
-            return false;
-        file->nodes_room = room;
-    }
-    element->first_node = file->nodes_used;
-    for (int32_t a = 0; a < TYPES[element->type].nodes; a++)
-        if (!read_int(file, &file->nodes[file->nodes_used++])) return false;
-    return true;
-}
-
 // False: the file is not understood, or an error.
 static bool read_elements(Msh2File *file, Error *err)
 {
@@ -149,7 +125,27 @@ static bool read_elements(Msh2File *file, Error *err)
             *element =
                 (Msh2Element){.type = (int32_t)type, .begin = file->binary ? file->at : line};
             if (file->binary && !read_int(file, &number)) return false;
-            if (!read_element(file, tags, element, err)) return false;
+
+            // Tags.
+            element->tags = (int32_t)tags;
+            element->after_entity = file->at;
+            for (int64_t tag = 0, value = 0; tag < tags; tag++) {
+                if (!read_int(file, &value) || value < INT_MIN || value > INT_MAX) return false;
+                if (tag == 0) element->group = (int32_t)value;
+                if (tag == 1) element->entity = (int32_t)value;
+                if (tag <= 1) element->after_entity = file->at;
+            }
+
+            // Nodes.
+            int64_t room = 2 * file->nodes_room + 1000 * NODES_MAX;
+            if (file->nodes_used + NODES_MAX > file->nodes_room) {
+                if (!memory_resize(&file->nodes, file->nodes_room, room, sizeof *file->nodes, err))
+                    return false;
+                file->nodes_room = room;
+            }
+            element->first_node = file->nodes_used;
+            for (int32_t a = 0; a < TYPES[element->type].nodes; a++)
+                if (!read_int(file, &file->nodes[file->nodes_used++])) return false;
         }
         if (!file->binary) skip_line(file);
     }

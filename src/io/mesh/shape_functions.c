@@ -257,32 +257,30 @@ ShapeValues shape_at(ElementKind kind, const double *point)
     return shape;
 }
 
-// The rule times Gauss's with n = 2 or 3 points along a further axis.
-static void multiply_rule(int32_t n, int32_t axis, Quadrature *rule)
-{
-    double point[3] = {-sqrt(1. / 3), sqrt(1. / 3), 0}, weight[3] = {1, 1, 0};
-    if (n == 3) {
-        point[0] = -sqrt(0.6), point[1] = 0, point[2] = sqrt(0.6);
-        weight[0] = 5. / 9, weight[1] = 8. / 9, weight[2] = 5. / 9;
-    }
-    int32_t count = rule->count;
-    for (int32_t k = n - 1; k >= 0; k--)   // downwards: the points that are there are read last
-        for (int32_t q = 0; q < count; q++) {
-            int32_t to = k * count + q;
-            memcpy(rule->point[to], rule->point[q], sizeof(MeshPlace));
-            rule->point[to][axis] = point[k];
-            rule->weight[to] = rule->weight[q] * weight[k];
-        }
-    rule->count = n * count;
-}
-
 static Quadrature rule_of(ElementKind kind, Quadrature (*simplex)(void))
 {
     const ShapeRow *row = &ROWS[kind];
     Quadrature rule = {.count = 1, .weight = {1}};
     if (simplex) rule = simplex();
-    for (int32_t axis = row->simplex_dim; axis < element_dim(kind); axis++)
-        multiply_rule(row->line_points, axis, &rule);
+
+    // Times Gauss's rule with n = 2 or 3 points along each further axis.
+    int32_t n = row->line_points;
+    double point[3] = {-sqrt(1. / 3), sqrt(1. / 3), 0}, weight[3] = {1, 1, 0};
+    if (n == 3) {
+        point[0] = -sqrt(0.6), point[1] = 0, point[2] = sqrt(0.6);
+        weight[0] = 5. / 9, weight[1] = 8. / 9, weight[2] = 5. / 9;
+    }
+    for (int32_t axis = row->simplex_dim; axis < element_dim(kind); axis++) {
+        int32_t count = rule.count;
+        for (int32_t k = n - 1; k >= 0; k--)   // downwards: points that are there are read last
+            for (int32_t q = 0; q < count; q++) {
+                int32_t to = k * count + q;
+                memcpy(rule.point[to], rule.point[q], sizeof(MeshPlace));
+                rule.point[to][axis] = point[k];
+                rule.weight[to] = rule.weight[q] * weight[k];
+            }
+        rule.count = n * count;
+    }
     return rule;
 }
 

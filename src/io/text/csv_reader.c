@@ -42,20 +42,6 @@ static bool ends_line(char c)
     return !c || strchr(ENDS, c);
 }
 
-// Where the cell that begins at `at` ends. Blanks before a bracket separate nothing: x [mm].
-static const char *cell_end(const char *at, char separator)
-{
-    bool quoted = false, has_quotes = at[strspn(at, BLANKS)] == '"';   // else E" is a name
-    for (; *at && (quoted || !ends_line(*at)); at++) {
-        if (*at == '"' && has_quotes) quoted = !quoted;
-        if (quoted || (separator == ' ' ? !strchr(BLANKS, *at) : *at != separator)) continue;
-        if (separator != ' ') break;
-        const char *next = at + strspn(at, BLANKS);
-        if (*next != '(' && *next != '[') break;
-    }
-    return at;
-}
-
 static bool is_number(const char *cell, size_t length, double *value)
 {
     char copy[NUMBER_SIZE];
@@ -79,7 +65,17 @@ static int32_t count_cells(const char *line, char separator, bool *numbers)
     *numbers = true;
     if (separator == ' ') line += strspn(line, BLANKS);
     for (;;) {
-        const char *end = cell_end(line, separator);
+        // Where the cell ends. Blanks before a bracket separate nothing: x [mm].
+        const char *end = line;
+        bool quoted = false, has_quotes = line[strspn(line, BLANKS)] == '"';   // else E" is a name
+        for (; *end && (quoted || !ends_line(*end)); end++) {
+            if (*end == '"' && has_quotes) quoted = !quoted;
+            if (quoted || (separator == ' ' ? !strchr(BLANKS, *end) : *end != separator)) continue;
+            if (separator != ' ') break;
+            const char *next = end + strspn(end, BLANKS);
+            if (*next != '(' && *next != '[') break;
+        }
+
         double value;
         *numbers = *numbers && is_number(line, (size_t)(end - line), &value);
         count++;

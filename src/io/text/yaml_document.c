@@ -284,7 +284,7 @@ static bool add_scalar(Reader *reader, int32_t position, YamlNode beside, YamlNo
     char *kept = document->nodes[*node].text = memory_text(text, err);
     if (!kept) return false;
 
-    // Escapes ("\uFFFE") bring characters that check_is_text does not see, and that no title or
+    // Escapes ("\uFFFE") bring characters that parse_bytes does not see, and that no title or
     // name may have: pictures and pages are written at the end of a run.
     char message[160];
     uint32_t code = 0;   // of "\0", at which the text would end
@@ -321,23 +321,6 @@ static bool begin_node(Reader *reader, YamlNode beside, YamlNode *node, Error *e
                           node, err);
 }
 
-// YAML leaves open what a key twice means; here it is an error with both places.
-static bool check_key(const YamlDocument *document, YamlNode map, YamlNode key, Error *err)
-{
-    const char *word = yaml_text(document, key);
-    int32_t position = document->nodes[key].position;
-    if (yaml_kind(document, key) != YAML_SCALAR)
-        return error_at(document, position, err, "a key must be a plain word");
-    YAML_EACH (i, document, map) {
-        char message[200];
-        if (strcmp(yaml_key(document, i), word) != 0) continue;
-        snprintf(message, sizeof message, "the key `%.60s` stands twice (first in line %d)", word,
-                 yaml_line(document, document->nodes[i].key));
-        return error_at(document, position, err, message);
-    }
-    return true;
-}
-
 // Reads the children of a list or a map up to its end; each value of a map follows its key. depth:
 // number of lists and maps around this one.
 static bool read_children(Reader *reader, YamlNode above, int32_t depth, Error *err)
@@ -354,7 +337,19 @@ static bool read_children(Reader *reader, YamlNode above, int32_t depth, Error *
         if (reader->event->type == (kind == YAML_MAP ? FYET_MAPPING_END : FYET_SEQUENCE_END)) break;
         if (kind == YAML_MAP) {
             if (!begin_node(reader, above, &key, err)) return false;
-            if (!check_key(document, above, key, err)) return false;
+
+            // YAML leaves open what a key twice means; here it is an error with both places.
+            const char *word = yaml_text(document, key);
+            int32_t position = document->nodes[key].position;
+            if (yaml_kind(document, key) != YAML_SCALAR)
+                return error_at(document, position, err, "a key must be a plain word");
+            YAML_EACH (other, document, above) {
+                char message[200];
+                if (strcmp(yaml_key(document, other), word) != 0) continue;
+                snprintf(message, sizeof message, "the key `%.60s` stands twice (first in line %d)",
+                         word, yaml_line(document, document->nodes[other].key));
+                return error_at(document, position, err, message);
+            }
             if (!next_event(reader, err)) return false;
         }
         if (!begin_node(reader, kind == YAML_MAP ? key : above, &node, err)) return false;
@@ -430,23 +425,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Before libfyaml reads it: a binary file gets an error with the byte and its place.
-static bool check_is_text(const YamlDocument *document, Error *err)
-{
-    const unsigned char *text = (const unsigned char *)document->shown;
-    for (int32_t i = 0; i < document->size;) {
-        int32_t length = text_utf8_length((const char *)text + i);
-        bool control = (text[i] < ' ' && !strchr("\t\n\r", text[i])) || !text[i] || text[i] == 0x7F;
-        if (control || length == 0) {
-            YamlPlace place = find_place(document, i);
-            return REFUSE(err, "%s:%d:%d: the byte 0x%02X: %s", document->name, place.line,
-                          place.column, text[i], control ? "not a text file" : "not UTF-8");
-        }
-        i += length;
-    }
-    return true;
-}
-
 // Takes over `bytes` ([size + 1], zero-terminated) also when it fails.
 static bool parse_bytes(const char *name, char *bytes, int32_t size, int32_t skip,
                         YamlDocument **document, Error *err)
@@ -459,7 +437,17 @@ static bool parse_bytes(const char *name, char *bytes, int32_t size, int32_t ski
     made->shown = bytes;
     made->size = size;
     TRY((made->name = memory_text(name, err)));
-    TRY(check_is_text(made, err));
+
+    // Before libfyaml reads it: a binary file gets an error with the byte and its place.
+    for (int32_t i = 0, length; i < size; i += length) {
+        unsigned char byte = (unsigned char)bytes[i];
+        length = text_utf8_length(bytes + i);
+        bool control = (byte < ' ' && !strchr("\t\n\r", byte)) || !byte || byte == 0x7F;
+        if (!control && length > 0) continue;
+        YamlPlace place = find_place(made, i);
+        FAIL(err, ERROR_INPUT, "%s:%d:%d: the byte 0x%02X: %s", made->name, place.line,
+             place.column, byte, control ? "not a text file" : "not UTF-8");
+    }
     TRY(parse_text(made, skip, err));
 cleanup:
     if (error_is_clean(err))

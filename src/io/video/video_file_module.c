@@ -138,25 +138,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// The file's own frames and their way from what is drawn.
-static bool frame_create(VideoFile *film, const VideoKind *kind, const VideoDef *def, Error *err)
-{
-    film->frame = av_frame_alloc();
-    film->packet = av_packet_alloc();
-    if (!check(film, film->frame && film->packet ? 0 : AVERROR(ENOMEM), "", err)) return false;
-    film->frame->format = kind->pixels;
-    film->frame->width = def->width;
-    film->frame->height = def->height;
-    if (!check(film, av_frame_get_buffer(film->frame, 0), "has no frame", err)) return false;
-    if (kind->pixels == AV_PIX_FMT_PAL8) return true;
-    film->scaler = sws_getContext(def->width, def->height, AV_PIX_FMT_BGR0, def->width, def->height,
-                                  kind->pixels, SWS_BILINEAR, NULL, NULL, NULL);
-    if (!check(film, film->scaler ? 0 : AVERROR(ENOMEM), "", err)) return false;
-    const int *hd = sws_getCoefficients(SWS_CS_ITU709);
-    sws_setColorspaceDetails(film->scaler, hd, 1, hd, 0, 0, 1 << 16, 1 << 16);
-    return true;
-}
-
 // The nearest entry of the palette to the middle of each of SIDE^3 cubes of colours.
 static bool palette_fill(VideoFile *film, const uint8_t *colors, Error *err)
 {
@@ -230,7 +211,22 @@ static VideoFile *film_create(const VideoDef *def, Error *err)
     film->format->flags |= AVFMT_FLAG_BITEXACT;
 
     TRY(codec_open(film, kind, def, err));
-    TRY(frame_create(film, kind, def, err));
+
+    // The file's own frames and their way from what is drawn.
+    film->frame = av_frame_alloc();
+    film->packet = av_packet_alloc();
+    TRY(check(film, film->frame && film->packet ? 0 : AVERROR(ENOMEM), "", err));
+    film->frame->format = kind->pixels;
+    film->frame->width = def->width;
+    film->frame->height = def->height;
+    TRY(check(film, av_frame_get_buffer(film->frame, 0), "has no frame", err));
+    if (kind->pixels != AV_PIX_FMT_PAL8) {
+        film->scaler = sws_getContext(def->width, def->height, AV_PIX_FMT_BGR0, def->width,
+                                      def->height, kind->pixels, SWS_BILINEAR, NULL, NULL, NULL);
+        TRY(check(film, film->scaler ? 0 : AVERROR(ENOMEM), "", err));
+        const int *hd = sws_getCoefficients(SWS_CS_ITU709);
+        sws_setColorspaceDetails(film->scaler, hd, 1, hd, 0, 0, 1 << 16, 1 << 16);
+    }
 
     // The one stream in it, and the header.
     film->track = avformat_new_stream(film->format, NULL);

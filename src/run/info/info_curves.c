@@ -107,19 +107,6 @@ cleanup:
     return done;
 }
 
-// mu at a slip rate, of a law that remembers in steady slip; NaN: no such state is found.
-static double steady_mu(const FrictionLaw *law, double speed)
-{
-    FrictionNode node = friction_node(law, 1);
-    FrictionRates rates = {0};
-    node.pressure = law->pressure;
-    if (!law->remembers) return friction_coefficient(&node, speed);
-    friction_start_state(&node, node.from);
-    if (!friction_find_steady(&node, speed)) return NAN;
-    friction_rates(&node, speed, node.from, &rates);
-    return rates.mu;
-}
-
 bool info_draw_friction(const Scene *scene, const InfoOptions *options, Error *err)
 {
     const FrictionLaw *law = &scene->friction;
@@ -151,7 +138,15 @@ bool info_draw_friction(const Scene *scene, const InfoOptions *options, Error *e
     if (rod > 0) least = fmin(least, rod / BEYOND), most = fmax(most, rod * BEYOND);
     for (int32_t k = 0; k < FRICTION_SPEEDS; k++) {
         speed[k] = least * pow(most / least, (double)k / (FRICTION_SPEEDS - 1));
-        mu[k] = steady_mu(law, speed[k]);
+
+        // mu, of a law that remembers in steady slip; NaN: no such state is found.
+        FrictionNode node = friction_node(law, 1);
+        FrictionRates rates = {.mu = NAN};
+        node.pressure = law->pressure;
+        if (law->remembers) friction_start_state(&node, node.from);
+        if (law->remembers && friction_find_steady(&node, speed[k]))
+            friction_rates(&node, speed[k], node.from, &rates);
+        mu[k] = law->remembers ? rates.mu : friction_coefficient(&node, speed[k]);
         lowest = fmin(lowest, mu[k]);
         highest = fmax(highest, mu[k]);
     }
@@ -192,28 +187,6 @@ static int32_t find_files(const Scene *scene, const SceneMaterial *found[FILES_M
 static const char *path_of(const Scene *scene, const SceneMaterial *region)
 {
     return region ? region->from : scene->material.from;
-}
-
-// Frequencies between those of the whole run and of a shear wave through the shortest cell of the
-// mesh, Hz. false: the scene does not say how long it runs.
-static bool find_band(const Scene *scene, const SceneMaterial *region, const MaterialFit *fit,
-                      double band[2], bool *known, Error *err)
-{
-    Mesh mesh = {0};
-    double until = scene->time.until_t;
-    if (scene->time.until_U > 0 && scene->rod.velocity > 0)
-        until = fmin(until > 0 ? until : INFINITY, scene->time.until_U / scene->rod.velocity);
-    *known = until > 0;
-    TRY(scene_mesh_read(scene, NULL, &mesh, NULL, err));
-    double density = region && region->given[MATERIAL_DENSITY] ? region->number[MATERIAL_DENSITY]
-                                                               : scene->material.density;
-    double shear = fit->shear.rest;
-    for (int32_t k = 0; k < fit->shear.count; k++) shear += fit->shear.modulus[k];
-    band[0] = 1 / until;
-    band[1] = sqrt(shear / density) / mesh_summarise(&mesh).edge_min;
-cleanup:
-    mesh_destroy(&mesh);
-    return error_is_clean(err);
 }
 
 // The least and the largest place of the data.
@@ -267,6 +240,7 @@ bool info_draw_material(const Scene *scene, const InfoOptions *options, Error *e
     const SceneMaterial *regions[FILES_MAX];
     MaterialData data = {0};
     MaterialFit fit;
+    Mesh mesh = {0};
     double x[MODULUS_POINTS], y[2][MODULUS_POINTS], ends[2], band[2] = {0, 0}, least = INFINITY,
                                                              most = 0;
     double *at = NULL;
@@ -280,7 +254,24 @@ bool info_draw_material(const Scene *scene, const InfoOptions *options, Error *e
     double per = over_time ? 1 : TWO_PI;
     find_ends(moduli, ends);
     double from = ends[0] / per / BEYOND, to = ends[1] / per * BEYOND;
-    if (!over_time) TRY(find_band(scene, regions[0], &fit, band, &known, err));
+
+    // Frequencies between those of the whole run and of a shear wave through the shortest cell of
+    // the mesh, Hz; not known where the scene does not say how long it runs.
+    double until = scene->time.until_t;
+    if (scene->time.until_U > 0 && scene->rod.velocity > 0)
+        until = fmin(until > 0 ? until : INFINITY, scene->time.until_U / scene->rod.velocity);
+    if (!over_time) {
+        const SceneMaterial *region = regions[0];
+        double density = region && region->given[MATERIAL_DENSITY]
+                             ? region->number[MATERIAL_DENSITY]
+                             : scene->material.density;
+        double shear = fit.shear.rest;
+        for (int32_t k = 0; k < fit.shear.count; k++) shear += fit.shear.modulus[k];
+        TRY(scene_mesh_read(scene, NULL, &mesh, NULL, err));
+        known = until > 0;
+        band[0] = 1 / until;
+        band[1] = sqrt(shear / density) / mesh_summarise(&mesh).edge_min;
+    }
     if (known) from = fmin(from, band[0] / BEYOND), to = fmax(to, band[1] * BEYOND);
     TRY(at = NEW_ARRAY(double, moduli->count, err));
     for (int32_t i = 0; i < moduli->count; i++) at[i] = moduli->at[i] / per;
@@ -330,6 +321,7 @@ bool info_draw_material(const Scene *scene, const InfoOptions *options, Error *e
     TRY(draw_curves(title, axes, curves, count, options, err));
 cleanup:
     memory_free(at);
+    mesh_destroy(&mesh);
     material_data_destroy(&data);
     return error_is_clean(err);
 }

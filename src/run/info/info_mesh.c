@@ -71,22 +71,6 @@ void info_write_mesh(const Mesh *mesh, FILE *out)
     if (mesh->warning[0]) fprintf(out, "  gmsh made it, but says: %s\n", mesh->warning);
 }
 
-// "n=4" as a parameter of a .geo: what reads as a number is one.
-static bool read_parameter(const char *word, MeshParameter *parameter, Error *err)
-{
-    const char *equals = strchr(word, '=');
-    *parameter = (MeshParameter){0};
-    if (!equals || equals == word || !equals[1])
-        return REFUSE(err, "--set %s: a mesh takes name=value, as in --set n=4", word);
-    if (equals - word >= GROUP_NAME_SIZE || strlen(equals + 1) >= GROUP_NAME_SIZE)
-        return REFUSE(err, "--set %s: name and value have at most %d bytes each", word,
-                      GROUP_NAME_SIZE - 1);
-    memcpy(parameter->name, word, (size_t)(equals - word));
-    int32_t length = text_number(equals + 1, &parameter->value);
-    if (equals[1 + length]) snprintf(parameter->text, GROUP_NAME_SIZE, "%s", equals + 1);
-    return true;
-}
-
 bool info_mesh(const char *path, const InfoOptions *options, FILE *out, Error *err)
 {
     MeshFile file = {0};
@@ -94,8 +78,20 @@ bool info_mesh(const char *path, const InfoOptions *options, FILE *out, Error *e
     MeshParts parts = {0};
     MeshParameter *parameters = NEW_ARRAY(MeshParameter, options->override_count, err);
     if (!parameters) goto cleanup;
-    for (int32_t k = 0; k < options->override_count; k++)
-        TRY(read_parameter(options->overrides[k], &parameters[k], err));
+
+    // "n=4" is a parameter of a .geo: what reads as a number is one.
+    for (int32_t k = 0; k < options->override_count; k++) {
+        const char *word = options->overrides[k], *equals = strchr(word, '=');
+        MeshParameter *parameter = &parameters[k];
+        if (!equals || equals == word || !equals[1])
+            FAIL(err, ERROR_INPUT, "--set %s: a mesh takes name=value, as in --set n=4", word);
+        if (equals - word >= GROUP_NAME_SIZE || strlen(equals + 1) >= GROUP_NAME_SIZE)
+            FAIL(err, ERROR_INPUT, "--set %s: name and value have at most %d bytes each", word,
+                 GROUP_NAME_SIZE - 1);
+        memcpy(parameter->name, word, (size_t)(equals - word));
+        int32_t length = text_number(equals + 1, &parameter->value);
+        if (equals[1 + length]) snprintf(parameter->text, GROUP_NAME_SIZE, "%s", equals + 1);
+    }
     TRY(mesh_file_read(path, parameters, options->override_count, options->trust, NULL, &file,
                        err));
     TRY(mesh_build_parts(&file, path, "floor", &mesh, &parts, err));

@@ -101,9 +101,10 @@ cleanup:
 enum { KIND, U_START, U_STOP, REACH, PEAK_RATE, EVENT_COLUMNS };
 
 // Reads history.h5, or history.h5.part where the run was killed: io/hdf5/result_file opens
-// whichever is there.
-static bool write_history(const char *folder, FILE *out, Error *err)
+// whichever is there. context: the folder's name; also in a child process, whose reply is `out`.
+static bool write_history(void *context, FILE *out, Error *err)
 {
+    const char *folder = context;
     static const ResultTable tables[EVENT_COLUMNS] = {EVENTS_KIND, EVENTS_U_START, EVENTS_U_STOP,
                                                       EVENTS_REACH, EVENTS_PEAK_RATE};
     double *rod = NULL, *mu = NULL, *column[EVENT_COLUMNS] = {0};
@@ -139,11 +140,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-static bool write_history_in_child(void *context, FILE *reply, Error *err)
-{
-    return write_history(context, reply, err);
-}
-
 // The history is missing where the scene did not ask for it.
 bool info_result(const char *folder, FILE *out, Error *err)
 {
@@ -159,7 +155,7 @@ bool info_result(const char *folder, FILE *out, Error *err)
     fprintf(out, "result %s\n", folder);
     if (!write_run(folder, out, err)) return false;
     if (!there[0] && !there[1]) return true;
-    if (!child_is_wanted()) return write_history(folder, out, err);
+    if (!child_is_wanted()) return write_history((void *)folder, out, err);
 
     // A stranger's history may crash HDF5, or keep it busy for ever. Ours takes milliseconds: only
     // columns of one number a state are read.
@@ -168,7 +164,7 @@ bool info_result(const char *folder, FILE *out, Error *err)
                       .reader = "HDF5",
                       .seconds = HISTORY_SECONDS_MAX,
                       .advice = "its history is damaged",
-                      .read = write_history_in_child,
+                      .read = write_history,
                       .context = (void *)folder};
     TRY(child_read(&work, &reply, err));
     fwrite(reply.bytes, 1, (size_t)reply.size, out);   // the caller looks at the stream's state

@@ -79,24 +79,6 @@ static bool move_list(const char *from, const char *to, Error *err)
     return move_file(path, target, err);
 }
 
-// Whether a file of an earlier result lies there, and the first, in `found`. The search for an
-// error bar, stopped, leaves accuracy.json and .png alone, and begins anew.
-static bool find_earlier(ResultFolder *folder, bool overwrite, char found[PATH_SIZE], Error *err)
-{
-    static const char stopped[] = "figures/accuracy.";
-    char name[OWN_NAME_SIZE];
-    FILE *names = own_list_open(folder->path, err);
-    while (names && !folder->has_earlier && own_list_next(names, name)) {
-        if (!overwrite && strncmp(name, stopped, sizeof stopped - 1) == 0) continue;
-        for (int k = 0; k < ENDING_COUNT && !folder->has_earlier; k++) {
-            snprintf(found, PATH_SIZE, "%s/%s%s", folder->path, name, ENDINGS[k]);
-            folder->has_earlier = open_is_there(found);
-        }
-    }
-    if (names) fclose(names);
-    return error_is_clean(err);
-}
-
 // A result needs this name: a file of somebody's is told before anything is computed.
 static bool refuse_taken(const char *path, void *context, Error *err)
 {
@@ -110,48 +92,6 @@ static bool refuse_taken(const char *path, void *context, Error *err)
         if (!ours) return own_list_refuse_taken(name, err);
     }
     return true;
-}
-
-// Who holds the lock has written so into its file. Where the folder takes no lock file at all the
-// work goes on, and shows at its first file what is wrong.
-static bool take_lock(ResultFolder *folder, Error *err)
-{
-    char path[PATH_SIZE], host[65] = "", holder[128] = "";
-    Error ignored = {0};
-    snprintf(path, sizeof path, "%s/%s", folder->path, LOCK_NAME);
-    if (file_lock_take(&folder->lock, path, LOCK_WAIT)) {
-        gethostname(host, sizeof host - 1);
-        dprintf(folder->lock.descriptor, "process %ld on %s\n", (long)getpid(), host);
-        return true;
-    }
-    if (!folder->lock.busy && !open_is_there(path)) return true;
-    if (!folder->lock.busy)
-        return REFUSE(err, "%s is there, and is no lock of ours: move it away", path);
-    FILE *file = open_stream(path, &ignored);
-    if (file) {
-        if (!fgets(holder, sizeof holder, file)) *holder = 0;
-        fclose(file);
-    }
-    holder[strcspn(holder, "\n")] = 0;
-    return REFUSE(err,
-                  "%s: another computation is writing its result there (%s): choose another folder "
-                  "(-o), or wait until it has ended",
-                  folder->path, *holder ? holder : "its process is not known");
-}
-
-// There is a checkpoint, and no report of a run that came to its end.
-static bool may_go_on(const char *folder)
-{
-    char path[PATH_SIZE], start[128] = "";
-    Error ignored = {0};
-    snprintf(path, sizeof path, "%s/%s", folder, CHECKPOINT_FILE);
-    if (access(path, F_OK) != 0) return false;
-    snprintf(path, sizeof path, "%s/run.json", folder);
-    FILE *report = open_stream(path, &ignored);
-    if (!report) return true;
-    start[fread(start, 1, sizeof start - 1, report)] = 0;
-    fclose(report);
-    return !strstr(start, "\"done\"");
 }
 
 static bool rename_aside(const char *folder, const char *from, const char *to, Error *err)
@@ -196,7 +136,8 @@ static bool put_back(const char *folder, Error *err)
 
 bool result_folder_claim(const char *path, bool overwrite, ResultFolder *folder, Error *err)
 {
-    char found[PATH_SIZE];
+    static const char stopped[] = "figures/accuracy.";
+    char found[PATH_SIZE], name[OWN_NAME_SIZE];
     *folder = (ResultFolder){0};
     if (!path) return true;
     TRY(folder_make(path, err));
@@ -205,18 +146,67 @@ bool result_folder_claim(const char *path, bool overwrite, ResultFolder *folder,
     if (strlen(path) >= sizeof folder->path)
         FAIL(err, ERROR_INPUT, "the path of the result folder is too long");
     memcpy(folder->path, path, strlen(path) + 1);
-    TRY(take_lock(folder, err));
+
+    // The lock: who holds it has written so into its file. Where the folder takes no lock file at
+    // all the work goes on, and shows at its first file what is wrong.
+    char file[PATH_SIZE], host[65] = "", holder[128] = "", start[128] = "";
+    Error ignored = {0};
+    snprintf(file, sizeof file, "%s/%s", path, LOCK_NAME);
+    if (file_lock_take(&folder->lock, file, LOCK_WAIT)) {
+        gethostname(host, sizeof host - 1);
+        dprintf(folder->lock.descriptor, "process %ld on %s\n", (long)getpid(), host);
+    } else if (folder->lock.busy) {
+        FILE *stream = open_stream(file, &ignored);
+        if (stream) {
+            if (!fgets(holder, sizeof holder, stream)) *holder = 0;
+            fclose(stream);
+        }
+        holder[strcspn(holder, "\n")] = 0;
+        FAIL(err, ERROR_INPUT,
+             "%s: another computation is writing its result there (%s): choose another folder "
+             "(-o), or wait until it has ended",
+             path, *holder ? holder : "its process is not known");
+    } else if (open_is_there(file)) {
+        FAIL(err, ERROR_INPUT, "%s is there, and is no lock of ours: move it away", file);
+    }
+
+    // Files that an earlier computation left aside are put back; files of others under names that a
+    // result needs are refused.
     TRY(put_back(path, err));
     TRY(own_file_adopt(path, err));
     TRY(own_file_visit(path, refuse_taken, NULL, err));
     TRY(own_list_check(path, err));
-    TRY(find_earlier(folder, overwrite, found, err));
-    if (folder->has_earlier && !overwrite && may_go_on(path))
+
+    // Whether a file of an earlier result lies there, and the first, in `found`. The search for an
+    // error bar, stopped, leaves accuracy.json and .png alone, and begins anew.
+    FILE *names = own_list_open(path, err);
+    while (names && !folder->has_earlier && own_list_next(names, name)) {
+        if (!overwrite && strncmp(name, stopped, sizeof stopped - 1) == 0) continue;
+        for (int k = 0; k < ENDING_COUNT && !folder->has_earlier; k++) {
+            snprintf(found, PATH_SIZE, "%s/%s%s", path, name, ENDINGS[k]);
+            folder->has_earlier = open_is_there(found);
+        }
+    }
+    if (names) fclose(names);
+    if (!error_is_clean(err) || !folder->has_earlier || overwrite) goto cleanup;
+
+    // It was cut off where there is a checkpoint, and no report of a run that came to its end.
+    ignored = (Error){0};
+    snprintf(file, sizeof file, "%s/%s", path, CHECKPOINT_FILE);
+    bool cut_off = access(file, F_OK) == 0;
+    snprintf(file, sizeof file, "%s/run.json", path);
+    FILE *report = cut_off ? open_stream(file, &ignored) : NULL;
+    if (report) {
+        start[fread(start, 1, sizeof start - 1, report)] = 0;
+        fclose(report);
+        cut_off = !strstr(start, "\"done\"");
+    }
+    if (cut_off)
         FAIL(err, ERROR_INPUT,
              "%s holds a result that was cut off: go on with it (--resume), choose another folder "
              "(-o) or say --overwrite",
              path);
-    if (folder->has_earlier && !overwrite)
+    else
         FAIL(err, ERROR_INPUT,
              "%s holds an earlier result (%s): choose another folder (-o) or say --overwrite", path,
              strrchr(found, '/') + 1);

@@ -267,38 +267,6 @@ static StaticSummary static_summarise(const Model *model, StaticSolution *soluti
 
 // --- files --------------------------------------------------------------------------------------
 
-static bool write_json(const char *folder, const Model *model, const StaticSolution *solution,
-                       const StaticSummary *summary, Error *err)
-{
-    char path[PATH_SIZE];
-    snprintf(path, sizeof path, "%s/static.json", folder);
-    JsonWriter *json = json_create(path, err);
-    if (!json) return false;
-    json_begin_object(json, NULL);
-    json_text(json, "status", "done");
-    json_text(json, "version", AMONTONS_VERSION);
-    scene_write_json(model->scene, json, "scene", folder);
-    json_object_of(json, "model", {"nodes", summary->nodes},
-                   {"contact_nodes", summary->contact_nodes}, {"rod_nodes", summary->rod_nodes});
-    json_begin_object(json, "results");
-    json_numbers_of(json, {"open", summary->open}, {"sticking", summary->sticking},
-                    {"slipping", summary->slipping}, {"normal_force", summary->normal_force},
-                    {"shear_force", summary->shear_force},
-                    {"pressure_moment", summary->pressure_moment},
-                    {"rod_force", summary->rod_force}, {"rod_height", summary->rod_height});
-    if (model->scene->rod.stiffness > 0) json_number(json, "rod_way", solution->rod_way);
-    json_numbers_of(json, {"elastic_energy", summary->elastic_energy},
-                    {"load_work", summary->load_work});
-    json_integer(json, "iterations", summary->iterations);
-    json_end(json);
-    json_object_of(json, "errors", {"residual", summary->residual},
-                   {"force", summary->force_balance}, {"moment", summary->moment_balance},
-                   {"energy", summary->energy_balance},
-                   {"complementarity", summary->complementarity});
-    json_end(json);
-    return json_finish(json, err);
-}
-
 // One array of the file: values [rows * width].
 typedef struct Column {
     ArraySeries series;
@@ -378,6 +346,7 @@ static bool write_files(const char *folder, const Model *model, StaticSolution *
 {
     FieldFiles files = {0};
     char path[PATH_SIZE];
+    JsonWriter *json = NULL;
     FieldState state = {.displacement = solution->displacement, .velocity = solution->work};
     snprintf(path, sizeof path, "%s/static.vtu", folder);
     for (int32_t k = 0; k < model->bulk.dof_count; k++) solution->work[k] = 0;
@@ -386,7 +355,33 @@ static bool write_files(const char *folder, const Model *model, StaticSolution *
     files.spectrum = &model->bulk.spectrum;
     TRY(field_files_write_bulk(&files, &state, path, err));
     TRY(write_arrays(folder, model, solution, &files.stress, err));
-    TRY(write_json(folder, model, solution, summary, err));
+
+    // The sums.
+    snprintf(path, sizeof path, "%s/static.json", folder);
+    TRY(json = json_create(path, err));
+    json_begin_object(json, NULL);
+    json_text(json, "status", "done");
+    json_text(json, "version", AMONTONS_VERSION);
+    scene_write_json(model->scene, json, "scene", folder);
+    json_object_of(json, "model", {"nodes", summary->nodes},
+                   {"contact_nodes", summary->contact_nodes}, {"rod_nodes", summary->rod_nodes});
+    json_begin_object(json, "results");
+    json_numbers_of(json, {"open", summary->open}, {"sticking", summary->sticking},
+                    {"slipping", summary->slipping}, {"normal_force", summary->normal_force},
+                    {"shear_force", summary->shear_force},
+                    {"pressure_moment", summary->pressure_moment},
+                    {"rod_force", summary->rod_force}, {"rod_height", summary->rod_height});
+    if (model->scene->rod.stiffness > 0) json_number(json, "rod_way", solution->rod_way);
+    json_numbers_of(json, {"elastic_energy", summary->elastic_energy},
+                    {"load_work", summary->load_work});
+    json_integer(json, "iterations", summary->iterations);
+    json_end(json);
+    json_object_of(json, "errors", {"residual", summary->residual},
+                   {"force", summary->force_balance}, {"moment", summary->moment_balance},
+                   {"energy", summary->energy_balance},
+                   {"complementarity", summary->complementarity});
+    json_end(json);
+    TRY(json_finish(json, err));
 cleanup:
     field_files_destroy(&files);
     return error_is_clean(err);
