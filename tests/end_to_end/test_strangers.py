@@ -74,6 +74,20 @@ class Judge(unittest.TestCase):
         report["results"] |= {"peaks": peaks[:2], "drops": {"period": 0, "list": []}, "mu_M_is": "steady sliding"}
         self.assertEqual(judge.reading(report, 10)["mu_M"], 0.3)
         self.assertIsNone(judge.reading(report, 7)["mu_M"])        # a peak in the second half: it did not slide steadily all along
+        report["results"] |= {"drops": {"period": 0, "list": peaks[:1]}, "mu_M_is": "peaks"}        # it slid, and slides steadily since
+        found = judge.reading(report, 10)
+        self.assertEqual((found["mu_M"], found["mu_hold"]), (8, 9))
+        report["results"]["mu_steady"] = None                      # it rests, and may slide again
+        self.assertIsNone(judge.reading(report, 10)["mu_M"])
+
+    def test_runs_that_are_too_short(self):
+        """Two drops where three are asked for; a drift of which half is above a third of the bar; no bar, no drift that matters."""
+        def rows(late, drift):
+            return [{"late": {name: late for name in judge.ANSWERS}, "drift": {"mu_M": drift, "mu_hold": 0}}] * 3
+        bars = {"mu_M_error": 0.03, "mu_hold_error": None}
+        for late, drift, short in ((2, 0, True), (0, 0, False), (5, 0.019, False), (5, 0.021, True), (5, -0.021, True)):
+            self.assertEqual(judge.too_short(bars, rows(late, drift)), short, (late, drift))
+        self.assertFalse(judge.too_short({"mu_M_error": None, "mu_hold_error": None}, rows(5, 1)))
 
     def test_reference_of_meshes_that_scatter(self):
         truth = judge.reference(runs([[0.3, 0.31, 0.32], [0.32, 0.33, 0.34], [0.31, 0.31, 0.4], [0.31, 0.4, 0.5]]), "mu_hold")
