@@ -83,8 +83,8 @@ static bool analyse_with_border(SparseAnalysis *analysis, const SparsePattern *p
     int32_t *order = NEW_ARRAY(int32_t, size, err);
     if (!member || !order) goto cleanup;
     for (int32_t j = 0; j < count; j++) member[border[j]] = 1;
-    // Without an interior there is nothing to order, and CAMD takes no set whose number is not below
-    // the size.
+    // Without an interior there is nothing to order, and CAMD takes no set whose number is not
+    // below the size.
     bool interior = count < size;
     if (interior && place) TRY(sparse_order_dissect(pattern, place, border, count, order, err));
     if (interior && !place && !cholmod_camd(&analysis->pattern, NULL, 0, member, order, common))
