@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// L' x = 0 inside, from x on the border, for many columns at once. Rows of x stand together. Where
-// supernodes are narrow, as in the plane, each entry of L is read once for up to 16 columns and no
-// row is gathered: CHOLMOD's own solve calls BLAS twice for each supernode (160 x 160 cells: the
-// same 5 Gflop in a third of the time). Where they are wide, as in space, BLAS multiplies 64
+// Solves L' x = 0 inside, with x given on the border, for many columns. Rows of x stand together.
+// Where supernodes are narrow, as in the plane, each entry of L is read once for up to 16 columns
+// and no row is gathered: CHOLMOD's own solve calls BLAS twice for each supernode (160 x 160 cells:
+// the same 5 Gflop in a third of the time). Where they are wide, as in space, BLAS multiplies 64
 // columns by them.
 #include "algebra/lanes.h"
 #include "algebra/sparse_analysis.h"

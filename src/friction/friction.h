@@ -7,8 +7,9 @@
 //
 // A number such as v_c comes from the map `friction` of a scene (scene/keys). scene/friction_law
 // hands it to friction_make, which completes the law by its table of operations;
-// model/node_laws gives the law to each contact node (friction_node); contact/ and stepping/ ask
-// a node for mu and its slope, which the table answers (friction/laws).
+// model/model takes it for the whole contact (friction_everywhere); where laws differ from place
+// to place or remember, model/node_laws gives each node its own. contact/ and stepping/ ask a node
+// (friction_at) for mu and its slope, which the table answers (friction/laws).
 //
 // In a stage of an implicit scheme the states are eliminated node by node: they obey
 // state = from + reach g(v, state), and so are functions of v. What the contact problem sees,
