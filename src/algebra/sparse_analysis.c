@@ -79,19 +79,21 @@ static bool analyse_with_border(SparseAnalysis *analysis, const SparsePattern *p
 {
     cholmod_common *common = &analysis->common;
     int32_t size = analysis->size, count = analysis->border_count;
-    int32_t *member = NEW_ARRAY(int32_t, size, err);
+    int32_t *member = NEW_ARRAY(int32_t, size, err);   // of CAMD's sets: the border is the last
     int32_t *order = NEW_ARRAY(int32_t, size, err);
     if (!member || !order) goto cleanup;
-    for (int32_t j = 0; j < count; j++) member[border[j]] = 1;
-    // Without an interior there is nothing to order, and CAMD takes no set whose number is not
-    // below the size.
-    bool interior = count < size;
-    if (interior && place) TRY(sparse_order_dissect(pattern, place, border, count, order, err));
-    if (interior && !place && !cholmod_camd(&analysis->pattern, NULL, 0, member, order, common))
-        FAIL(err, error_code_of(common), "CHOLMOD: the fill-reducing order failed (status %d)",
-             common->status);
-    // S is full, in whatever order.
-    memcpy(order + size - count, border, (size_t)count * sizeof *border);
+    if (place) {
+        TRY(sparse_order_dissect(pattern, place, border, count, order, err));
+    } else {
+        for (int32_t j = 0; j < count; j++) member[border[j]] = 1;
+        // Without an interior there is nothing to order, and CAMD takes no set whose number is not
+        // below the size.
+        if (count < size && !cholmod_camd(&analysis->pattern, NULL, 0, member, order, common))
+            FAIL(err, error_code_of(common), "CHOLMOD: the fill-reducing order failed (status %d)",
+                 common->status);
+        // S is full, in whatever order.
+        memcpy(order + size - count, border, (size_t)count * sizeof *border);
+    }
     common->nmethods = 1;
     common->method[0].ordering = CHOLMOD_GIVEN;
     common->supernodal = CHOLMOD_SUPERNODAL;

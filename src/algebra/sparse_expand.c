@@ -10,8 +10,7 @@
 #include <cblas.h>
 #include <string.h>
 
-// Entries of L for each unknown from which on supernodes are wide: 80 on 160 x 160 cells, 400 on
-// 16^3.
+// Entries of L for each unknown from which on supernodes are wide.
 enum { WIDE_FROM = 256 };
 
 enum {
@@ -66,7 +65,8 @@ WITH_CONSTANTS void pass_supernode(const Supernode *node, int32_t end, int lanes
     if (column == 1) find_unknowns(node, 0, 1, lanes, x);
 }
 
-WITH_CONSTANTS void pass_down(const cholmod_factor *factor, int32_t border, int lanes, Lane *x)
+WITH_CONSTANTS void pass_down(const cholmod_factor *factor, int32_t first_border, int lanes,
+                              Lane *x)
 {
     const int32_t *super = factor->super, *row_start = factor->pi, *value_start = factor->px;
     for (int64_t s = (int64_t)factor->nsuper - 1; s >= 0; s--) {
@@ -74,29 +74,30 @@ WITH_CONSTANTS void pass_down(const cholmod_factor *factor, int32_t border, int 
                           .height = row_start[s + 1] - row_start[s],
                           .rows = (const int32_t *)factor->s + row_start[s],
                           .values = (const double *)factor->x + value_start[s]};
-        int32_t end = super[s + 1] < border ? super[s + 1] : border;
+        int32_t end = super[s + 1] < first_border ? super[s + 1] : first_border;
         pass_supernode(&node, end - node.first, lanes, x);
     }
 }
 
-// x: [lanes] of each row; those from `border` on are given.
-FOR_EACH_PROCESSOR static void pass_with(const cholmod_factor *factor, int32_t border, int lanes,
-                                         Lane *x)
+// x: [lanes] of each row; those from `first_border` on are given.
+FOR_EACH_PROCESSOR static void pass_with(const cholmod_factor *factor, int32_t first_border,
+                                         int lanes, Lane *x)
 {
-    if (lanes == 1) pass_down(factor, border, 1, x);
-    if (lanes == 2) pass_down(factor, border, 2, x);
-    if (lanes == 3) pass_down(factor, border, 3, x);
-    if (lanes == 4) pass_down(factor, border, 4, x);
+    if (lanes == 1) pass_down(factor, first_border, 1, x);
+    if (lanes == 2) pass_down(factor, first_border, 2, x);
+    if (lanes == 3) pass_down(factor, first_border, 3, x);
+    if (lanes == 4) pass_down(factor, first_border, 4, x);
 }
 
 // The same by BLAS for any number of columns. gathered: room for `columns` of all rows of a
 // supernode.
-static void pass_wide(const cholmod_factor *factor, int32_t border, int32_t columns, double *x,
-                      double *gathered)
+static void pass_wide(const cholmod_factor *factor, int32_t first_border, int32_t columns,
+                      double *x, double *gathered)
 {
     const int32_t *super = factor->super, *row_start = factor->pi, *value_start = factor->px;
     for (int64_t s = (int64_t)factor->nsuper - 1; s >= 0; s--) {
-        int32_t end = super[s + 1] < border ? super[s + 1] : border, own = end - super[s];
+        int32_t end = super[s + 1] < first_border ? super[s + 1] : first_border,
+                own = end - super[s];
         int32_t height = row_start[s + 1] - row_start[s], below = height - own;
         const int32_t *rows = (const int32_t *)factor->s + row_start[s] + own;
         const double *values = (const double *)factor->x + value_start[s];
@@ -114,30 +115,32 @@ static void pass_wide(const cholmod_factor *factor, int32_t border, int32_t colu
 
 typedef struct Expansion {
     SparseFactor *factor;
-    const double *border;   // [border_count * count]
+    const double *x_border;   // [border_count * count]
     int32_t count, passes;
-    bool wide;   // by BLAS
+    bool wide_supernodes;
     double *x;   // [size * count]
 } Expansion;
 
-static void expand_columns(const Expansion *all, int32_t first, int32_t columns, double *rows)
+// work: rows of x, `stride` columns in each, and behind them room for what pass_wide gathers.
+static void expand_columns(const Expansion *all, int32_t first, int32_t columns, double *work)
 {
     const SparseAnalysis *analysis = all->factor->analysis;
     const int32_t *permutation = all->factor->numeric->Perm;
-    int32_t lanes = (columns + LANE - 1) / LANE, wide = all->wide ? columns : lanes * LANE;
+    int32_t lanes = (columns + LANE - 1) / LANE;
+    int32_t stride = all->wide_supernodes ? columns : lanes * LANE;
     int64_t size = analysis->size, border_count = analysis->border_count;
     int32_t first_border = (int32_t)(size - border_count);
-    double *border = rows + (size - border_count) * wide;
+    double *given = work + first_border * (int64_t)stride;
     for (int64_t k = 0; k < border_count; k++)
-        for (int32_t j = 0; j < wide; j++)
-            border[k * wide + j] = j < columns ? all->border[(first + j) * border_count + k] : 0;
-    if (all->wide)
-        pass_wide(all->factor->numeric, first_border, wide, rows, rows + size * wide);
+        for (int32_t j = 0; j < stride; j++)
+            given[k * stride + j] = j < columns ? all->x_border[(first + j) * border_count + k] : 0;
+    if (all->wide_supernodes)
+        pass_wide(all->factor->numeric, first_border, stride, work, work + size * stride);
     else
-        pass_with(all->factor->numeric, first_border, lanes, (Lane *)rows);
+        pass_with(all->factor->numeric, first_border, lanes, (Lane *)work);
     for (int32_t j = 0; j < columns; j++) {
         double *out = all->x + (first + j) * size;
-        for (int64_t k = 0; k < size; k++) out[permutation[k]] = rows[k * wide + j];
+        for (int64_t k = 0; k < size; k++) out[permutation[k]] = work[k * stride + j];
     }
 }
 
@@ -154,20 +157,25 @@ bool sparse_expand_many(SparseFactor *factor, const double *x_border, int32_t co
 {
     SparseAnalysis *analysis = factor->analysis;
     const cholmod_factor *symbolic = analysis->symbolic;
-    bool wide = symbolic->xsize > WIDE_FROM * (size_t)analysis->size;
-    int32_t columns = wide ? PASSAGE_COLUMNS_WIDE : PASSAGE_COLUMNS;
-    // Passes have as many columns each, as a few alone take as long as many.
-    Expansion all = {factor, x_border, count, (count + columns - 1) / columns, wide, x};
-    for (int32_t k = 0; k < parallel_workers();
-         k++) {   // kept: memory asked for anew comes page by page
-        cholmod_dense **rows = &analysis->passages[k];
-        size_t gathered = wide ? symbolic->maxesize + (size_t)analysis->border_count : 0;
-        if (!*rows)
-            *rows = cholmod_zeros((size_t)analysis->size + gathered, (size_t)columns, CHOLMOD_REAL,
+    bool wide_supernodes = symbolic->xsize > WIDE_FROM * (size_t)analysis->size;
+    int32_t columns = wide_supernodes ? PASSAGE_COLUMNS_WIDE : PASSAGE_COLUMNS;
+    // Work arrays are kept: memory asked for anew comes page by page.
+    for (int32_t k = 0; k < parallel_workers(); k++) {
+        cholmod_dense **work = &analysis->passages[k];
+        size_t gathered = wide_supernodes ? symbolic->maxesize + (size_t)analysis->border_count : 0;
+        if (!*work)
+            *work = cholmod_zeros((size_t)analysis->size + gathered, (size_t)columns, CHOLMOD_REAL,
                                   &analysis->common);
-        if (!*rows)
+        if (!*work)
             return FAULT(err, ERROR_MEMORY, "no memory for %d answers of a factor", columns);
     }
+    // Passes have as many columns each, as a few alone take as long as many.
+    Expansion all = {.factor = factor,
+                     .x_border = x_border,
+                     .count = count,
+                     .passes = (count + columns - 1) / columns,
+                     .wide_supernodes = wide_supernodes,
+                     .x = x};
     parallel_for(all.passes, expand_pass, &all);
     return true;
 }

@@ -200,7 +200,8 @@ static bool solve(Problem *problem, Error *err)
     double g, schur, at_border;
     double *inside = NEW_ARRAY(double, bulk->dof_count, err);
     if (!inside) goto cleanup;
-    analysis = sparse_analyse(&bulk->pattern, bulk->place, &border, 1, err);   // one unknown as the border
+    // One unknown as the border.
+    analysis = sparse_analyse(&bulk->pattern, bulk->place, &border, 1, err);
     if (!analysis) goto cleanup;
     factor = sparse_factorise(analysis, bulk->stiffness, err);
     if (!factor) goto cleanup;

@@ -39,7 +39,6 @@ def reading(report, end):
         found["drift"][name] = of(fourth) - of(third) if third and fourth else 0
         found["late"][name] = len(late)
     if results["mu_steady"] is not None and not any(found["late"].values()):
-        found["steady"] = True
         if results["mu_M_is"] == "steady sliding":
             found["mu_M"] = results["mu_steady"]
         else:

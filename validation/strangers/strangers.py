@@ -167,7 +167,7 @@ def extend(one, scene, kept, limit):
     for refine in judge.LADDER:
         if kept.data["asked"] and enough(kept.data["asked"], good(kept)):
             return
-        if not in_time and len(kept.data["runs"]) == len(WINDOW) and len(good(kept)) == len(WINDOW) and \
+        if not in_time and len(good(kept)) == len(kept.data["runs"]) == len(WINDOW) and \
                 kept.data["longer"] < LONGEST and judge.too_short(kept.data["asked"], good(kept)):
             kept.data |= {"longer": kept.data["longer"] * LONGER, "lengthened": True, "runs": []}
             return extend(one, scene, kept, limit)
