@@ -307,8 +307,7 @@ bool amontons_run(const Scene *scene, const RunOptions *options, RunSummary *sum
         const LevelCut *cut = &accuracy->levels.cut;
         TRY(result_folder_clear(&folder, err));
         TRY(result_folder_settle(&folder, err));
-        simulation->folder = folder;   // its lock, too
-        folder = (ResultFolder){0};
+        result_folder_move(&folder, &simulation->folder);
         simulation->options.on_report = options->on_report;
         simulation->options.context = options->context;
         simulation->options.folder = options->folder;

@@ -98,6 +98,15 @@ const char *file_lock_warning(const FileLock *lock)
            "computation out of it meanwhile";
 }
 
+// A signal handler finds a whole lock at any moment: `to` is filled before it takes the place of
+// `from`, which is emptied afterwards.
+void file_lock_move(FileLock *from, FileLock *to)
+{
+    *to = *from;
+    exchange_held(from, to);
+    *from = (FileLock){0};
+}
+
 void file_lock_release(FileLock *lock)
 {
     sigset_t before;

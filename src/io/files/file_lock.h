@@ -34,10 +34,13 @@ typedef struct FileLock {
 bool file_lock_take(FileLock *lock, const char *path, double seconds);
 // The warning that belongs to a lock that is held and not alone, once in a process; else NULL.
 const char *file_lock_warning(const FileLock *lock);
+// Moves what `from` holds, or holds no more, to `to`, which must not be held: file_locks_let_go
+// knows a lock by its address, so a FileLock is not copied by assignment.
+void file_lock_move(FileLock *from, FileLock *to);
 void file_lock_release(FileLock *lock);   // removes the file; fine when not held
 
 // Removes the files of all locks that this process holds: it is about to end. A signal handler may
-// call it. A lock is held where it was taken: a FileLock is not moved.
+// call it.
 void file_locks_let_go(void);
 
 // Whether `name` is still the name of the file behind `descriptor`: it may have been removed,

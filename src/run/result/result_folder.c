@@ -261,6 +261,13 @@ bool result_folder_is_settled(const ResultFolder *folder)
     return result_folder_is_ours(folder) && !folder->aside;
 }
 
+void result_folder_move(ResultFolder *from, ResultFolder *to)
+{
+    *to = *from;
+    file_lock_move(&from->lock, &to->lock);
+    *from = (ResultFolder){0};
+}
+
 void amontons_let_go(void)
 {
     file_locks_let_go();
