@@ -55,8 +55,8 @@ TEST(held_until_released)
     file_lock_release(&other);
 }
 
-// It is released from where it is, and each move leaves the places among held locks as they were: the
-// last of many is let go, too.
+// It is released from where it is, and each move leaves the places among held locks as they were:
+// the last of many is let go, too.
 TEST(held_where_it_was_moved_to)
 {
     enum { TIMES = 20 };
