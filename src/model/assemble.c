@@ -28,7 +28,9 @@ bool model_read_mesh(const ChildWatch *watch, Model *model, Error *err)
     model->height = mesh->z_max - mesh->z_min;
     if (mesh->dim > 2) model->breadth = mesh->y_max - mesh->y_min;
 
-    const char *wrong = NULL;   // the key of what the mesh's dimension does not allow
+    // The key that the mesh's dimension does not allow. Where several are wrong, the last one found
+    // is named.
+    const char *wrong = NULL;
     if (mesh->dim > 2) {
         // A material in space is neither in plane stress nor in plane strain: lambda is that of
         // plane strain, which a material that keeps its volume has none of.
@@ -192,11 +194,12 @@ bool model_hold_supports(Model *model, Error *err)
                 int32_t node = boundary.nodes[i], end = floor_end(&mesh->floor, node);
                 if (mesh_in_base(mesh, node) != (pass == 0)) continue;
                 for (int32_t d = 0; d < dim; d++) {
+                    if (!along[d]) continue;
                     bool floor_holds = true;
                     for (int32_t l = floor_start(&mesh->floor, node); l < end; l++)
                         floor_holds = floor_holds &&
                                       bulk->held[node_dof(dim, mesh->floor.node[l], d)];
-                    if (along[d] && floor_holds) bulk_hold(node_dof(dim, node, d), bulk);
+                    if (floor_holds) bulk_hold(node_dof(dim, node, d), bulk);
                 }
             }
         }

@@ -9,7 +9,8 @@
 // Each needs the ones before it; the first an empty model (model_of).
 bool model_read_mesh(const ChildWatch *watch, Model *model, Error *err);
 bool model_lay_bulk(Model *model, Error *err);   // the bulk's loads, and the interface
-bool model_hold_supports(Model *model, Error *err);   // marks their unknowns
+// Holds the unknowns of supports. ERROR_INPUT: a group is not there, or the base can move freely.
+bool model_hold_supports(Model *model, Error *err);
 
 // The stress the loads are measured with.
 double load_reference(const Model *model);

@@ -70,11 +70,12 @@ bool model_lay_gaps(Model *model, Error *err)
         }
     }
 
-    // The formula, in the plane of x alone: it is read once.
+    // The formula: in the plane it is read once, in space anew for the y of each node.
     for (int32_t i = 0; *scene->contact.gap && i < interface->contact_count; i++) {
         const double *y = interface->y ? &interface->y[i] : NULL;
         double ignored, gap = 0;
-        bool done = (i > 0 && !y) || place_formula_read(scene->contact.gap, y, &formula, err);
+        bool done = true;
+        if (i == 0 || y) done = place_formula_read(scene->contact.gap, y, &formula, err);
         if (done) gap = formula_at(&formula, interface->x[i], &ignored);
         if (done && !(gap >= 0 && isfinite(gap)))
             done = REFUSE(err, "at x = %g the gap is %g; a number >= 0 is needed", interface->x[i],

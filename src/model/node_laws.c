@@ -109,15 +109,15 @@ bool model_lay_laws(Model *model, Error *err)
         all.y[1] = fmax(all.y[1], interface->y[i]);
     }
     for (int32_t i = 0; i < count; i++) {
-        // The number of the item of the piece of contact on which the node lies, else of its group;
-        // -1: none.
+        // `item` is the number of the item for the piece of contact on which the node lies, else of
+        // the one for its group; -1: there is none.
         const SceneContactLaws *laws = &scene->contact_laws;
         const char *pad = interface->pad_name[interface->pad[i]];
-        int32_t k = -1;
-        for (int32_t l = 0; l < laws->count && k < 0; l++)
-            if (strcmp(laws->item[l].group, pad) == 0) k = l;
-        for (int32_t l = 0; l < laws->count && k < 0; l++)
-            if (mesh_piece_is_of(pad, laws->item[l].group)) k = l;
+        int32_t item = -1;
+        for (int32_t k = 0; k < laws->count && item < 0; k++)
+            if (strcmp(laws->item[k].group, pad) == 0) item = k;
+        for (int32_t k = 0; k < laws->count && item < 0; k++)
+            if (mesh_piece_is_of(pad, laws->item[k].group)) item = k;
 
         double factor = 1, x = interface->x[i], weight = interface->weight[i];
         if (plane) {
@@ -140,9 +140,9 @@ bool model_lay_laws(Model *model, Error *err)
         }
         bool done = take_mean(part, plane, scene->friction_keys.along, &factor, err);
         if (!scene_blame(scene, "friction.along", done, err)) return false;
-        done = k < 0 || take_mean(part, plane, laws->item[k].along, &factor, err);
+        done = item < 0 || take_mean(part, plane, laws->item[item].along, &factor, err);
         if (!scene_blame(scene, "friction.contacts", done, err)) return false;
-        model->friction_nodes[i] = friction_node(&model->laws[k < 0 ? 0 : law_of[k]], factor);
+        model->friction_nodes[i] = friction_node(&model->laws[item < 0 ? 0 : law_of[item]], factor);
     }
     model->friction = friction_of_nodes(model->friction_nodes, count);
     return error_is_clean(err);

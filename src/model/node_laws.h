@@ -6,7 +6,8 @@
 
 #include "model/model.h"
 
-// Sets model->law by friction.contacts and friction.along; without them it stays the scene's.
+// Sets laws, friction_nodes and friction of the model by friction.contacts and friction.along, and
+// for a law that remembers. Else friction stays the scene's law, alike at all nodes.
 // ERROR_INPUT: a group that is no contact curve, a factor that is not finite or negative, with x.
 bool model_lay_laws(Model *model, Error *err);
 

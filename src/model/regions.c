@@ -11,7 +11,8 @@ bool model_mark_regions(Model *model, Error *err)
     const SceneMaterials *named = &model->scene->materials;
     Materials *materials = &model->materials;
     Mesh *mesh = &model->mesh;
-    uint8_t is_mean[MATERIALS_MAX], *owner = NULL;   // [elements] 1 + region; owned
+    uint8_t is_mean[MATERIALS_MAX];   // [materials] 1: its elements take the mean of their strain
+    uint8_t *owner = NULL;   // [elements] 1 + region; owned
 
     // The elements of each region, which no other has.
     MeshFile view = {.group_count = mesh->group_count, .groups = mesh->groups};
@@ -26,7 +27,8 @@ bool model_mark_regions(Model *model, Error *err)
                 done = REFUSE(err, "%s: element %lld is in both '%s' and '%s': of which material?",
                               mesh->path, (long long)mesh->element_number[e],
                               named->region[owner[e] - 1].group, name);
-            owner[e] = (uint8_t)(i + 1);
+            else
+                owner[e] = (uint8_t)(i + 1);
         }
         TRY(scene_blame(model->scene, "materials", done, err));
     }
@@ -80,8 +82,8 @@ bool model_lay_branches(Model *model, Error *err)
     const Mesh *mesh = &model->mesh;
     double folded = 0, area = 0;
     if (!spectrum_find(materials, mesh->dim, spectrum, err)) return false;
-    for (int32_t e = 0; spectrum->count > 0 && e < mesh->element_count; e++)
-        area += mesh_element_area(mesh, e);
+    if (spectrum->count == 0) return true;
+    for (int32_t e = 0; e < mesh->element_count; e++) area += mesh_element_area(mesh, e);
     double size = pow(area / mesh->element_count, 1.0 / mesh->dim);   // of an element
     for (int32_t k = 0; k < spectrum->count; k++) {
         // The rate of the fastest wave within an element, c/h, if what relaxes within `time` has
