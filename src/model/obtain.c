@@ -240,39 +240,39 @@ static bool find_probes(const Scene *scene, const Mesh *mesh, ProbePlace *places
         char asked[PLACE_TEXT_SIZE], nearest[PLACE_TEXT_SIZE];
         char low[PLACE_TEXT_SIZE], high[PLACE_TEXT_SIZE];
         double distance = 0;
-        if (probe->at.count != mesh->dim) {
-            error_set(err, ERROR_INPUT, __FILE__, __LINE__,
-                      "`%s` has `at` with %d number%s; allowed: %s, as the mesh is in %s",
-                      probe->name, probe->at.count, probe->at.count == 1 ? "" : "s",
-                      mesh->dim == 2 ? "[x, z]" : "[x, y, z]",
-                      mesh->dim == 2 ? "the plane" : "space");
-            return scene_blame(scene, "output.probes", false, err);
+        bool found = true;
+        if (probe->at.count != mesh->dim)
+            found = REFUSE(err, "`%s` has `at` with %d number%s; allowed: %s, as the mesh is in %s",
+                           probe->name, probe->at.count, probe->at.count == 1 ? "" : "s",
+                           mesh->dim == 2 ? "[x, z]" : "[x, y, z]",
+                           mesh->dim == 2 ? "the plane" : "space");
+        else
+            places[k].element = mesh_locate(mesh, probe->at.value, places[k].at);
+        if (found && places[k].element < 0) {
+            // The place is outside: says what is nearest to it, and how far the block reaches.
+            int32_t node = mesh_nearest_node(mesh, probe->at.value, &distance);
+            MeshPlace from = {mesh->x_min, mesh->dim == 2 ? mesh->z_min : mesh->y_min, mesh->z_min};
+            MeshPlace to = {mesh->x_max, mesh->dim == 2 ? mesh->z_max : mesh->y_max, mesh->z_max};
+            found = REFUSE(
+                err,
+                "`%s` is at %s, outside of the block%s: %s at %s, %g away; the block reaches from "
+                "%s to %s",
+                probe->name, place_text(mesh->dim, probe->at.value, asked),
+                mesh->is_base ? " and its base" : "",
+                !mesh->is_base             ? "its nearest node is"
+                : mesh_in_base(mesh, node) ? "the nearest node is one of the base,"
+                                           : "the nearest node is one of the block,",
+                mesh_place_text(mesh, node, nearest), distance, place_text(mesh->dim, from, low),
+                place_text(mesh->dim, to, high));
         }
-        places[k].element = mesh_locate(mesh, probe->at.value, places[k].at);
-        if (places[k].element >= 0) continue;
-
-        // The place is outside: says what is nearest to it, and how far the block reaches.
-        int32_t node = mesh_nearest_node(mesh, probe->at.value, &distance);
-        MeshPlace from = {mesh->x_min, mesh->dim == 2 ? mesh->z_min : mesh->y_min, mesh->z_min};
-        MeshPlace to = {mesh->x_max, mesh->dim == 2 ? mesh->z_max : mesh->y_max, mesh->z_max};
-        error_set(
-            err, ERROR_INPUT, __FILE__, __LINE__,
-            "`%s` is at %s, outside of the block%s: %s at %s, %g away; the block reaches from "
-            "%s to %s",
-            probe->name, place_text(mesh->dim, probe->at.value, asked),
-            mesh->is_base ? " and its base" : "",
-            !mesh->is_base             ? "its nearest node is"
-            : mesh_in_base(mesh, node) ? "the nearest node is one of the base,"
-                                       : "the nearest node is one of the block,",
-            mesh_place_text(mesh, node, nearest), distance, place_text(mesh->dim, from, low),
-            place_text(mesh->dim, to, high));
-        return scene_blame(scene, "output.probes", false, err);
+        if (!scene_blame(scene, "output.probes", found, err)) return false;
     }
     return true;
 }
 
-// Up to where matrices are factored: mesh, loads, interface, the basis if the cache has it, and
-// whether the bulk is to be reduced. name: of the basis in the cache, if the bulk is reduced.
+// Does all that comes before matrices are factored: makes mesh, loads and interface, finds whether
+// the bulk is to be reduced, and loads the basis if the cache has it. name: of the basis in the
+// cache, if the bulk is reduced.
 static bool prepare(const StageNotice *notice, Model *model, ReductionBlock *block,
                     char name[HASH_TEXT_SIZE], Error *err)
 {
@@ -351,12 +351,15 @@ bool model_obtain(const Scene *scene, const StageNotice *notice, Model *model, E
         // Steps on the reduced bulk that is there. Matrices are kept normalised; the scales of this
         // scene are set here and multiply whatever is asked of them: E, eta, rho L^2 (in space
         // times L) and the size of the load.
-        double deep = interface->dim > 2 ? length : 1;
-        model->reduced.scales = (BulkScales){.stiffness = material->young * deep,
-                                             .damping = (material->eta1 + material->eta2) * deep,
-                                             .mass = material->density * length * length * deep,
+        double depth = interface->dim > 2 ? length : 1;
+        model->reduced.scales = (BulkScales){.stiffness = material->young * depth,
+                                             .damping = (material->eta1 + material->eta2) * depth,
+                                             .mass = material->density * length * length * depth,
                                              .load = model->unit_load.size * load_reference(model)};
-        double depth = model->reduced.scales.stiffness / material->young;
+
+        // The quotient is taken again: it may differ from `depth` in the last bit, which is part of
+        // the bits of a run.
+        depth = model->reduced.scales.stiffness / material->young;
         model->reduced.spectrum = spectrum_scaled(&model->bulk.spectrum, depth, 1);
         TRY(bulk_operator_reduce(&model->reduced, length,
                                  model->reduced.area * model->reduced.scales.mass, &model->system,
