@@ -205,10 +205,11 @@ bool history_finish(History *history, const Drops *drops, int32_t counted, doubl
         int32_t count = 0;
         if (table == EVENTS_SLIPPED && !events->in_space) continue;
         bool of_peaks = table == PEAKS_U || table == PEAKS_MU || table == PEAKS_COUNTS;
-        for (int32_t k = 0; k < events->count; k++) {
+        // k is the number of a drop in tables of peaks, of an event in the others.
+        int32_t rows = of_peaks ? drops->count : events->count;
+        for (int32_t k = 0; k < rows; k++) {
+            if (of_peaks && !drop_is(&drops->list[k], DROP_BULK)) continue;   // of no peak
             const Event *event = &events->list[k];
-            bool is_peak = k < drops->count && drop_is(&drops->list[k], DROP_BULK);
-            if (of_peaks && !is_peak) continue;   // no sliding of the whole block
             Drop peak = of_peaks ? drops_as(drops, DROP_BULK, k) : (Drop){0};
             column[count++] = (const double[RESULT_TABLES_COUNT]){
                 [PEAKS_U] = peak.U,
