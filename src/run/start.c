@@ -19,7 +19,8 @@
 static const double TOLERANCES[] = {
     [ACCURACY_DRAFT] = 2e-2, [ACCURACY_STANDARD] = 5e-3, [ACCURACY_FINE] = 5e-4};
 
-static const double RECORDS = 2000;   // an explicit run, beside those of rapid slip
+// Recording intervals of an explicit run, beside those of rapid slip.
+static const double EXPLICIT_RECORDS = 2000;
 
 static const RodKind ROD_KINDS[] = {
     [ROD_PUSH] = ROD_PUSHES, [ROD_BONDED] = ROD_IS_BONDED, [ROD_NONE] = ROD_AWAY};
@@ -126,19 +127,11 @@ cleanup:
     return error_is_clean(err);
 }
 
-// The explicit scheme in the place of step control: central differences on the full mesh
-// (stepping/explicit_reference). RECORDS states are recorded, and while slip is rapid as many as
-// with implicit steps, whatever the length of the run. Recorders see the same state as with
-// implicit steps; parts that only those have (step-size levels, error control) stand still.
-//
-// Nothing is done for an implicit scheme. The step is the longest stable one
-// (stepping/stable_step), or time.step_max if that is less, shortened so that a whole number of
-// them makes an interval between records.
 bool start_explicit_steps(Simulation *simulation, Error *err)
 {
     const Scene *scene = &simulation->scene;
     StepControl *control = &simulation->control;
-    double step = 0, interval = simulation->t_end / RECORDS;
+    double step = 0, interval = simulation->t_end / EXPLICIT_RECORDS;
     if (scene->time.scheme != SCHEME_EXPLICIT) return true;
     const Model *model = &simulation->model;
     const Bulk *bulk = model->mesh.is_base ? &model->bulk_of_nodes : &model->bulk;
