@@ -17,7 +17,8 @@
 #include <math.h>
 #include <stdio.h>
 
-// The model; of a block on a base also how unlike they are, and how far the block went.
+// Writes `model` and, for a block on a base, `base`: how unlike the two are, and how far the block
+// slid over it.
 static void write_model(JsonWriter *json, const Simulation *simulation)
 {
     const Model *model = &simulation->model;
@@ -44,17 +45,18 @@ static void write_model(JsonWriter *json, const Simulation *simulation)
     json_text(json, "cache_note", model->cache_note[0] ? model->cache_note : NULL);
     json_end(json);
 
-    double slip = base_slip(model, &simulation->control.now);
-    if (isnan(slip)) return;   // the floor is rigid
-    Dundurs dundurs = materials_dundurs(block, base);
-    json_begin_object(json, "base");
-    json_boolean(json, "matches", model->mesh.floor.matches);
-    json_numbers_of(
-        json, {"slip_over_contact", slip}, {"dundurs_alpha", dundurs.alpha},
-        {"dundurs_beta", dundurs.beta},
-        {"shear_impedance_over_block", base->density * material_speeds(base).shear /
-                                           (block->density * material_speeds(block).shear)});
-    json_end(json);
+    double slip = base_slip(model, &simulation->control.now);   // NaN: the floor is rigid
+    if (!isnan(slip)) {
+        Dundurs dundurs = materials_dundurs(block, base);
+        json_begin_object(json, "base");
+        json_boolean(json, "matches", model->mesh.floor.matches);
+        json_numbers_of(
+            json, {"slip_over_contact", slip}, {"dundurs_alpha", dundurs.alpha},
+            {"dundurs_beta", dundurs.beta},
+            {"shear_impedance_over_block", base->density * material_speeds(base).shear /
+                                               (block->density * material_speeds(block).shear)});
+        json_end(json);
+    }
 }
 
 // Over how much of a pad slow slip turned fast. A slow event has none.

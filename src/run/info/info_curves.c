@@ -125,7 +125,8 @@ bool info_draw_friction(const Scene *scene, const InfoOptions *options, Error *e
     const double *at = data.count > 0 ? data.velocity : own->velocity.value;
     const double *value = data.count > 0 ? data.mu : own->mu.value;
 
-    // From below the slowest to beyond the fastest that was measured, else around v_c.
+    // Slip rates go from below the slowest to beyond the fastest that was measured; without a
+    // measurement they lie around v_c.
     double middle = law->critical_velocity > 0 ? law->critical_velocity : scene->rod.velocity;
     for (int32_t k = 0; k < points; k++)
         if (at[k] > 0) least = fmin(least, at[k] / BEYOND), most = fmax(most, at[k] * BEYOND);
@@ -139,7 +140,7 @@ bool info_draw_friction(const Scene *scene, const InfoOptions *options, Error *e
     for (int32_t k = 0; k < FRICTION_SPEEDS; k++) {
         speed[k] = least * pow(most / least, (double)k / (FRICTION_SPEEDS - 1));
 
-        // mu, of a law that remembers in steady slip; NaN: no such state is found.
+        // The coefficient mu of a law that remembers is that of steady slip; NaN: none is found.
         FrictionNode node = friction_node(law, 1);
         FrictionRates rates = {.mu = NAN};
         node.pressure = law->pressure;
@@ -240,7 +241,6 @@ bool info_draw_material(const Scene *scene, const InfoOptions *options, Error *e
     const SceneMaterial *regions[FILES_MAX];
     MaterialData data = {0};
     MaterialFit fit;
-    Mesh mesh = {0};
     double x[MODULUS_POINTS], y[2][MODULUS_POINTS], ends[2], band[2] = {0, 0}, least = INFINITY,
                                                              most = 0;
     double *at = NULL;
@@ -257,20 +257,24 @@ bool info_draw_material(const Scene *scene, const InfoOptions *options, Error *e
 
     // Frequencies between those of the whole run and of a shear wave through the shortest cell of
     // the mesh, Hz; not known where the scene does not say how long it runs.
-    double until = scene->time.until_t;
-    if (scene->time.until_U > 0 && scene->rod.velocity > 0)
-        until = fmin(until > 0 ? until : INFINITY, scene->time.until_U / scene->rod.velocity);
     if (!over_time) {
+        double until = scene->time.until_t;
+        if (scene->time.until_U > 0 && scene->rod.velocity > 0)
+            until = fmin(until > 0 ? until : INFINITY, scene->time.until_U / scene->rod.velocity);
         const SceneMaterial *region = regions[0];
         double density = region && region->given[MATERIAL_DENSITY]
                              ? region->number[MATERIAL_DENSITY]
                              : scene->material.density;
         double shear = fit.shear.rest;
         for (int32_t k = 0; k < fit.shear.count; k++) shear += fit.shear.modulus[k];
-        TRY(scene_mesh_read(scene, NULL, &mesh, NULL, err));
+        Mesh mesh = {0};
+        bool meshed = scene_mesh_read(scene, NULL, &mesh, NULL, err);
+        double cell = meshed ? mesh_summarise(&mesh).edge_min : NAN;
+        mesh_destroy(&mesh);
+        TRY(meshed);
         known = until > 0;
         band[0] = 1 / until;
-        band[1] = sqrt(shear / density) / mesh_summarise(&mesh).edge_min;
+        band[1] = sqrt(shear / density) / cell;
     }
     if (known) from = fmin(from, band[0] / BEYOND), to = fmax(to, band[1] * BEYOND);
     TRY(at = NEW_ARRAY(double, moduli->count, err));
@@ -321,7 +325,6 @@ bool info_draw_material(const Scene *scene, const InfoOptions *options, Error *e
     TRY(draw_curves(title, axes, curves, count, options, err));
 cleanup:
     memory_free(at);
-    mesh_destroy(&mesh);
     material_data_destroy(&data);
     return error_is_clean(err);
 }

@@ -101,7 +101,8 @@ cleanup:
 enum { KIND, U_START, U_STOP, REACH, PEAK_RATE, EVENT_COLUMNS };
 
 // Reads history.h5, or history.h5.part where the run was killed: io/hdf5/result_file opens
-// whichever is there. context: the folder's name; also in a child process, whose reply is `out`.
+// whichever is there. context is the folder's name. Also called in a child process, whose reply is
+// `out`.
 static bool write_history(void *context, FILE *out, Error *err)
 {
     const char *folder = context;
