@@ -194,6 +194,21 @@ void accuracy_count_run(Accuracy *accuracy, const Simulation *simulation, double
                    simulation->control.counters.accepted);
 }
 
+// Returns true if nothing new is learnt on the last mesh: it has no more contact nodes than the one
+// before, or too few, or its cells are too long for slip.
+static bool is_too_coarse(const Accuracy *accuracy, const Interface *interface)
+{
+    const Level *level = &accuracy->levels.list[accuracy->levels.count - 1];
+    bool space = interface->dim > 2;
+    if (level->undamped) return true;
+    if (accuracy->levels.count > 1 && level->contact_nodes <= level[-1].contact_nodes) return true;
+    if (interface->contact_count < (space ? SPACE_NODES_MIN : CONTACT_NODES_MIN)) return true;
+    int32_t least = space ? SPACE_PAD_NODES_MIN : PAD_NODES_MIN;
+    for (int32_t pad = 0; pad < interface->pad_count; pad++)
+        if (pad_size(interface, pad).nodes < least) return true;
+    return false;
+}
+
 bool accuracy_run_member(Accuracy *accuracy, bool *coarse, Error *err)
 {
     Level *level = accuracy_last_level(accuracy);
@@ -233,19 +248,7 @@ bool accuracy_run_member(Accuracy *accuracy, bool *coarse, Error *err)
     simulation->deadline = deadline;   // one step is made, whatever time there is
     const Interface *interface = &simulation->model.interface;
     one_mesh_read(simulation, level);
-
-    // Nothing new is learnt on a mesh with no more contact nodes than the last, or with too few, or
-    // whose cells are too long for slip.
-    bool space = interface->dim > 2;
-    if (coarse) {
-        *coarse = level->undamped ||
-                  (accuracy->levels.count > 1 && level->contact_nodes <= level[-1].contact_nodes) ||
-                  interface->contact_count < (space ? SPACE_NODES_MIN : CONTACT_NODES_MIN);
-        for (int32_t pad = 0; pad < interface->pad_count; pad++)
-            *coarse = *coarse || pad_size(interface, pad).nodes <
-                                     (space ? SPACE_PAD_NODES_MIN : PAD_NODES_MIN);
-        if (*coarse) goto cleanup;
-    }
+    if (coarse && (*coarse = is_too_coarse(accuracy, interface))) goto cleanup;
 
     // Steps. Where they come to no end, as where slip weakens faster than viscosity can damp on a
     // cell, the mesh is passed over: a finer one may.
