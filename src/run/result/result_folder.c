@@ -134,6 +134,50 @@ static bool put_back(const char *folder, Error *err)
     return !is_folder(folder, ASIDE) || end_aside(folder, ASIDE, folder, err);
 }
 
+// Takes the lock of a folder, and writes into its file who holds it. Where the folder takes no lock
+// file at all the work goes on, and shows at its first file what is wrong. ERROR_INPUT: another
+// process holds the lock, or the file is no lock of ours.
+static bool take_lock(const char *folder, FileLock *lock, Error *err)
+{
+    char path[PATH_SIZE], host[65] = "", holder[128] = "";
+    snprintf(path, sizeof path, "%s/%s", folder, LOCK_NAME);
+    if (file_lock_take(lock, path, LOCK_WAIT)) {
+        gethostname(host, sizeof host - 1);
+        dprintf(lock->descriptor, "process %ld on %s\n", (long)getpid(), host);
+    } else if (lock->busy) {
+        Error ignored = {0};
+        FILE *stream = open_stream(path, &ignored);
+        if (stream) {
+            if (!fgets(holder, sizeof holder, stream)) *holder = 0;
+            fclose(stream);
+        }
+        holder[strcspn(holder, "\n")] = 0;
+        return REFUSE(err,
+                      "%s: another computation is writing its result there (%s): choose another "
+                      "folder (-o), or wait until it has ended",
+                      folder, *holder ? holder : "its process is not known");
+    } else if (open_is_there(path)) {
+        return REFUSE(err, "%s is there, and is no lock of ours: move it away", path);
+    }
+    return true;
+}
+
+// Returns true if the result that lies in a folder was cut off: there is a checkpoint, and no
+// report of a run that came to its end.
+static bool was_cut_off(const char *folder)
+{
+    char path[PATH_SIZE], start[128] = "";
+    Error ignored = {0};
+    snprintf(path, sizeof path, "%s/%s", folder, CHECKPOINT_FILE);
+    if (access(path, F_OK) != 0) return false;
+    snprintf(path, sizeof path, "%s/run.json", folder);
+    FILE *report = open_stream(path, &ignored);
+    if (!report) return true;
+    start[fread(start, 1, sizeof start - 1, report)] = 0;
+    fclose(report);
+    return !strstr(start, "\"done\"");
+}
+
 bool result_folder_claim(const char *path, bool overwrite, ResultFolder *folder, Error *err)
 {
     static const char stopped[] = "figures/accuracy.";
@@ -146,29 +190,7 @@ bool result_folder_claim(const char *path, bool overwrite, ResultFolder *folder,
     if (strlen(path) >= sizeof folder->path)
         FAIL(err, ERROR_INPUT, "the path of the result folder is too long");
     memcpy(folder->path, path, strlen(path) + 1);
-
-    // The lock: who holds it has written so into its file. Where the folder takes no lock file at
-    // all the work goes on, and shows at its first file what is wrong.
-    char file[PATH_SIZE], host[65] = "", holder[128] = "", start[128] = "";
-    Error ignored = {0};
-    snprintf(file, sizeof file, "%s/%s", path, LOCK_NAME);
-    if (file_lock_take(&folder->lock, file, LOCK_WAIT)) {
-        gethostname(host, sizeof host - 1);
-        dprintf(folder->lock.descriptor, "process %ld on %s\n", (long)getpid(), host);
-    } else if (folder->lock.busy) {
-        FILE *stream = open_stream(file, &ignored);
-        if (stream) {
-            if (!fgets(holder, sizeof holder, stream)) *holder = 0;
-            fclose(stream);
-        }
-        holder[strcspn(holder, "\n")] = 0;
-        FAIL(err, ERROR_INPUT,
-             "%s: another computation is writing its result there (%s): choose another folder "
-             "(-o), or wait until it has ended",
-             path, *holder ? holder : "its process is not known");
-    } else if (open_is_there(file)) {
-        FAIL(err, ERROR_INPUT, "%s is there, and is no lock of ours: move it away", file);
-    }
+    TRY(take_lock(path, &folder->lock, err));
 
     // Files that an earlier computation left aside are put back; files of others under names that a
     // result needs are refused.
@@ -189,27 +211,14 @@ bool result_folder_claim(const char *path, bool overwrite, ResultFolder *folder,
     }
     if (names) fclose(names);
     if (!error_is_clean(err) || !folder->has_earlier || overwrite) goto cleanup;
-
-    // It was cut off where there is a checkpoint, and no report of a run that came to its end.
-    ignored = (Error){0};
-    snprintf(file, sizeof file, "%s/%s", path, CHECKPOINT_FILE);
-    bool cut_off = access(file, F_OK) == 0;
-    snprintf(file, sizeof file, "%s/run.json", path);
-    FILE *report = cut_off ? open_stream(file, &ignored) : NULL;
-    if (report) {
-        start[fread(start, 1, sizeof start - 1, report)] = 0;
-        fclose(report);
-        cut_off = !strstr(start, "\"done\"");
-    }
-    if (cut_off)
+    if (was_cut_off(path))
         FAIL(err, ERROR_INPUT,
              "%s holds a result that was cut off: go on with it (--resume), choose another folder "
              "(-o) or say --overwrite",
              path);
-    else
-        FAIL(err, ERROR_INPUT,
-             "%s holds an earlier result (%s): choose another folder (-o) or say --overwrite", path,
-             strrchr(found, '/') + 1);
+    FAIL(err, ERROR_INPUT,
+         "%s holds an earlier result (%s): choose another folder (-o) or say --overwrite", path,
+         strrchr(found, '/') + 1);
 cleanup:
     if (!error_is_clean(err)) result_folder_release(folder);
     return error_is_clean(err);
