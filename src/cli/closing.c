@@ -251,6 +251,31 @@ static void print_file(const char *folder, const char *name, const char *sentenc
     if (access(path, F_OK) == 0) say("  %-15s %s\n", name, sentence);
 }
 
+// Names the files of the result that are there, and its pictures.
+static void print_files(const RunSummary *summary)
+{
+    char fields[80];
+    snprintf(fields, sizeof fields, "%d times of the whole block; open it in ParaView",
+             summary->field_files);
+    say("Results in %s:\n", summary->folder);
+    print_file(summary->folder, "run.json", "scene, answers, errors and timing in numbers");
+    print_file(summary->folder, "history.h5", "time series, and the interface at every step");
+    if (summary->field_files > 0) print_file(summary->folder, "fields.pvd", fields);
+
+    if (summary->figures > 0) {
+        // Those in the folder, not those asked for: one that could not be drawn is not named.
+        char figures[AMONTONS_PATH_SIZE + 16];
+        struct dirent **entries = NULL;
+        snprintf(figures, sizeof figures, "%s/figures", summary->folder);
+        int count = scandir(figures, &entries, is_picture, alphasort);
+        for (int i = 0; i < count; i++) {
+            say("  figures/%s\n", entries[i]->d_name);
+            free(entries[i]);
+        }
+        if (count >= 0) free(entries);
+    }
+}
+
 // title may be empty. Nothing about files where the run wrote none.
 void closing_print(const char *title, const RunSummary *summary)
 {
@@ -326,28 +351,7 @@ void closing_print(const char *title, const RunSummary *summary)
     say("  time taken      %.1f s (solving %.1f, output %.1f)\n", summary->seconds_total,
         summary->seconds_solve, summary->seconds_output);
 
-    // The files.
-    if (!*summary->folder) return;
-    char fields[80];
-    snprintf(fields, sizeof fields, "%d times of the whole block; open it in ParaView",
-             summary->field_files);
-    say("Results in %s:\n", summary->folder);
-    print_file(summary->folder, "run.json", "scene, answers, errors and timing in numbers");
-    print_file(summary->folder, "history.h5", "time series, and the interface at every step");
-    if (summary->field_files > 0) print_file(summary->folder, "fields.pvd", fields);
-
-    if (summary->figures > 0) {
-        // Those in the folder, not those asked for: one that could not be drawn is not named.
-        char figures[AMONTONS_PATH_SIZE + 16];
-        struct dirent **entries = NULL;
-        snprintf(figures, sizeof figures, "%s/figures", summary->folder);
-        int count = scandir(figures, &entries, is_picture, alphasort);
-        for (int i = 0; i < count; i++) {
-            say("  figures/%s\n", entries[i]->d_name);
-            free(entries[i]);
-        }
-        if (count >= 0) free(entries);
-    }
+    if (*summary->folder) print_files(summary);
 }
 
 // Phases as amontons.h has them; some are parts of others, so that their shares do not add up to

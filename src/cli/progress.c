@@ -185,8 +185,8 @@ void progress_step(const StepView *view, void *context)
         return;
     }
 
-    // The pace of a run: the clock counts from its first rapid event on, as loading up to that
-    // takes next to nothing; and steps that were all alike so far.
+    // Follows the pace of a run. The clock counts from its first rapid event on, as loading up to
+    // that takes next to nothing; while steps are all alike, from the start.
     double elapsed = begin_clock(progress, &now);
     Pace *pace = &progress->pace;
     Mark mark = {elapsed, view->fraction};
