@@ -22,7 +22,7 @@ static const double SPACE_MESH = 4500;
 // Numbers in space that are kept at once: matrices of m x m (one for each step size, their copies,
 // factors, certificate), entries of a factor, and in a reduction those of the factors of a part and
 // columns of responses over those of its border. Contact that is its own mirror image is solved on
-// one side, and takes 58 where its symmetry breaks, which nobody knows before.
+// one side, and takes 58 squares where its symmetry breaks, which nobody knows before.
 static const double SPACE_SQUARES = 30, SPACE_SQUARES_ONE_SIDE = 20, SPACE_ENTRIES = 25;
 static const double SPACE_PART_ENTRIES = 28, SPACE_COLUMNS = 5;
 static const double SPACE_TOGETHER = 1.43;   // two parts side by side over one

@@ -210,8 +210,11 @@ NOT_A_CHOICE = {
     "reduction/symmetry_reduction.c": {"TOGETHER": "parts in memory at once"},
     "reduction/factored_points.c": {"SLOTS_MAX": "factors in memory at once"},
     "record/observation.c": {"CREEP": "of V: what counts as at rest where nothing ever sticks; no scene of the table has such a law"},
-    "record/events.c": {"AFTER_SLIP": "of what counts: ringing is a hundred times slower, precursors in a row are alike", "RATE_START": "what is called rapid: twice the rod's velocity; 1 and 4 change no event",
-                        "RATE_STOP": "the end of it; 0.5 and 2 change no event", "FIRST_ROOM": SIZE},
+    "record/events.c": {
+        "RATE_COUNTS": "from which rate a bounded event counts: a quarter above the 2 V that an oscillation about V comes to; Figure 1 has 16 "
+                       "rapid events that stop, 5 of them of 2.02 to 2.09 V",
+        "AFTER_SLIP": "of what counts: ringing is a hundred times slower, precursors in a row are alike", "RATE_START": "what is called rapid: twice the rod's velocity; 1 and 4 change no event",
+        "RATE_STOP": "the end of it; 0.5 and 2 change no event", "FIRST_ROOM": SIZE},
     "record/drops.c": {"FIRST_ROOM": SIZE},
     "answers/drop_series.h": {"SLIP_CELLS_ENOUGH": "of slip: 48 cases, in run/warnings; scatter by cells in priors.md"},
     "record/fields.c": {"PATH_SIZE": SIZE, "FIRST_ROOM": SIZE,
@@ -234,7 +237,7 @@ NOT_A_CHOICE = {
     "answers/answers.h": {"ERROR_BAR": "95 % of normal deviates"},
     "answers/error_bars_json.c": {"BRANCH_WIDTH": "of branches: the next is twice as far"},
     "answers/error_bars.c": {
-        "USUAL": "of error bars: priors.md", "USUAL_LEAST": "the same", "USUAL_LEVELS": "the same", "ONE_MESH": "the same", "ONE_MESH_IN_SPACE": "of digits without a bar: validation/space/priors.md", "SPAN": "the same",
+        "USUAL": "of error bars: [priors.md](../validation/benchmark/priors.md)", "USUAL_LEAST": "the same", "USUAL_LEVELS": "the same", "ONE_MESH": "the same", "ONE_MESH_IN_SPACE": "of digits without a bar: validation/space/priors.md", "SPAN": "the same",
         "CONFIRM": "of error bars on several pads: two feet of unequal height, strangers 467",
         "ROUNDING": "of products of a few steps from mesh to mesh", "END_WAITS": "of error bars: set B at P = 1e-5",
         "ONE_PRECURSOR": "of digits of the first loading: [accuracy](accuracy.md#without-a-bar)",
@@ -257,6 +260,10 @@ NOT_A_CHOICE = {
         "STRIDE": "at 1 a stiff block gets a rate that it has not (tests/unit/stepping/test_growth.c); 2 and 6 change nothing",
         "SAME_RATE": "rounding, with room: what two shifts saw agrees to 1e-7, others differ by 1e-4"},
     "reduction/machine.c": {"LOOSE": "rounding, with room: a matrix that must not be singular"},
+    "algebra/sparse_order.c": {"LEAF": "points: 4, 16, 32, 100 leave 0.98, 1, 1.02, 1.12 times the entries on 16 x 32 x 16 cells"},
+    "algebra/sparse_expand.c": {
+        "WIDE_FROM": "entries of L an unknown: 88 on 160 x 160 cells, 180 on 8 x 16 x 8, 410 on 16 x 32 x 16, between the kinds of products: "
+                     "time alone"},
     "contact/contact_matrix.c": {"TOGETHER": "unknowns swept at once: time alone",
                                  "PAIR": "of a node"},
     "model/model.c": {
@@ -273,10 +280,14 @@ NOT_A_CHOICE = {
         "SPACE_SQUARES": "numbers, by the memory of runs on cubes of 10, 14, 20 and 28 cells and on 40 x 40 x 20: 25 to 36, and 58 where contact "
                          "came to be solved as a whole",
         "SPACE_SQUARES_ONE_SIDE": "18 to 19 by 40 x 40 x 20, 24 x 24 x 11 and 28 x 28 x 13 cells",
-        "SPACE_ENTRIES": "the same",
-        "SPACE_PART_ENTRIES": "by the memory of reductions of 16^3, 24^3, 20 x 40 x 20, 28 x 56 x 13 and 40 x 80 x 19 cells",
-        "SPACE_COLUMNS": "the same", "SPACE_TOGETHER": "the first three of them either way",
-        "SPACE_FACTORS": "counted"},
+        "SPACE_ENTRIES": "entries of factors of cubes of 20 and 40 cells over unknowns^(4/3): 22 and 25; whole meshes of 14^3 and 20^3 cells "
+                         "told 0.67 and 2.3 GB, taken 0.63 and 2.5",
+        "SPACE_PART_ENTRIES": "the same of the parts of 16 x 32 x 16, 24 x 48 x 24 and 40 x 80 x 40 cells: 22, 25, 28",
+        "SPACE_COLUMNS": "by the memory of reductions of 16^3, 24^3, 20 x 40 x 20, 28 x 56 x 13 and 40 x 80 x 19 cells",
+        "SPACE_TOGETHER": "the first three of them either way",
+        "SPACE_FACTORS": "counted",
+        "SPACE_MODES": "reduced unknowns of 24 x 24 x 24, 40 x 40 x 20 and 40 x 80 x 19 cells: 1.5 to 1.6",
+        "PLANE_MODES": "Figure 1 on 40 x 40 to 320 x 320 cells: 3.1"},
     "model/node_laws.c": {"SAMPLES": "a jump of `friction.along` to a part in 32 of a cell; exact where it is straight"},
     "study/stability/stability.c": {"MEMORY_PART": "of a rate; slower ones matter to no answer", "POINTS_BEYOND": "shown"},
     "study/stability/loss.c": {"NEXT_PART": "of the contact; from one point of a path in space to the next 1 to 3 % begin to slip"},
