@@ -60,8 +60,8 @@ static double drops_left(const Drops *drops, double mu, double fading, const Reg
 
 static SeriesTrend trend_of_last(const SeriesItem *last, int32_t count, const Regime *regime)
 {
-    bool blocks = regime->period == 0 && regime->run_in != RUN_IN_STUCK;
-    return series_trend(last + 1 - count, count, regime->period > 0 ? regime->period : 1, blocks);
+    bool stuck = regime->run_in == RUN_IN_STUCK;
+    return series_trend(last + 1 - count, count, stuck ? 1 : regime->period);
 }
 
 // A trend that stands out from the scatter of the last so many load drops.

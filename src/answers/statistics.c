@@ -109,6 +109,16 @@ static Estimate block_mean(const Sample *sample, int32_t blocks, int32_t length)
     return (Estimate){mean, blocks > 1 ? sqrt(square / (blocks - 1) / blocks) : (double)NAN};
 }
 
+// How many times as large an error is as that of `count` independent values: by the correlation of
+// neighbours, 0 at least, with what few of them leave it too small by. product, square: sums of
+// deviations times the one before, and of their squares.
+static double lengthening(int32_t count, double product, double square)
+{
+    if (count < CORRELATED || square == 0) return 1;
+    double along = fmin(fmax((count * product / square + 1) / (count - 3), 0), CORRELATION_MAX);
+    return sqrt((1 + along) / (1 - along));
+}
+
 // A round tells its scatter at each of its places: so many degrees of freedom.
 static Estimate mean_of(const Sample *sample, int32_t round)
 {
@@ -116,9 +126,7 @@ static Estimate mean_of(const Sample *sample, int32_t round)
     Estimate mean = block_mean(sample, rounds, round);
     if (rounds < 2) return mean;
 
-    // How far each mean of a round goes along with the one before, at least 0: the correlation of
-    // neighbours, with what few of them leave it too small by.
-    double before = 0, square = 0, product = 0, along = 0;
+    double before = 0, square = 0, product = 0;   // of each mean of a round with the one before
     for (int32_t b = 0; b < rounds; b++) {
         Sample until = *sample;
         until.count -= (rounds - 1 - b) * round;
@@ -127,9 +135,7 @@ static Estimate mean_of(const Sample *sample, int32_t round)
         product += off * before;
         before = off;
     }
-    if (rounds >= CORRELATED && square != 0)
-        along = fmin(fmax((rounds * product / square + 1) / (rounds - 3), 0), CORRELATION_MAX);
-    mean.error *= sqrt((1 + along) / (1 - along)) * student(sample->count - round) / 2;
+    mean.error *= lengthening(rounds, product, square) * student(sample->count - round) / 2;
     if (blocks > 1)
         mean.error = fmax(mean.error, block_mean(sample, blocks, rounds / blocks * round).error);
     return mean;
@@ -219,19 +225,50 @@ bool series_trend_stands_out(const SeriesTrend *trend)
     return fabs(trend->slope) > student(trend->freedoms) * trend->error;   // false of NaN
 }
 
-SeriesTrend series_trend(const SeriesItem *items, int32_t count, int32_t round, bool blocks)
+// Of `looked_at` trends one stands out by chance as often as a single one does by Student's factor
+// times sqrt(looked_at), at most.
+static bool stands_out_among(SeriesTrend trend, int32_t looked_at)
 {
-    double values[TREND_VALUES];
+    trend.error *= sqrt(looked_at);
+    return series_trend_stands_out(&trend);
+}
+
+// The trend of values that need not be independent: neighbours lengthen its error as they lengthen
+// that of a mean.
+static SeriesTrend trend_of_neighbours(const double *values, int32_t count)
+{
+    TrendSums sums = {0};
+    add_values(values, count, 1, &sums);
+    SeriesTrend trend = trend_of(&sums, count - 2);
+    double mean = 0, before = 0, square = 0, product = 0;
+    for (int32_t k = 0; k < count; k++) mean += values[k] / count;
+    for (int32_t k = 0; k < count; k++) {
+        double off = values[k] - mean - trend.slope * (k - 0.5 * (count - 1));
+        square += off * off;
+        product += off * before;
+        before = off;
+    }
+    trend.error *= lengthening(count, product, square);
+    return trend;
+}
+
+SeriesTrend series_trend(const SeriesItem *items, int32_t count, int32_t round)
+{
+    double values[TREND_VALUES] = {0};
+    if (round == 0) {
+        int32_t used = count < TREND_VALUES ? count : TREND_VALUES;
+        const SeriesItem *first = items + count - used;
+        double mean = mean_of_items(first, used);
+        for (int32_t k = 0; k < used; k++) values[k] = first[k].value;
+        SeriesTrend level = trend_of_neighbours(values, used);
+        for (int32_t k = 0; k < used; k++) values[k] = fabs(values[k] - mean);
+        SeriesTrend scatter = trend_of_neighbours(values, used);
+        bool grows = scatter.slope > 0 && stands_out_among(scatter, 2);
+        bool steeper = !series_trend_stands_out(&level) || scatter.slope > fabs(level.slope);
+        return grows && steeper ? scatter : level;
+    }
     SeriesTrend place_trend[SERIES_PERIOD_LIMIT];
     TrendSums all = {0};
-    if (blocks) {
-        int32_t length = (int32_t)sqrt(count), number = count / length;
-        if (number > TREND_VALUES) number = TREND_VALUES;
-        const SeriesItem *first = items + count - number * length;
-        for (int32_t b = 0; b < number; b++) values[b] = mean_of_items(first + b * length, length);
-        add_values(values, number, length, &all);
-        return trend_of(&all, number - 2);
-    }
     int32_t used = 0;
     for (int32_t place = 0; place < round; place++) {
         int32_t found = 0;
@@ -246,12 +283,8 @@ SeriesTrend series_trend(const SeriesItem *items, int32_t count, int32_t round, 
     SeriesTrend trend = trend_of(&all, used - round - 1);
     double steepest = series_trend_stands_out(&trend) ? fabs(trend.slope) : 0;
     for (int32_t place = 0; place < round; place++) {
-        // One of `round` places that are looked at stands out by chance as often as a single one
-        // does by Student's factor times sqrt(round), at most.
         const SeriesTrend *own = &place_trend[place];
-        SeriesTrend wider = *own;
-        wider.error *= sqrt(round);
-        if (!series_trend_stands_out(&wider) || fabs(own->slope) <= steepest) continue;
+        if (!stands_out_among(*own, round) || fabs(own->slope) <= steepest) continue;
         trend = *own;
         steepest = fabs(own->slope);
     }

@@ -27,15 +27,16 @@ enum { SERIES_PERIOD_LIMIT = 8 };
 // their parts within twice of it.
 SeriesRegime series_regime(const SeriesItem *items, int32_t count, double tolerance, int32_t parts);
 
-// How values rise from item to item, by least squares about the mean of each place in the round;
-// where they do not repeat (`blocks`), of means over blocks of successive items, whose scatter is
-// theirs whatever the correlation. The trend is that of all places together, or the steeper one of
-// a single place that stands out: the two values of an alternation that grows go opposite ways.
+// How values rise from item to item, by least squares about the mean of each place in the round:
+// the trend of all places together, or the steeper one of a single place that stands out, as the
+// two values of an alternation that grows go opposite ways. Where values do not repeat (`round` 0)
+// their error is lengthened by the correlation of neighbours, and a scatter about their mean that
+// grows is a trend, too.
 typedef struct SeriesTrend {
     double slope, error;   // an item; one standard error
     int32_t freedoms;   // of the error; below 1: there is none
 } SeriesTrend;
-SeriesTrend series_trend(const SeriesItem *items, int32_t count, int32_t round, bool blocks);
+SeriesTrend series_trend(const SeriesItem *items, int32_t count, int32_t round);
 // From its scatter, by Student's 95 %.
 bool series_trend_stands_out(const SeriesTrend *trend);
 
