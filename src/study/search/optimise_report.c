@@ -178,15 +178,15 @@ bool optimise_report(const Search *search, const OptimiseSummary *summary, Error
 {
     const Designs *designs = &search->designs;
     int32_t best = designs_best(designs), all = designs->count;
-    double *x = NEW_ARRAY(double, 4 * (int64_t)all, err);
+    double *x = NULL;
     SearchAnswer answer;
-    TRY(x);
-    double *y = x + all, *error = y + all, *so_far = error + all;
     TRY(search_answer_begin(&answer, err));
     print_answer(search, summary, best, answer.out);
     TRY(search_answer_end(search, &answer, err));
 
-    // Every design in the order of its choice, and the best so far.
+    // Draws every design in the order of its choice, and the best so far.
+    TRY(x = NEW_ARRAY(double, 4 * (int64_t)all, err));
+    double *y = x + all, *error = y + all, *so_far = error + all;
     const Design *leader = NULL;
     for (int32_t d = 0; d < all; d++) {
         const Design *one = &designs->list[d];
@@ -202,9 +202,9 @@ bool optimise_report(const Search *search, const OptimiseSummary *summary, Error
     TRY(search_draw(search, &over_designs, course, 2, err));
     if (search->study->search.over == OVER_FRONT) TRY(pareto_front_draw(search, err));
 
-    // The designs that differ from the best in one key alone, over that key.
+    // Draws the designs that differ from the best in one key alone, over that key.
+    const Design *best_design = &designs->list[best];
     for (int32_t k = 0; k < search->study->search.key_count; k++) {
-        const Design *top = &designs->list[best];
         char name[STUDY_NAME_SIZE + 8];
         int32_t count = 0;
         for (int32_t d = 0; d < all; d++) {
@@ -216,13 +216,13 @@ bool optimise_report(const Search *search, const OptimiseSummary *summary, Error
         Frame frame = {name, search_key_scale(search, k), "linear", search_key_label(search, k),
                        label_of_record(quantity(search))};
         Curve curves[] = {search_dots("others as in the best", count, x, y),
-                          search_dots("the best", 1, &top->x[k], &top->value)};
+                          search_dots("the best", 1, &best_design->x[k], &best_design->value)};
         curves[0].error = error;
         curves[1].marker = "square";
         curves[1].color = COLOR_BEST;
         TRY(search_draw(search, &frame, curves, 2, err));
     }
-    TRY(search_leave_best(search, best, designs->list[best].deciding, err));
+    TRY(search_leave_best(search, best, best_design->deciding, err));
 cleanup:
     memory_free(x);
     return error_is_clean(err);
