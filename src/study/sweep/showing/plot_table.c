@@ -87,7 +87,8 @@ void plot_table_close(PlotTable *table)
 
 // --- columns ------------------------------------------------------------------------------------
 
-// NULL: there is none, and the error says so.
+// Returns the column `name`, which is read from the file when it is first asked for. NULL: there is
+// none, or it cannot be read, and the error says so.
 static const Quantity *find_column(PlotTable *table, const char *name, Error *err)
 {
     char place[STUDY_NAME_SIZE + 32];
@@ -175,6 +176,36 @@ static bool value_at(const char *text, FormulaPoint *at, double *value, Error *e
     return true;
 }
 
+// Writes the label of a formula, "~{P}_{ext} · ~{L} (SI)": columns stand by their symbols.
+static void formula_label(const char *formula, bool is_si, QuantityLabel *label)
+{
+    size_t written = 0, size = sizeof label->words;
+    while (*formula == ' ') formula++;
+    while (*formula && written + QUANTITY_LABEL_SIZE / 2 < size) {
+        char name[STUDY_NAME_SIZE];
+        size_t length = 0;
+        bool begins = isalpha((unsigned char)*formula);
+        while (begins && length + 1 < sizeof name &&
+               (isalnum((unsigned char)formula[length]) || formula[length] == '.' ||
+                formula[length] == '_'))
+            length++;
+        if (length > 0) {
+            snprintf(name, sizeof name, "%.*s", (int)length, formula);
+            QuantityLabel record = label_of_record(name);
+            if (strchr(name, '.')) label_symbol(name, record.words, sizeof record.words);
+            written +=
+                (size_t)snprintf(label->words + written, size - written, "%.40s", record.words);
+            formula += length;
+        } else {
+            const char one[2] = {*formula, 0};
+            written += (size_t)snprintf(label->words + written, size - written, "%s",
+                                        *formula == '*' ? "\u00b7" : one);
+            formula++;
+        }
+    }
+    snprintf(label->words + written, size - written, " (%s)", is_si ? "SI" : "normalised");
+}
+
 const Quantity *plot_table_find(PlotTable *table, const char *text, Quantity *made, Error *err)
 {
     const char *equals = strchr(text, '=');
@@ -207,34 +238,8 @@ const Quantity *plot_table_find(PlotTable *table, const char *text, Quantity *ma
         made->errors[k] = sqrt(square);
     }
 
-    // Its label, "~{P}_{ext} · ~{L}": columns by their symbols.
-    const char *at = formula;
-    char *words = made->label.words;
-    size_t written = 0, size = sizeof made->label.words;
-    while (*at == ' ') at++;
-    while (*at && written + QUANTITY_LABEL_SIZE / 2 < size) {
-        char name[STUDY_NAME_SIZE];
-        size_t length = 0;
-        bool begins = isalpha((unsigned char)*at);
-        while (begins && length + 1 < sizeof name &&
-               (isalnum((unsigned char)at[length]) || at[length] == '.' || at[length] == '_'))
-            length++;
-        if (length > 0) {
-            snprintf(name, sizeof name, "%.*s", (int)length, at);
-            QuantityLabel record = label_of_record(name);
-            if (strchr(name, '.')) label_symbol(name, record.words, sizeof record.words);
-            written += (size_t)snprintf(words + written, size - written, "%.40s", record.words);
-            at += length;
-        } else {
-            const char one[2] = {*at, 0};
-            written += (size_t)snprintf(words + written, size - written, "%s",
-                                        *at == '*' ? "\u00b7" : one);
-            at++;
-        }
-    }
-    snprintf(words + written, size - written, " (%s)", table->is_si ? "SI" : "normalised");
-
     // "NAME = FORMULA" has a label of its own.
+    formula_label(formula, table->is_si, &made->label);
     int length = (int)(equals - text);
     while (length > 0 && text[length - 1] == ' ') --length;
     if (length > 0) snprintf(made->label.words, sizeof made->label.words, "%.*s", length, text);
