@@ -138,7 +138,7 @@ static bool open_sources(PlotFigure *self, const char *folder, const char *besid
     if (!(self->sources = NEW_ARRAY(Source, SOURCES_MAX, err))) return false;
     self->source_count = 1 + plot->with_count;
     for (int32_t k = 0; k < self->source_count; k++) {
-        char path[AMONTONS_PATH_SIZE];   // the first is the sweep itself
+        char path[AMONTONS_PATH_SIZE];   // of another sweep (k > 0); the first is in `folder`
         Source *source = &self->sources[k];
         if (k > 0 && !folder_of(beside, plot->with[k - 1], path, err)) return false;
         PlotTable *table = &source->table;
@@ -170,7 +170,7 @@ static bool open_sources(PlotFigure *self, const char *folder, const char *besid
             if (shown->errors && isnan(shown->errors[i])) source->doubts[i] |= DOUBT_NO_ERROR;
         }
 
-        // The values that are told apart by curves and panels.
+        // Finds the values that curves and panels tell apart.
         if (!find_values(source, source->quantity[PLOT_SERIES], plot->text[PLOT_SERIES],
                          &source->series, err) ||
             !find_values(source, source->quantity[PLOT_PANELS], plot->text[PLOT_PANELS],
@@ -300,64 +300,67 @@ static int compare_places(const void *left, const void *right)
     return a[1] < b[1] ? -1 : a[1] > b[1];
 }
 
-// The maps of the panel called `panel`: one. ERROR_INPUT: two points at one place, of which a map
-// could show one.
-static bool write_maps(PlotFigure *self, const char *panel, Error *err)
+// Writes the points of one panel of a sweep as a map. ERROR_INPUT: two points are at one place, of
+// which a map could show one.
+static bool write_map(PlotFigure *self, const Source *source, int32_t panel, Error *err)
 {
-    double *places = NULL;
-    for (int32_t s = 0; s < self->source_count; s++) {
-        const Source *source = &self->sources[s];
-        for (int32_t p = 0; p < source->panels.count; p++) {
-            char label[GROUP_LABEL_SIZE];
-            value_label(self, source, PLOT_PANELS, p, label);
-            if (strcmp(label, panel) != 0) continue;
-            const Quantity *const *quantity = source->quantity;
-            const Quantity *lines = quantity[PLOT_CONTOURS];
-            int32_t all = source->table.count, count = 0;
-            double *x = self->work, *y = x + all, *value = y + all, *contour = value + all;
-            double *open = contour + all;
-            for (int32_t k = 0; k < all; k++) {
-                double at_x = quantity[PLOT_X]->values[k], at_y = quantity[PLOT_Y]->values[k];
-                if (!values_hold(&source->panels, p, k) || !isfinite(at_x + at_y)) continue;
-                x[count] = at_x;
-                y[count] = at_y;
-                value[count] = quantity[PLOT_COLOR]->values[k];
-                contour[count] = lines ? lines->values[k] : 0;
-                bool has_value = isfinite(value[count]);
-                uint32_t doubts = has_value ? source->doubts[k] : 0,
-                         warned = doubts & ~DOUBT_NO_ERROR;
-                open[count++] = warned ? 1 : doubts ? 2 : 0;
-                self->found |= warned ? warned : doubts;
-                self->some_missing |= !has_value;
-            }
-
-            memory_free(places);
-            TRY((places = NEW_ARRAY(double, 2 * (int64_t)count, err)));
-            for (int32_t k = 0; k < count; k++) {
-                places[2 * k] = x[k];
-                places[2 * k + 1] = y[k];
-            }
-            qsort(places, (size_t)count, 2 * sizeof *places, compare_places);
-            for (int32_t k = 0; k + 1 < count; k++)
-                if (compare_places(places + 2 * k, places + 2 * k + 2) == 0)
-                    FAIL(err, ERROR_INPUT,
-                         "plot: a map shows one point at a place, and several have %s = %.6g, %s = "
-                         "%.6g: name the key in which they differ in `panels`",
-                         self->plot->text[PLOT_X], places[2 * k], self->plot->text[PLOT_Y],
-                         places[2 * k + 1]);
-
-            json_begin_object(self->figure.json, "map");
-            TRY(figure_write_numbers(&self->figure, "x", x, count, err));
-            TRY(figure_write_numbers(&self->figure, "y", y, count, err));
-            TRY(figure_write_numbers(&self->figure, "value", value, count, err));
-            TRY(figure_write_numbers(&self->figure, "open", open, count, err));
-            if (lines) TRY(figure_write_numbers(&self->figure, "contour", contour, count, err));
-            json_end(self->figure.json);
-        }
+    const Quantity *const *quantity = source->quantity;
+    const Quantity *lines = quantity[PLOT_CONTOURS];
+    int32_t all = source->table.count, count = 0;
+    double *x = self->work, *y = x + all, *value = y + all, *contour = value + all;
+    double *open = contour + all, *places = NULL;
+    for (int32_t k = 0; k < all; k++) {
+        double at_x = quantity[PLOT_X]->values[k], at_y = quantity[PLOT_Y]->values[k];
+        if (!values_hold(&source->panels, panel, k) || !isfinite(at_x + at_y)) continue;
+        x[count] = at_x;
+        y[count] = at_y;
+        value[count] = quantity[PLOT_COLOR]->values[k];
+        contour[count] = lines ? lines->values[k] : 0;
+        bool has_value = isfinite(value[count]);
+        uint32_t doubts = has_value ? source->doubts[k] : 0, warned = doubts & ~DOUBT_NO_ERROR;
+        open[count++] = warned ? 1 : doubts ? 2 : 0;
+        self->found |= warned ? warned : doubts;
+        self->some_missing |= !has_value;
     }
+
+    // Two points at one place are neighbours when the places are sorted.
+    TRY((places = NEW_ARRAY(double, 2 * (int64_t)count, err)));
+    for (int32_t k = 0; k < count; k++) {
+        places[2 * k] = x[k];
+        places[2 * k + 1] = y[k];
+    }
+    qsort(places, (size_t)count, 2 * sizeof *places, compare_places);
+    for (int32_t k = 0; k + 1 < count; k++)
+        if (compare_places(places + 2 * k, places + 2 * k + 2) == 0)
+            FAIL(err, ERROR_INPUT,
+                 "plot: a map shows one point at a place, and several have %s = %.6g, %s = "
+                 "%.6g: name the key in which they differ in `panels`",
+                 self->plot->text[PLOT_X], places[2 * k], self->plot->text[PLOT_Y],
+                 places[2 * k + 1]);
+
+    json_begin_object(self->figure.json, "map");
+    TRY(figure_write_numbers(&self->figure, "x", x, count, err));
+    TRY(figure_write_numbers(&self->figure, "y", y, count, err));
+    TRY(figure_write_numbers(&self->figure, "value", value, count, err));
+    TRY(figure_write_numbers(&self->figure, "open", open, count, err));
+    if (lines) TRY(figure_write_numbers(&self->figure, "contour", contour, count, err));
+    json_end(self->figure.json);
 cleanup:
     memory_free(places);
     return error_is_clean(err);
+}
+
+// Writes the map of the panel called `panel`, of whichever sweep has it.
+static bool write_maps(PlotFigure *self, const char *panel, Error *err)
+{
+    for (int32_t s = 0; s < self->source_count; s++)
+        for (int32_t p = 0; p < self->sources[s].panels.count; p++) {
+            char label[GROUP_LABEL_SIZE];
+            value_label(self, &self->sources[s], PLOT_PANELS, p, label);
+            if (strcmp(label, panel) == 0 && !write_map(self, &self->sources[s], p, err))
+                return false;
+        }
+    return true;
 }
 
 // --- the whole ----------------------------------------------------------------------------------
@@ -449,19 +452,19 @@ static bool write_figure(PlotFigure *self, Error *err)
         }
 
     // The legend of a map: its contours, and points that have no value.
-    char label[QUANTITY_LABEL_SIZE + 40];
+    char words[QUANTITY_LABEL_SIZE + 40];
     const Quantity *color = source->quantity[PLOT_COLOR], *lines = source->quantity[PLOT_CONTOURS];
     if (self->is_map && lines) {
         bool many = source->table.count / self->panels.count > MAP_MANY;
-        snprintf(label, sizeof label, many ? "%s, medians of %d x %d points" : "%s",
+        snprintf(words, sizeof words, many ? "%s, medians of %d x %d points" : "%s",
                  lines->label.words, MAP_MEDIANS, MAP_MEDIANS);
-        Curve line = {.label = label, .line = "solid"};
+        Curve line = {.label = words, .line = "solid"};
         TRY(figure_write_entry(&self->figure, &line, err));
     }
     if (self->is_map && self->some_missing) {
         bool formula = strchr(plot->text[PLOT_COLOR], '=') != NULL;
-        snprintf(label, sizeof label, "no %s", formula ? "value" : color->label.words);
-        Curve missing = {.label = label, .line = "none", .marker = "cross"};
+        snprintf(words, sizeof words, "no %s", formula ? "value" : color->label.words);
+        Curve missing = {.label = words, .line = "none", .marker = "cross"};
         TRY(figure_write_entry(&self->figure, &missing, err));
     }
     TRY(figure_write_doubts(&self->figure, &self->doubts, self->found, self->is_map, err));
