@@ -373,7 +373,6 @@ static bool read_search(Study *study, Error *err)
                 return yaml_refuse(file, item, "where",
                                    "`least`, `most`, or both, `most` not below", err);
         }
-        if (!error_is_clean(err)) return false;
     }
 
     // The aim.

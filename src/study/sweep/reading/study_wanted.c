@@ -144,7 +144,6 @@ static bool read_rank(Study *study, Error *err)
                                   "against: neither `vary` nor `cases` has the key `%.60s`",
                                   yaml_key(file, item));
         }
-        if (!error_is_clean(err)) return false;
     }
 
     // refine: a share such as 0.005 or 0.5%. Points that are computed again differ in accuracy.mu:
@@ -330,13 +329,14 @@ bool study_read_wanted(Study *study, Error *err)
     static const char *const always[] = {"status", "message", "warnings",
                                          "run"};   // columns of every table
 
-    // Columns: those of `record`, or the standard ones of KNOWN_RECORDS.
+    // Columns: the standard ones of KNOWN_RECORDS, or those of `record`.
     YamlNode list = yaml_look_up(study->file, "record");
-    int32_t ignored = 0, count = list == YAML_NO_NODE ? 0 : yaml_count(study->file, list);
-    for (int32_t k = 0; list == YAML_NO_NODE && k < KNOWN_RECORD_COUNT; k++)
-        if (KNOWN_RECORDS[k].standard)
-            add_record(study, KNOWN_RECORDS[k].name, KNOWN_RECORDS[k].path, "", YAML_NO_NODE);
-    if (list != YAML_NO_NODE) {
+    if (list == YAML_NO_NODE) {
+        for (int32_t k = 0; k < KNOWN_RECORD_COUNT; k++)
+            if (KNOWN_RECORDS[k].standard)
+                add_record(study, KNOWN_RECORDS[k].name, KNOWN_RECORDS[k].path, "", YAML_NO_NODE);
+    } else {
+        int32_t ignored = 0, count = yaml_count(study->file, list);
         if (yaml_kind(study->file, list) != YAML_LIST || count == 0 || count > STUDY_RECORDS_MAX)
             return yaml_refuse(study->file, list, "record", "a list of at most 64 names", err);
         YAML_EACH (item, study->file, list) {
@@ -346,7 +346,6 @@ bool study_read_wanted(Study *study, Error *err)
                 is_there = is_there || strcmp(name, always[k]) == 0;
             if (!is_there && !find_record(study, name, "record", item, &ignored, err)) return false;
         }
-        if (!error_is_clean(err)) return false;
     }
     if (!read_rank(study, err)) return false;
 
