@@ -51,7 +51,8 @@ typedef struct Pool {
     int32_t next, step;   // point to look at for the next child; to the one behind it
 } Pool;
 
-// Streams are flushed before the fork, as the child has a copy of them.
+// Starts a child process, which computes the points that it reads from its socket until that
+// closes. Streams are flushed before the fork, as the child has a copy of them.
 static bool start_child(Pool *pool, PoolChild *child, Error *err)
 {
     int ends[2] = {-1, -1};
@@ -61,13 +62,15 @@ static bool start_child(Pool *pool, PoolChild *child, Error *err)
     fflush(NULL);
     *child = (PoolChild){.process = fork(), .socket = ends[0], .point = -1};
     if (child->process == 0) {
-        // In the child, which never returns. It dies with its parent, and by the signals that the
-        // parent handles; a parent that died since the fork would leave it without one.
+        // This is the child, which never returns. SIGTERM ends it, and so does the end of its
+        // parent.
         int32_t point;
         close(ends[0]);
         signal(SIGTERM, SIG_DFL);
         signal(SIGINT, SIG_IGN);   // of the terminal: the parent decides
         system_end_with_parent();
+
+        // A parent that has died since the fork has sent no signal; the child then has another one.
         if (getppid() != parent) _exit(1);
         mallopt(M_TRIM_THRESHOLD, MEMORY_KEPT);   // the next point needs what the last gave back
         mallopt(M_MMAP_THRESHOLD, MEMORY_KEPT);

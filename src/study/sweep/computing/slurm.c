@@ -124,26 +124,30 @@ static bool wait_for_all(SlurmRun *run, Error *err)
             int32_t undone = 0, first = 0;
             if (element->taken || (element->listed && !element->ended)) continue;
 
-            // An element that has ended is taken once its results can be seen or need not be waited
-            // for: unless Slurm ended it, it wrote some.
+            // This element has ended, or has left the queue unseen. The results that can be seen
+            // are taken at each look.
             if (!take_points(run, k, &undone, &first, err)) return false;
-            bool comes = !element->ended || strcmp(element->state, "COMPLETED") == 0 ||
-                         strcmp(element->reason, "NonZeroExitCode") == 0;
-            if (undone > 0 && element->gone_since == 0) element->gone_since = clock_seconds();
-            if (undone > 0 && comes && clock_seconds() - element->gone_since < REPORT_PAUSE)
-                continue;
-            if (undone > 0 && !run->sweep->study.keep_table) {   // the point it was at has failed
-                char message[ERROR_MESSAGE_SIZE];
-                bool cancelled = strcmp(element->state, "PENDING") == 0 ||
-                                 strcmp(element->state, "CANCELLED") == 0;
-                describe_end(run, k, message);
-                if (!sweep_take_lost(run->sweep, first, NAN, cancelled ? "cancelled" : "crashed",
-                                     message, err))
-                    return false;
-                undone--;
+            if (undone > 0) {
+                // Unless Slurm ended the element, it wrote results: they are waited for.
+                bool comes = !element->ended || strcmp(element->state, "COMPLETED") == 0 ||
+                             strcmp(element->reason, "NonZeroExitCode") == 0;
+                if (element->gone_since == 0) element->gone_since = clock_seconds();
+                if (comes && clock_seconds() - element->gone_since < REPORT_PAUSE) continue;
+
+                // The point that it was at has failed.
+                if (!run->sweep->study.keep_table) {
+                    char message[ERROR_MESSAGE_SIZE];
+                    bool cancelled = strcmp(element->state, "PENDING") == 0 ||
+                                     strcmp(element->state, "CANCELLED") == 0;
+                    describe_end(run, k, message);
+                    if (!sweep_take_lost(run->sweep, first, NAN,
+                                         cancelled ? "cancelled" : "crashed", message, err))
+                        return false;
+                    undone--;
+                }
+                if (undone > 0 && run->undone == 0) describe_end(run, k, run->cause);
+                run->undone += undone;
             }
-            if (undone > 0 && run->undone == 0) describe_end(run, k, run->cause);
-            run->undone += undone;
             element->taken = true;
             run->left--;
         }
