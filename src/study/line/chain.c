@@ -110,8 +110,8 @@ bool chain_build(const Model1d *model, int32_t points, Chain *chain, Error *err)
     }
 
     // The block.
-    double whole = model->density * model->alpha * model->height * model->length;
-    if (!bulk_operator_reduce(&chain->reduced, model->length, whole, &chain->system, err))
+    double total_mass = model->density * model->alpha * model->height * model->length;
+    if (!bulk_operator_reduce(reduced, model->length, total_mass, &chain->system, err))
         return false;
     if (!rod_build(interface, ROD_IS_BONDED, model->velocity, &chain->rod, err)) return false;
     chain->block = (Block){.system = &chain->system,

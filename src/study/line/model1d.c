@@ -30,7 +30,7 @@ Model1dOptions amontons_model1d_options(void)
 
 // Refuses a scene that the model has no terms for, rather than leave parts out, and options that it
 // cannot take. ERROR_INPUT names the key.
-static bool check_scene(const Scene *scene, const Model1dOptions *options, Error *err)
+static bool check_input(const Scene *scene, const Model1dOptions *options, Error *err)
 {
     const char *path = scene->path;
     if (scene->rod.kind == ROD_NONE || !(scene->rod.velocity > 0))
@@ -226,7 +226,7 @@ bool amontons_model1d(const Scene *scene, const Model1dOptions *options, Model1d
                                 .l_sc_seen = NAN,
                                 .l_c_seen = NAN};
     TRY(dense_begin(err));
-    TRY(check_scene(scene, options, err));
+    TRY(check_input(scene, options, err));
     TRY(result_folder_claim(options->folder, options->overwrite, &folder, err));
     TRY(translate_scene(scene, options, &simulation.model, err));
     TRY(result_folder_clear(&folder, err));

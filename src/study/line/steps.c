@@ -68,7 +68,8 @@ static bool open_simulation(Model1dSimulation *simulation, Error *err)
                           &simulation->history, err);
 }
 
-// Each accepted step, the start's state included. ERROR_COMPUTE: the energy ledger does not close.
+// Records an accepted step, or the state at the start. ERROR_COMPUTE: the energy ledger does not
+// close.
 static bool record_step(Model1dSimulation *simulation, Error *err)
 {
     Observation seen = observe(&simulation->control, &simulation->scales);
@@ -77,7 +78,8 @@ static bool record_step(Model1dSimulation *simulation, Error *err)
     if (!contact_arrays_record(&simulation->contact, &seen, err)) return false;
     if (simulation->history.file && !history_record(&simulation->history, &seen, err)) return false;
 
-    // As long as nothing was rapid: what the theory's points look like here, and how far off mu is.
+    // As long as nothing was rapid, the run is compared with the theory: at the theory's points,
+    // and by how far mu is off.
     const Model1d *model = &simulation->model;
     const Events *events = &simulation->events;
     const Observation *last = &simulation->last;

@@ -226,7 +226,7 @@ bool stability_measure_pads(StabilityPath *path, StabilitySummary *summary, Erro
     TRY((work.values = NEW_ARRAY(double, count, err)));
     TRY((work.work = NEW_ARRAY(double, DENSE_EIGEN_WORK(count), err)));
 
-    // Each pad with what runs away; nodes of the others stay out.
+    // Measures each pad alone where slip runs away: nodes of the other pads are held.
     const State *state = &path->runaway;
     const double *re = path->modes + 2 * (int64_t)path->at_rod * interface->contact_count;
     const double *im = re + interface->contact_count;
@@ -263,8 +263,8 @@ bool stability_measure_pads(StabilityPath *path, StabilitySummary *summary, Erro
         pad->length /= breadth;
         pad->slipping /= breadth;
         pad->l_c /= breadth;
-        if (summary->pads[p].mode > most) summary->pad = p;
-        most = fmax(most, summary->pads[p].mode);
+        if (pad->mode > most) summary->pad = p;
+        most = fmax(most, pad->mode);
         summary->pad_count = p + 1;
     }
     for (int32_t p = 0; p < summary->pad_count && most > 0; p++) summary->pads[p].mode /= most;

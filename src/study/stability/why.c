@@ -96,7 +96,7 @@ void stability_explain(const StabilityPath *path, StabilitySummary *summary)
         say(summary,
             "Slip of a massless body at V is steady on a stiffness above %.3g (critical); that of "
             "%s, all else held, is %.3g.%s",
-            pad->critical_stiffness, name_of(summary, summary->pad), pad->stiffness, length);
+            pad->critical_stiffness, name, pad->stiffness, length);
 
     // A run may show oscillations and jumps before.
     if (summary->mu_sc < summary->mu_rod * (1 - EARLIER))
