@@ -80,7 +80,7 @@ bool compare_page_write(HtmlWriter *html, const char *const *folders, int32_t co
         snprintf(runs[k].name, RUN_NAME_SIZE, "%s", runs[k].folder + cut);
     }
 
-    // The head of the page: what is not complete, and what is to be doubted.
+    // The head of the page says what is not complete, and what is to be doubted.
     snprintf(title, sizeof title, "Comparison of %d runs", count);
     sheet_begin(html, title, "Report by amontons", parts);
     for (int32_t k = 0; k < count; ++k) {

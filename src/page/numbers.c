@@ -99,10 +99,10 @@ static void write_rows(HtmlWriter *html, const NumberRow *rows, size_t row_count
                        const RunSource *runs, int32_t count)
 {
     for (size_t r = 0; r < row_count; ++r) {
-        html_markup(html, "<tr><th scope='row'>%s</th>", rows[r].label);
+        const NumberRow *row = &rows[r];
+        html_markup(html, "<tr><th scope='row'>%s</th>", row->label);
         for (int32_t k = 0; k < count; ++k) {
             const RunSource *run = &runs[k];
-            const NumberRow *row = &rows[r];
             if (row->kind == NUMBER_EVENTS) {
                 html_markup(html, "<td class='number' data-events='%s'>%d</td>", row->path,
                             run_events(run, row->path));
@@ -121,7 +121,7 @@ static void write_rows(HtmlWriter *html, const NumberRow *rows, size_t row_count
             }
             html_markup(html, "</td>");
         }
-        html_markup(html, "<td class='meaning'>%s</td></tr>\n", rows[r].meaning);
+        html_markup(html, "<td class='meaning'>%s</td></tr>\n", row->meaning);
     }
 }
 

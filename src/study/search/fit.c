@@ -136,6 +136,7 @@ bool amontons_fit(const char *path, const SweepOptions *options, FitSummary *sum
     TRY(fit->own = NEW_ARRAY(double, (int64_t)DESIGNS_MAX *data, err));
     search->planned += search->designs.conditions * 2 * (1 + 2 * keys->key_count);
 
+    // The designs that the search chooses are computed.
     TRY(search_designs(search, keys->designs, err));
 
     // The regions of the keys, with designs at the best place and at the ends of the regions, where

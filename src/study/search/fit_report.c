@@ -265,20 +265,21 @@ static bool has_places(const Fit *fit, double *x, char key[STUDY_NAME_SIZE])
     for (int32_t k = 0; k < measured->count; k++) {
         const Datum *one = &measured->list[k];
         const char *condition = measured->conditions[one->condition];
-        char other[STUDY_NAME_SIZE];
+        char own_key[STUDY_NAME_SIZE];
         x[k] = one->at;
-        snprintf(other, sizeof other, "%s", one->along);
+        snprintf(own_key, sizeof own_key, "%s", one->along);
         if (!*one->along) {
             const char *colon = strstr(condition, ": ");
             if (!colon || strchr(condition, ',') || colon - condition >= STUDY_NAME_SIZE)
                 return false;
-            snprintf(other, sizeof other, "%.*s", (int)(colon - condition), condition);
+            snprintf(own_key, sizeof own_key, "%.*s", (int)(colon - condition), condition);
             int32_t length = text_number(colon + 2, &x[k]);
             const char *unit = colon + 2 + length + strspn(colon + 2 + length, " ");
             if (length <= 0 || (*unit && !unit_to_si(unit, NULL, &x[k]))) return false;
         }
-        if (k == 0) snprintf(key, STUDY_NAME_SIZE, "%s", other);
-        if (strcmp(one->name, measured->list[0].name) != 0 || strcmp(key, other) != 0) return false;
+        if (k == 0) snprintf(key, STUDY_NAME_SIZE, "%s", own_key);
+        if (strcmp(one->name, measured->list[0].name) != 0 || strcmp(key, own_key) != 0)
+            return false;
         if (*one->along && measured->condition_count > 1) return false;
     }
     return measured->count > 0;

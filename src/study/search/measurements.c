@@ -340,9 +340,11 @@ bool measurements_find(const Datum *datum, const char *report, const char *histo
     *error = 0;
     if (!report) return true;
     if (strcmp(datum->along, HOLD) == 0) {
-        // mu or its rise after a hold of this duration, of the run's own holds: linear over the
-        // logarithm of the time held. NaN: no holds as short or as long.
-        // ln duration, value and error of the longest of shorter ones, of the shortest of longer.
+        // Interpolates mu or its rise after a hold of this duration between the run's own holds,
+        // linearly in the logarithm of the time held. NaN: no holds are as short or as long.
+
+        // ln(duration / at), value and error of two holds: the longest that is not longer than
+        // `at`, and the shortest that is longer.
         double before[3] = {NAN, NAN, NAN};
         double behind[3] = {NAN, NAN, NAN};
         for (int32_t k = 0;; k++) {

@@ -100,9 +100,9 @@ static bool decide(Search *search, Error *err)
         memory_free(taken);
         TRY(taken = NEW_ARRAY(bool, DESIGNS_MAX, err));
         while (count < LEADERS) {
-            // Among the designs not in `taken` that a smaller bar alone could make the best, the
-            // one whose bar reaches furthest. A design that would need a better value, too, is left
-            // out.
+            // Chooses, among the designs not in `taken` that a smaller bar alone could make the
+            // best, the one whose bar reaches furthest. A design that would need a better value,
+            // too, is left out.
             double sign = search->designs.lowest ? -1 : 1, top = -INFINITY;
             int32_t d = -1;
             for (int32_t i = 0; i < search->designs.count; i++) {
@@ -138,8 +138,8 @@ static bool confirm(Search *search, Error *err)
 {
     const Designs *designs = &search->designs;
     for (;;) {
-        // The best design or, if that was computed once more, the next one where its value is now
-        // the better one.
+        // Takes the best design. If that was computed once more already, it takes the next one
+        // where its value is now the better one.
         int32_t best = designs_best(designs), next = -1;
         const Design *list = designs->list;
         for (int32_t d = 0; d < designs->count; d++)

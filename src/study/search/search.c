@@ -158,8 +158,8 @@ static double on_scale(const Search *search, double value)
     return search->study->search.fits ? log1p(value) : value;
 }
 
-// Value that the chooser is told for a design; -1: none. One that is refused, has no result, or a
-// bar nearly as large as its value, counts as below the worst.
+// Value that the chooser is told for a design; design: -1 if it was refused. A design that is
+// refused, has no result, or has a bar nearly as large as its value counts as below the worst.
 static double told_of(const Search *search, int32_t design)
 {
     double sure = NAN, low = INFINITY, high = -INFINITY, sign = search->designs.lowest ? -1 : 1;

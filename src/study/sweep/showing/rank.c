@@ -304,10 +304,9 @@ bool ranking_print(const Sweep *sweep, const SweepTable *table, const Ranking *r
     if (shown > sweep->study.rank.top) shown = sweep->study.rank.top;
     TRY((rows = NEW_ARRAY(PrintedRow, shown + 1, err)));
 
-    // Row 0 is the head; `cells` in a row.
+    // Row 0 is the head; each row has `cells` cells.
     const Study *study = &sweep->study;
     PrintedRow *row = &rows[0];
-    cells = 0;
     snprintf(add_cell(row, &cells), CELL_SIZE, "rank");
     for (int32_t k = 0; k < study->column_count; k++)
         if (study->chosen[k])

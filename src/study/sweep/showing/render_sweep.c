@@ -37,7 +37,7 @@ static bool draw_in_child(void *context, FILE *reply, Error *err)
         goto cleanup;
     }
 
-    // Without a plot, figures/NAME.json becomes figures/NAME.png.
+    // Without a plot, each figures/NAME.json becomes a picture beside it, in the style's format.
     snprintf(path, sizeof path, "%.1000s/figures", draw->folder);
     if (!(listing = opendir(path)))
         FAIL(err, ERROR_INPUT, "cannot open %s: %s: its study asks for no `plot`; --plot does",
