@@ -193,14 +193,15 @@ static bool check_block(const Check *check)
 {
     const Scene *scene = check->scene;
 
-    // Something must press the block down, hold it, or send it down: else there is no contact to
-    // look at.
-    bool held = scene->load.support_count > 0 || scene->start.velocity_z < 0;
     if (scene->material.plane == PLANE_STRAIN && scene->material.poisson >= 0.5)
         return blame(check, "material.poisson", "%g; plane strain needs less than 0.5",
                      scene->material.poisson);
     if (scene->load.force > 0 && is_given(check, "load.pressure"))
         return blame(check, "load.force", "give either this or load.pressure");
+
+    // Something must press the block down, hold it, or send it down: else there is no contact to
+    // look at.
+    bool held = scene->load.support_count > 0 || scene->start.velocity_z < 0;
     if (scene->load.pressure == 0 && scene->load.force == 0 && scene->load.traction_count == 0 &&
         !held)
         return blame(check, "load.pressure",
@@ -239,6 +240,8 @@ static bool check_block(const Check *check)
                          : strcmp(contact, rod) == 0 ? "rod"
                                                      : "floor");
     }
+
+    // A unit of length needs a scene in SI.
     if (scene->units == UNITS_NORMALISED && is_given(check, "mesh.unit"))
         return blame(check, "mesh.unit",
                      "a normalised scene has no units of length: give mesh.scale, or units: si");
@@ -286,7 +289,8 @@ static bool check_course(const Check *check)
     const SceneProgram *rod = &scene->rod.program, *load = &scene->load.program;
     bool moves = scene->rod.kind != ROD_NONE;
 
-    // A program that is given by U needs a U that rises.
+    // Keys of the rod need a rod. A program that is given by U needs a U that rises, and a program
+    // of the load begins with 1.
     if (!moves && is_given(check, "rod.stiffness"))
         return blame(check, "rod.stiffness", "the scene has no rod (rod.kind: none); leave it out");
     if (!check_points(check, "rod.program", rod) || !check_points(check, "load.program", load))
@@ -308,7 +312,7 @@ static bool check_course(const Check *check)
                      "load.tractions as they are",
                      load->factor.value[0]);
 
-    // An end by U needs a rod; a scene that is no static one must say when to stop.
+    // An end by U needs a rod that gets there; a scene that is no static one must say when to stop.
     if (scene->time.until_U > 0 && !moves)
         return blame(check, "time.until.U", "the scene has no rod (rod.kind: none); give t");
     if (!(scene->time.until_U > 0) && !(scene->time.until_t > 0) && !is_static(scene))
@@ -320,6 +324,8 @@ static bool check_course(const Check *check)
     if (scene->time.until_U > 0 && !(scene->time.until_t > 0) && !arrives)
         return blame(check, "time.until.U",
                      "rod.program never takes the rod so far: less, or an end by t");
+
+    // Slidings are counted in whole numbers; the least step is not above the largest.
     if (scene->time.until_slidings != floor(scene->time.until_slidings))
         return blame(check, "time.until.slidings", "%g is no whole number",
                      scene->time.until_slidings);

@@ -192,23 +192,25 @@ static int32_t take_item(const SceneKey *key, const char *name, size_t length,
 
     // A name of a state of friction.state has letters, digits and _, and no other meaning in a
     // formula: names that every formula or scene/friction_law uses are taken.
-    static const char *const taken[] = {"v",     "p",   "sqrt", "exp", "log",   "tanh",
-                                        "asinh", "abs", "min",  "max", "round", "points"};
-    char word[GROUP_NAME_SIZE];
-    snprintf(word, sizeof word, "%.*s", (int)length, name);
-    bool allowed = isalpha((unsigned char)*word) && strlen(word) < STATE_NAME_SIZE &&
-                   scene_friction_number(word) < 0;
-    for (const char *at = word; *at; at++)
-        allowed = allowed && (isalnum((unsigned char)*at) || *at == '_');
-    for (size_t k = 0; k < sizeof taken / sizeof *taken; k++)
-        allowed = allowed && strcmp(word, taken[k]) != 0;
-    if (items == &scene_state_items && !allowed) {
-        yaml_key_error(value->document, value->node, err,
-                       "%s: `%.40s` cannot be the name of a state; allowed: letters, digits and _, "
-                       "at most 31, and not v, p, a function or a number of friction (mu_S, D_c, "
-                       "a, b, ...)",
-                       key->name, word);
-        return -1;
+    if (items == &scene_state_items) {
+        static const char *const taken[] = {"v",     "p",   "sqrt", "exp", "log",   "tanh",
+                                            "asinh", "abs", "min",  "max", "round", "points"};
+        char word[GROUP_NAME_SIZE];
+        snprintf(word, sizeof word, "%.*s", (int)length, name);
+        bool can_name = isalpha((unsigned char)*word) && strlen(word) < STATE_NAME_SIZE &&
+                        scene_friction_number(word) < 0;
+        for (const char *at = word; *at; at++)
+            can_name = can_name && (isalnum((unsigned char)*at) || *at == '_');
+        for (size_t k = 0; k < sizeof taken / sizeof *taken; k++)
+            can_name = can_name && strcmp(word, taken[k]) != 0;
+        if (!can_name) {
+            yaml_key_error(value->document, value->node, err,
+                           "%s: `%.40s` cannot be the name of a state; allowed: letters, digits "
+                           "and _, at most 31, and not v, p, a function or a number of friction "
+                           "(mu_S, D_c, a, b, ...)",
+                           key->name, word);
+            return -1;
+        }
     }
     char *item = item_of(items, scene, (*count)++);
     memset(item, 0, items->size);

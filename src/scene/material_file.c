@@ -91,14 +91,16 @@ bool material_data_read(const char *path, SceneUnits units, const double *wlf, d
         (table.loss < COLUMNS && has[table.loss] < 0))
         FAIL(err, ERROR_INPUT, "%s:%d: columns are missing; %s", csv->path, csv->line[0], WANTED);
 
-    // Factors to the scene's units. Hz and 1/s are of a frequency but where it is called omega;
-    // rad/s are of an angular one.
+    // Finds the factors to the scene's units.
     for (int32_t k = 0; k < COLUMNS; k++) {
         table.factor[k] = 1;
         if (has[k] >= 0 && DIMENSIONS[k])
             TRY(csv_to_scene(csv, has[k], unit[k], DIMENSIONS[k], units == UNITS_SI,
                              &table.factor[k], err));
     }
+
+    // The data are over angular frequency. Hz counts cycles, and rad/s radians; with any other
+    // unit, as 1/s, the name of the column decides.
     if (!over_time) {
         char text[CSV_UNIT_SIZE];
         snprintf(text, sizeof text, "%.*s", unit[table.at].length, unit[table.at].text);
@@ -106,7 +108,7 @@ bool material_data_read(const char *path, SceneUnits units, const double *wlf, d
         if (cycles) table.factor[table.at] *= TWO_PI;
     }
 
-    // Rows.
+    // Reads the rows, and shifts their times or frequencies.
     int32_t rows = csv->rows;
     if (rows < 2 || rows > RELAXATION_POINTS_MAX)
         FAIL(err, ERROR_INPUT, "%s has %d rows; allowed: 2 to %d", path, rows,

@@ -311,7 +311,7 @@ static bool work_out_formulas(Reader *reader, Scene *scene, Error *err)
         left += waiting[k];
     }
 
-    // Rounds.
+    // Each round works out all formulas that name none that is waiting.
     for (; left > 0 && found > 0; left -= found) {
         found = 0;
         memset(known, 0, sizeof known);
