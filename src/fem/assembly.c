@@ -6,7 +6,6 @@
 
 #include "base/memory.h"
 #include "fem/element_group.h"
-#include "fem/floor.h"
 #include "fem/mesh_faces.h"
 
 #include <math.h>
@@ -122,6 +121,7 @@ bool bulk_create(const Mesh *mesh, Bulk *bulk, Error *err)
     *bulk = (Bulk){.dim = mesh->dim, .dof_count = mesh->dim * mesh->node_count};
     bulk->load = NEW_ARRAY(double, bulk->dof_count, err);
     bulk->held = NEW_ARRAY(uint8_t, bulk->dof_count, err);
+
     // In space places order the sparse factor; in the plane minimum degree leaves less.
     if (mesh->dim == 3) bulk->place = NEW_ARRAY(double, 3 * (int64_t)bulk->dof_count, err);
     for (int32_t dof = 0; bulk->place && dof < bulk->dof_count; dof++)

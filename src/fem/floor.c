@@ -10,7 +10,6 @@
 
 #include "algebra/dense.h"
 #include "base/memory.h"
-#include "base/order.h"
 #include "fem/mesh_faces.h"
 #include "io/mesh/shape_functions.h"
 
@@ -254,6 +253,8 @@ static bool add_face(Mortar *mortar, const char *pad, FaceNodes face, const char
             }
         }
     }
+
+    // The faces of the floor must cover all of this one.
     int32_t corners = corners_of(&own, dim, corner);
     double size = size_of(corner, corners, dim);
     if (!(fabs(covered - size) <= COVER_ROUNDING * size)) {
@@ -266,6 +267,8 @@ static bool add_face(Mortar *mortar, const char *pad, FaceNodes face, const char
             mortar->mesh->path, pad, mesh_place_text(mortar->mesh, face.node[0], at), floor,
             covered / size, mortar->mesh->dim == 2 ? "length" : "area");
     }
+
+    // Inverts the mass matrix of the face's shape functions.
     if (!dense_cholesky(mass, nodes) || !dense_invert_factored(mass, nodes))
         return FAULT(err, ERROR_COMPUTE, "%s: a face of contact group '%s' has no area",
                      mortar->mesh->path, pad);
@@ -280,6 +283,7 @@ static bool add_face(Mortar *mortar, const char *pad, FaceNodes face, const char
         }
     }
 
+    // Adds the entries of each contact node and each node of the floor under the face.
     for (int32_t a = 0; a < nodes; a++) {
         mortar->total[face.node[a]] += share[a];
         for (int32_t p = 0; share[a] != 0 && p < mortar->pair_count; p++) {

@@ -134,7 +134,7 @@ static bool orient_elements(Mesh *mesh, Error *err)
             add_probe(ELEMENT_WEDGE6, point, probes);
         }
 
-    // Elements.
+    // Turns or refuses each element whose determinant is not positive throughout.
     for (int32_t e = 0; e < mesh->element_count; e++) {
         double range[2];
         MeshPlace centre;

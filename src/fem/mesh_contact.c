@@ -265,11 +265,12 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Places first: the order relies on them.
 bool mesh_contact(const Mesh *mesh, const char (*names)[GROUP_NAME_SIZE], int32_t name_count,
                   MeshContact *contact, Error *err)
 {
-    int32_t *owner = NULL, *place = NULL, total = 0;   // [nodes] 1 + pad; place in contact->nodes
+    int32_t *owner = NULL;   // [nodes] 1 + the pad that has the node, 0: none; owned
+    int32_t *place = NULL;   // [nodes] index in contact->nodes; owned
+    int32_t total = 0;
     *contact = (MeshContact){0};
     TRY(pick_pads(mesh, names, name_count, contact, err));
     TRY(check_boundary(mesh, contact, err));
@@ -289,6 +290,8 @@ bool mesh_contact(const Mesh *mesh, const char (*names)[GROUP_NAME_SIZE], int32_
     mesh_sort_nodes(mesh, contact->nodes, contact->node_count);
     for (int32_t k = 0; k < contact->node_count; k++)
         contact->pad_of[k] = owner[contact->nodes[k]] - 1;
+
+    // Places are checked first: the search for curves that turn back relies on them.
     TRY(check_places(mesh, contact, err));
     if (mesh->dim > 2) goto cleanup;
 

@@ -65,7 +65,7 @@ bool mesh_check_inside(const Mesh *mesh, const MeshFaces *faces, Error *err)
         }
     qsort(points, (size_t)count, sizeof *points, compare_points);
 
-    // Whether one of them lies in another element of the same body.
+    // No point may lie in another element of the same body.
     for (int32_t e = 0; e < mesh->element_count; e++) {
         const ProbePoint *found = NULL;
         MeshPlace low, high, inside;

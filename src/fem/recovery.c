@@ -95,8 +95,9 @@ bool nodal_stress_create(const Mesh *mesh, NodalStress *stress, Error *err)
     TRY(stress->slope = memory_array(room, sizeof *stress->slope, err));
     if (mesh->mean_next) TRY(stress->areal = memory_array(room, sizeof *stress->areal, err));
 
-    // To the row of the point at each node of an element: its share of the slopes d/dx, d/dz of the
-    // element's shape functions there. What other elements said of a node is added to.
+    // Adds to the row of the point at each node of an element the slopes (d/dx to d/dz) of the
+    // element's shape functions there, over the number of elements around the point: the row
+    // becomes their mean.
     for (int32_t e = 0; e < mesh->element_count; e++)
         for (int32_t a = mesh->first_node[e]; a < mesh->first_node[e + 1]; a++) {
             const int32_t *element = mesh->element_nodes + mesh->first_node[e];
@@ -114,8 +115,8 @@ bool nodal_stress_create(const Mesh *mesh, NodalStress *stress, Error *err)
             }
             if (!mesh->mean_next || mesh->mean_next[e] < 0) continue;
 
-            // And of what the mean areal strain of the element's group is above that of its own
-            // slopes.
+            // Adds to `areal` in the same way the mean areal strain of the element's group, less
+            // the areal strain of the element itself.
             double mean[ELEMENT_DOFS_MAX];
             ElementGroup group;
             element_group_of(mesh, e, &group);
@@ -130,7 +131,7 @@ bool nodal_stress_create(const Mesh *mesh, NodalStress *stress, Error *err)
                         share * b[d][node_dof(mesh->dim, n, d)];
         }
 
-    // The stresses.
+    // The stresses are filled at each time that is written.
     stress->elastic = NEW_ARRAY(double, strain_count(mesh->dim) * (int64_t)points, err);
     stress->total = NEW_ARRAY(double, strain_count(mesh->dim) * (int64_t)points, err);
     stress->von_mises = NEW_ARRAY(double, points, err);
