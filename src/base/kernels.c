@@ -50,8 +50,9 @@ const char *kernels_name(void)
 
 const char *kernels_possible(void)
 {
+    const char *name = kernels_name();
     KernelLevel level = level_of_processor(), taken = LEVEL_AVX512;
     for (size_t k = 0; k < sizeof known / sizeof known[0]; k++)
-        if (strcasecmp(kernels_name(), known[k].name) == 0) taken = known[k].level;
-    return taken < level ? best_of[level] : kernels_name();
+        if (strcasecmp(name, known[k].name) == 0) taken = known[k].level;
+    return taken < level ? best_of[level] : name;
 }

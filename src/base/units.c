@@ -84,10 +84,10 @@ static bool read_factor(const char **text, int32_t sign, Unit *product)
         base = find_base(*text + size, length - size);
         ten = prefixes[k].ten;
     }
-    if (length == 0 || !base) return false;
+    if (!base) return false;
     ten += base->ten;
 
-    // The power.
+    // A power may follow, with or without ^.
     *text += length;
     if (**text == '^') (*text)++;
     long power = 1;

@@ -13,7 +13,6 @@
 #include "io/files/open_file.h"
 #include "io/files/part_file.h"
 
-#include <fcntl.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <string.h>

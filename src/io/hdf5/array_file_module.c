@@ -259,7 +259,7 @@ cleanup:
     return NULL;
 }
 
-// Where one of these fails the name is not given.
+// Where closing fails, the file keeps the name `path`.part.
 static bool hdf5_close(ArrayFile *file, Error *err)
 {
     char name[PATH_MAX + 24];

@@ -169,8 +169,9 @@ static bool only_warns(MeshRaw *raw)
     return only;
 }
 
-// Afterwards gmsh holds a mesh. A script that has made one of the block's dimension keeps it, with
-// all that it did to it (SetOrder, RefineMesh, ...), as `gmsh - FILE` does.
+// Opens the file, meshes what has no mesh, and splits its cells. Afterwards gmsh holds a mesh. A
+// script that has made one of the block's dimension keeps it, with all that it did to it (SetOrder,
+// RefineMesh, ...), as `gmsh - FILE` does.
 static bool gmsh_load(const MeshRawRequest *request, MeshRaw *raw, Error *err)
 {
     int *types = NULL, status = 0, order = 1;
@@ -184,7 +185,7 @@ static bool gmsh_load(const MeshRawRequest *request, MeshRaw *raw, Error *err)
         goto cleanup;
     }
 
-    // The mesh.
+    // gmsh meshes what has no mesh yet.
     if (request->generate && !is_meshed) {
         if (request->opened) request->opened();
         gmshOptionGetNumber("Mesh.Algorithm", &algorithm, &status);

@@ -126,7 +126,7 @@ static bool read_elements(Msh2File *file, Error *err)
                 (Msh2Element){.type = (int32_t)type, .begin = file->binary ? file->at : line};
             if (file->binary && !read_int(file, &number)) return false;
 
-            // Tags.
+            // The first two tags are the numbers of the group and of the entity.
             element->tags = (int32_t)tags;
             element->after_entity = file->at;
             for (int64_t tag = 0, value = 0; tag < tags; tag++) {
@@ -136,9 +136,9 @@ static bool read_elements(Msh2File *file, Error *err)
                 if (tag <= 1) element->after_entity = file->at;
             }
 
-            // Nodes.
-            int64_t room = 2 * file->nodes_room + 1000 * NODES_MAX;
+            // The nodes of all elements follow each other in one array.
             if (file->nodes_used + NODES_MAX > file->nodes_room) {
+                int64_t room = 2 * file->nodes_room + 1000 * NODES_MAX;
                 if (!memory_resize(&file->nodes, file->nodes_room, room, sizeof *file->nodes, err))
                     return false;
                 file->nodes_room = room;
