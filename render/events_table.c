@@ -9,7 +9,6 @@
 #include "io/text/csv_writer.h"
 
 #include <math.h>
-#include <stdio.h>
 
 // Steps that follow an event at least, for what is read off its course to be more than one step's.
 enum { STEPS_ENOUGH = 8 };
@@ -86,6 +85,9 @@ bool events_table_write(const char *path, ResultView *view, Error *err)
         read_nodes(view, NODES_X, &friction.x, err));
     TRY(result_view_read_front(view, err));
     TRY(result_file_read_table(view->file, EVENTS_PEAK_RATE, &peak, &peaks, err));
+
+    // Forces and energies are those of the whole block; in the plane, where its thickness is not
+    // known, they are those of a metre of it.
     TRY(csv = csv_create(path, err));
     const char *force = whole ? "N" : "N/m", *energy = whole ? "J" : "J/m";
     const char *moment = whole ? "N m" : "N";
@@ -107,6 +109,8 @@ bool events_table_write(const char *path, ResultView *view, Error *err)
     csv_heading(csv, "steps", NULL);
     csv_heading(csv, "resolved", NULL);
     csv_end_row(csv);
+
+    // Each event that counts and has a start and an end becomes a row.
     for (int32_t k = 0; k < view->event_count; ++k) {
         const ViewEvent *event = &view->events[k];
         bool sliding = event->kind == VIEW_LEADING;

@@ -349,12 +349,12 @@ bool gl_image_draw(GlSource first, const GlImageDef *def, uint32_t *pixels, Erro
     // that was forked after Mesa's threads began these are missing, and it would wait for them for
     // ever: there the next source is taken.
     for (GlSource source = first; source < GL_SOURCES && !gl; ++source) {
-        Gl *tried = &opened[source];
-        if (!tried->tried) gl_open(tried, source, &tried->failure);
-        tried->tried = true;
-        if (tried->ready && tried->process == getpid()) gl = tried;
-        said[source] = tried->ready ? "in use before this process was forked"
-                                    : tried->failure.message;
+        Gl *candidate = &opened[source];
+        if (!candidate->tried) gl_open(candidate, source, &candidate->failure);
+        candidate->tried = true;
+        if (candidate->ready && candidate->process == getpid()) gl = candidate;
+        said[source] = candidate->ready ? "in use before this process was forked"
+                                        : candidate->failure.message;
     }
     if (!gl)
         FAIL(err, ERROR_LIBRARY,

@@ -258,7 +258,7 @@ static bool draw_page(Page *page, const FigureInput *input, Maps *maps, Error *e
     PageDef def = input->def;
     char note[WORDS_SIZE], words[WORDS_SIZE];
     Axes axes = contact_map_axes(view);
-    double size[2] = {plane->high[0] - plane->low[0], plane->high[1] - plane->low[1]};
+    double extent[2] = {plane->high[0] - plane->low[0], plane->high[1] - plane->low[1]};
     double width = page_width(def.style), left = 0;
     def.height = 1;
     for (int32_t pass = 0; pass < 2; ++pass) {
@@ -272,16 +272,17 @@ static bool draw_page(Page *page, const FigureInput *input, Maps *maps, Error *e
         double best = INFINITY;
         for (int32_t columns = 1; columns <= COLUMNS_MAX && columns <= maps->count; ++columns) {
             int32_t lines = (maps->count + columns - 1) / columns;
-            double wide = (room - (columns - 1) * GAP) / columns, high = wide * size[1] / size[0];
-            double shape = lines * (high + WORDS_HEIGHT) / room;
+            double map_width = (room - (columns - 1) * GAP) / columns;
+            double map_height = map_width * extent[1] / extent[0];
+            double shape = lines * (map_height + WORDS_HEIGHT) / room;
             double away = fabs(log(shape / SHAPE_LIKED)) + EMPTY * (columns * lines - maps->count);
             if (!(away < best)) continue;
             best = away;
             maps->columns = columns;
             maps->lines = lines;
-            double fits = fmin(1, SHAPE_MOST * room / (lines * (high + WORDS_HEIGHT)));
-            maps->width = fits * wide;
-            maps->height = fits * high;
+            double fits = fmin(1, SHAPE_MOST * room / (lines * (map_height + WORDS_HEIGHT)));
+            maps->width = fits * map_width;
+            maps->height = fits * map_height;
         }
         double height = maps->lines * (maps->height + WORDS_HEIGHT) + axes_bottom_margin(&axes) +
                         key_line_height();

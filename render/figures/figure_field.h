@@ -8,7 +8,7 @@
 typedef struct FieldPage {
     double magnification;   // of the deformation
     double extent[4];   // of the block as drawn
-    double scale, width, height;   // of the frame, points; set by lay_out
+    double scale, width, height;   // of the frame, points; set by field_page_lay_out
 } FieldPage;
 
 // To scale on a page so many points wide, or less where it would be too high. The page's height

@@ -58,7 +58,7 @@ static bool read_strip(const FigureInput *input, Strip *strip, BlockQuantity qua
     if (!event)
         FAIL(err, ERROR_INPUT, "no sliding of the whole block has been seen from start to end");
 
-    // The times nearest to equal parts of the slip, each once.
+    // Chooses the times that are nearest to equal parts of the slip, each once.
     TRY(result_view_read_status(view, err));
     TRY(result_view_read_slip(view, err));
     const int64_t *row = source.row;

@@ -411,7 +411,7 @@ static bool compare(Measured *measured, ResultView *view, Error *err)
         }
     }
 
-    // The misfit, and what it is in words.
+    // Computes the misfit, and says in words what it is.
     double sum = 0, parts = 0;
     int32_t count = 0, number = scales[measured->kind].number;
     for (int32_t k = 0; k < measured->count; ++k) {

@@ -147,7 +147,10 @@ bool film_clock_create(const FilmClockDef *def, FilmClock *clock, Error *err)
         double most = power;
         for (int32_t k = 0; k < HALVINGS; ++k) {
             double middle = (least + most) / 2;
-            *(length_of(&course, middle) < wanted ? &least : &most) = middle;
+            if (length_of(&course, middle) < wanted)
+                least = middle;
+            else
+                most = middle;
         }
         power = (least + most) / 2;
     }
@@ -167,17 +170,19 @@ bool film_clock_create(const FilmClockDef *def, FilmClock *clock, Error *err)
     // and behind rapid slip: its logarithm then changes evenly in the film's time. It can only
     // fall, so that nothing rapid is shown faster than without. With this slope the way from the
     // slowest to the fastest takes `ease` seconds.
-    double largest = 0, seconds = (double)(def->frames - 1) / def->rate;
-    for (int64_t i = 0; i < places; ++i) largest = fmax(largest, even.log_fast[i]);
-    double slope = def->ease > 0 ? seconds / length_of(&even, power) * power * largest / def->ease
-                                 : 0;
-    for (int32_t back = 0; back < 2 && def->ease > 0; ++back)
-        for (int64_t i = 1; i < places; ++i) {
-            int64_t k = back ? places - 1 - i : i, from = back ? k + 1 : k - 1;
-            double fastest = exp(-power * even.log_fast[from]) +
-                             slope * fabs(even.t[k] - even.t[from]);
-            if (exp(-power * even.log_fast[k]) > fastest) even.log_fast[k] = -log(fastest) / power;
-        }
+    if (def->ease > 0) {
+        double largest = 0, seconds = (double)(def->frames - 1) / def->rate;
+        for (int64_t i = 0; i < places; ++i) largest = fmax(largest, even.log_fast[i]);
+        double slope = seconds / length_of(&even, power) * power * largest / def->ease;
+        for (int32_t back = 0; back < 2; ++back)
+            for (int64_t i = 1; i < places; ++i) {
+                int64_t k = back ? places - 1 - i : i, from = back ? k + 1 : k - 1;
+                double fastest = exp(-power * even.log_fast[from]) +
+                                 slope * fabs(even.t[k] - even.t[from]);
+                if (exp(-power * even.log_fast[k]) > fastest)
+                    even.log_fast[k] = -log(fastest) / power;
+            }
+    }
     TRY(frames_place(def, &even, power, clock, err));
 cleanup:
     course_destroy(&course);

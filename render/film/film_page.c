@@ -166,11 +166,11 @@ FilmPage *film_page_create(const FilmPageDef *def, Error *err)
     TRY(lay_out(page, err));
     double V = fabs(view->number[NUMBER_ROD_VELOCITY]);
     double step = page->band.speed_low / clock->rate;
-    double range = clock->t[clock->frames - 1] - clock->t[0];
+    double duration = clock->t[clock->frames - 1] - clock->t[0];
     double last = film_moment(view, clock->t[clock->frames - 1]).U;
     double factor = figure_length_axis(view, "U", 0, last).factor;
-    page->t_decimals = decimals_of(step, range);
-    page->U_decimals = decimals_of(step * V * factor, range * V * factor);
+    page->t_decimals = decimals_of(step, duration);
+    page->U_decimals = decimals_of(step * V * factor, duration * V * factor);
     page->block.U_decimals = page->U_decimals;
     double point = page->base.point;
     TextStyle style = {.size = TITLE_SIZE * point, .color = INK};

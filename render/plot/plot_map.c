@@ -303,14 +303,17 @@ bool plot_map_draw(const Page *page, const Axes *axes, const PlotPanel *panel,
     const MapGrid *grid = &drawing.grid;
     double distance = point_distance(&drawing), least = DISTANCE_MIN * page->point;
     bool thinned = grid->columns > 0 && distance < least;
-    for (int32_t k = 0; k < map->count && !thinned; k++)
-        point_draw(&drawing, k, distance, grid->columns == 0 && distance >= least);
-    int32_t step = thinned ? (int32_t)ceil(MARKS_APART * page->point / distance) : 1;
-    for (int32_t row = step / 2; row < grid->rows && thinned; row += step)
-        for (int32_t column = step / 2; column < grid->columns; column += step) {
-            int32_t k = grid->point[row * grid->columns + column];
-            if (k >= 0) point_draw(&drawing, k, least, false);
-        }
+    if (!thinned) {
+        for (int32_t k = 0; k < map->count; k++)
+            point_draw(&drawing, k, distance, grid->columns == 0 && distance >= least);
+    } else {
+        int32_t step = (int32_t)ceil(MARKS_APART * page->point / distance);
+        for (int32_t row = step / 2; row < grid->rows; row += step)
+            for (int32_t column = step / 2; column < grid->columns; column += step) {
+                int32_t k = grid->point[row * grid->columns + column];
+                if (k >= 0) point_draw(&drawing, k, least, false);
+            }
+    }
 cleanup:
     canvas_clip(page->canvas, NULL);
     map_grid_destroy(&drawing.grid);

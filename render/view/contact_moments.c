@@ -87,6 +87,8 @@ bool contact_moments_find(const ResultView *view, const double *rates, const cha
     const ContactPlane *plane = &view->plane;
     int32_t nodes = plane->nodes;
     *moments = (ContactMoments){0};
+
+    // The moments that are asked for, in the order of time.
     if (at && !whole) {
         char word[MOMENT_SIZE];
         for (; *at; at += strcspn(at, ","), at += *at == ',') {

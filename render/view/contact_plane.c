@@ -26,6 +26,11 @@ typedef struct Face {
     MeshPlace place[FACE_NODES_MAX];
 } Face;
 
+typedef struct KnownSide {
+    int32_t low, high;   // points at its ends
+    ContactSide side;
+} KnownSide;
+
 static bool take_face(const ContactPlane *plane, const Faces *faces, int32_t f, Face *face,
                       Error *err)
 {
@@ -96,31 +101,25 @@ static void add_patches(const Face *face, ContactPlane *plane)
     }
 }
 
-// --- outline -------------------------------------------------------------------------------------
-
-typedef struct KnownSide {
-    int32_t low, high;   // points at its ends
-    ContactSide side;
-} KnownSide;
-
 // --- reading -------------------------------------------------------------------------------------
 
 bool contact_plane_read(ArrayFile *file, int32_t nodes, ContactPlane *plane, Error *err)
 {
     Faces faces = {0};
     Face face;
-    KnownSide *sides = NULL;
-    int32_t count = 0;
+    KnownSide *sides = NULL;   // of all faces: a side between two faces is there twice; owned
+    int32_t side_count = 0;
     *plane = (ContactPlane){.nodes = nodes};
     double **const arrays[] = {&plane->x, &plane->y, &plane->weight};
     const ResultNodes names[] = {NODES_X, NODES_Y, NODES_WEIGHT};
     for (size_t k = 0; k < sizeof names / sizeof *names; ++k) {
+        int32_t count = 0;
         TRY(result_file_read_nodes(file, names[k], arrays[k], &count, err));
         if (count != nodes)
             FAIL(err, ERROR_FILE, "%d of %d contact nodes have a place", count, nodes);
     }
-    count = 0;   // of sides
 
+    // The faces of the contact, by their points.
     int32_t two = 0;
     TRY(result_file_read_faces(file, FACES_NODES, &faces.point, &faces.count, &faces.width, err));
     TRY(result_file_read_faces(file, FACES_CORNERS, &faces.corner, &faces.corners, &two, err));
@@ -132,6 +131,7 @@ bool contact_plane_read(ArrayFile *file, int32_t nodes, ContactPlane *plane, Err
     if (faces.width > FACE_NODES_MAX)
         FAIL(err, ERROR_FILE, "faces have up to %d points", faces.width);
 
+    // Each face adds its patches to the plane, and its sides to those of all faces.
     TRY(plane->patches = NEW_ARRAY(ContactPatch, (int64_t)FACE_PATCHES_MAX * faces.count, err));
     TRY(plane->sides = NEW_ARRAY(ContactSide, (int64_t)FACE_CORNERS_MAX * faces.count, err));
     TRY(sides = NEW_ARRAY(KnownSide, (int64_t)FACE_CORNERS_MAX * faces.count, err));
@@ -142,7 +142,7 @@ bool contact_plane_read(ArrayFile *file, int32_t nodes, ContactPlane *plane, Err
         bool between = element_node_count(face.kind) > corners;
         for (int32_t k = 0; k < corners; ++k) {
             int32_t next = (k + 1) % corners, a = face.point[k], b = face.point[next];
-            KnownSide *side = &sides[count++];
+            KnownSide *side = &sides[side_count++];
             side->low = a < b ? a : b;
             side->high = a < b ? b : a;
             memcpy(side->side.point[0], face.place[k], sizeof side->side.point[0]);
@@ -152,11 +152,11 @@ bool contact_plane_read(ArrayFile *file, int32_t nodes, ContactPlane *plane, Err
         }
     }
 
-    // Sides of one face alone.
-    qsort(sides, (size_t)count, sizeof *sides, order_int32_pairs);
-    for (int32_t k = 0; k < count; ++k) {
+    // Sides that are on one face alone make the outline of the contact.
+    qsort(sides, (size_t)side_count, sizeof *sides, order_int32_pairs);
+    for (int32_t k = 0; k < side_count; ++k) {
         bool before = k > 0 && order_int32_pairs(&sides[k - 1], &sides[k]) == 0;
-        bool after = k + 1 < count && order_int32_pairs(&sides[k], &sides[k + 1]) == 0;
+        bool after = k + 1 < side_count && order_int32_pairs(&sides[k], &sides[k + 1]) == 0;
         if (!before && !after) plane->sides[plane->side_count++] = sides[k].side;
     }
 
