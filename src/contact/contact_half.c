@@ -51,7 +51,7 @@ static bool list_half(const Places *places, int32_t *list, int32_t *image, int32
 bool contact_half_find(const Interface *interface, ContactHalf *half, Error *err)
 {
     int32_t contacts = interface->contact_count, rods = interface->rod_count, dim = interface->dim;
-    *half = (ContactHalf){.whole = interface->count};
+    *half = (ContactHalf){.both_count = interface->count};
     if (dim < 3 || contacts == 0) return true;
     half->unknown = NEW_ARRAY(int32_t, interface->count, err);
     half->image = NEW_ARRAY(int32_t, interface->count, err);
@@ -119,7 +119,7 @@ static bool is_still(const ContactHalf *half, int32_t k, bool antisymmetric)
 bool contact_half_matrix(const ContactHalf *half, const double *schur, bool antisymmetric,
                          double *out)
 {
-    int64_t size = half->interface.count, whole = half->whole;
+    int64_t size = half->interface.count, whole = half->both_count;
     double largest = 0, off = 0;
     for (int64_t k = 0; k < whole; k++) largest = fmax(largest, schur[k * (whole + 1)]);
     for (int32_t b = 0; b < size; b++) {
@@ -190,14 +190,14 @@ void contact_half_add_forces(const ContactHalf *half, bool antisymmetric, const 
 void contact_half_symmetrise(const ContactHalf *half, double *motion, double *work)
 {
     contact_half_fold(half, false, motion, work);
-    memset(motion, 0, (size_t)half->whole * sizeof *motion);
+    memset(motion, 0, (size_t)half->both_count * sizeof *motion);
     contact_half_add(half, false, work, motion);
 }
 
 void contact_half_symmetrise_forces(const ContactHalf *half, double *force, double *work)
 {
     contact_half_fold_forces(half, false, force, work);
-    memset(force, 0, (size_t)half->whole * sizeof *force);
+    memset(force, 0, (size_t)half->both_count * sizeof *force);
     contact_half_add_forces(half, false, work, force);
 }
 

@@ -28,7 +28,7 @@ typedef enum ContactPart {
 typedef struct ContactHalf {
     Interface interface;   // how many nodes and unknowns one side has; nothing else; 0: the contact
         // is not its own image
-    int32_t whole;   // interface unknowns of both sides
+    int32_t both_count;   // interface unknowns of both sides
     int32_t *unknown, *image;   // [interface.count] of the whole: its own, and that across the
         // mirror, the same on the middle line; owned, like all that follows
     double *
@@ -41,7 +41,7 @@ typedef struct ContactHalf {
 bool contact_half_find(const Interface *interface, ContactHalf *half, Error *err);
 void contact_half_destroy(ContactHalf *half);
 
-// out [interface.count^2] = E'S E of the symmetric or antisymmetric part; S: [whole^2]. false: S is
+// out [interface.count^2] = E'S E of the symmetric or antisymmetric part; S: [both_count^2]. false: S is
 // not its own image.
 bool contact_half_matrix(const ContactHalf *half, const double *schur, bool antisymmetric,
                          double *out);

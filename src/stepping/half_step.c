@@ -13,21 +13,21 @@ static const double ALIKE = 1e-9;
 
 bool half_step_create(const Block *block, const Certificate *whole, HalfStep *half, Error *err)
 {
-    const Interface *side = &half->half.interface;
+    const Interface *interface = &half->contact.interface;
     int32_t *image = NULL;
     double *sign = NULL;
     *half = (HalfStep){.friction = friction_everywhere(friction_constant(0))};   // none so far
-    TRY(contact_half_find(block->interface, &half->half, err));
-    if (side->contact_count == 0) goto cleanup;
+    TRY(contact_half_find(block->interface, &half->contact, err));
+    if (interface->contact_count == 0) goto cleanup;
 
     // The rod. A node that stands for two yields half as much to the sum of their forces.
     Rod *rod = &half->rod;
-    rod->softness = NEW_ARRAY(double, side->rod_count, err);
-    rod->lag = NEW_ARRAY(double, side->rod_count, err);
+    rod->softness = NEW_ARRAY(double, interface->rod_count, err);
+    rod->lag = NEW_ARRAY(double, interface->rod_count, err);
     TRY(error_is_clean(err));
     bool alike = true;
-    for (int32_t j = 0; alike && j < side->rod_count; j++) {
-        int32_t own = half->half.rod[j], across = half->half.rod_image[j];
+    for (int32_t j = 0; alike && j < interface->rod_count; j++) {
+        int32_t own = half->contact.rod[j], across = half->contact.rod_image[j];
         double softness = block->rod->softness[own], lag = block->rod->lag[own];
         alike = fabs(softness - block->rod->softness[across]) <= ALIKE * softness &&
                 fabs(lag - block->rod->lag[across]) <= ALIKE * lag;
@@ -36,35 +36,35 @@ bool half_step_create(const Block *block, const Certificate *whole, HalfStep *ha
     }
 
     // The symmetric part of the bulk, by the images that the interface has.
-    TRY((image = NEW_ARRAY(int32_t, half->half.whole, err)));
-    TRY((sign = NEW_ARRAY(double, half->half.whole, err)));
-    for (int32_t k = 0; k < side->count; k++) {
-        int32_t own = half->half.unknown[k], across = half->half.image[k];
+    TRY((image = NEW_ARRAY(int32_t, half->contact.both_count, err)));
+    TRY((sign = NEW_ARRAY(double, half->contact.both_count, err)));
+    for (int32_t k = 0; k < interface->count; k++) {
+        int32_t own = half->contact.unknown[k], across = half->contact.image[k];
         image[own] = across;
         image[across] = own;
-        sign[own] = sign[across] = half->half.sign[k];
+        sign[own] = sign[across] = half->contact.sign[k];
     }
     TRY(symmetric_part_find(block->system, image, sign, &half->bulk, err));
 
     // States, solvers and their work.
-    TRY(state_create(&(BulkOperator){0}, side, &half->state, err));
-    TRY(state_create(block->system, block->interface, &half->whole, err));
-    TRY(contact_solver_create(side, &half->solver, err));
-    TRY(contact_newton_create(side, &half->newton, err));
+    TRY(state_create(&(BulkOperator){0}, interface, &half->one_side, err));
+    TRY(state_create(block->system, block->interface, &half->both_sides, err));
+    TRY(contact_solver_create(interface, &half->solver, err));
+    TRY(contact_newton_create(interface, &half->newton, err));
     half->nodes = NEW_ARRAY(FrictionNode, block->interface->contact_count, err);
-    half->g = NEW_ARRAY(double, side->count, err);
-    half->bound = NEW_ARRAY(double, side->count, err);
-    half->anti_g = NEW_ARRAY(double, side->count, err);
-    half->anti_bound = NEW_ARRAY(double, side->count, err);
-    half->anti_velocity = NEW_ARRAY(double, side->count, err);
-    half->anti_reaction = NEW_ARRAY(double, side->count, err);
+    half->g = NEW_ARRAY(double, interface->count, err);
+    half->bound = NEW_ARRAY(double, interface->count, err);
+    half->anti_g = NEW_ARRAY(double, interface->count, err);
+    half->anti_bound = NEW_ARRAY(double, interface->count, err);
+    half->anti_velocity = NEW_ARRAY(double, interface->count, err);
+    half->anti_reaction = NEW_ARRAY(double, interface->count, err);
     TRY(error_is_clean(err));
 
     // Certificates of both parts.
-    Block one = {.interface = side, .friction = &half->friction, .rod = rod};
+    Block one_side = {.interface = interface, .friction = &half->friction, .rod = rod};
     for (ContactPart part = PART_SYMMETRIC; alike && part <= PART_ANTISYMMETRIC; part++) {
         Certificate *certificate = part == PART_SYMMETRIC ? &half->symmetric : &half->antisymmetric;
-        TRY(certificate_halve(whole, &half->half, &one, part, certificate, err));
+        TRY(certificate_halve(whole, &half->contact, &one_side, part, certificate, err));
         alike = certificate->damping_contact.schur != NULL;
     }
     half->exists = alike;
@@ -78,9 +78,9 @@ void half_step_destroy(HalfStep *half)
     certificate_destroy(&half->symmetric);
     certificate_destroy(&half->antisymmetric);
     contact_solver_destroy(&half->solver);
-    contact_half_destroy(&half->half);
-    state_destroy(&half->state);
-    state_destroy(&half->whole);
+    contact_half_destroy(&half->contact);
+    state_destroy(&half->one_side);
+    state_destroy(&half->both_sides);
     symmetric_part_destroy(&half->bulk);
     memory_free_all(half->rod.softness, half->rod.lag, half->nodes, half->g, half->bound,
                     half->anti_g, half->anti_bound, half->anti_velocity, half->anti_reaction);
@@ -94,9 +94,9 @@ bool half_step_take_friction(HalfStep *half, const Friction *friction)
     if (!friction->node) return true;
     half->friction.node = half->nodes;
     bool alike = true;
-    for (int32_t i = 0; i < half->half.interface.contact_count; i++) {
-        const FrictionNode *across = &friction->node[half->half.node_image[i]];
-        half->nodes[i] = friction->node[half->half.node[i]];
+    for (int32_t i = 0; i < half->contact.interface.contact_count; i++) {
+        const FrictionNode *across = &friction->node[half->contact.node_image[i]];
+        half->nodes[i] = friction->node[half->contact.node[i]];
         alike = alike && memcmp(&half->nodes[i], across, sizeof *across) == 0;
     }
     return alike;
@@ -113,20 +113,21 @@ static void fold_solution(const ContactHalf *half, const ContactSolution *from,
 
 const State *half_step_fold(HalfStep *half, const State *state)
 {
-    State *one = &half->state;
+    State *one_side = &half->one_side;
     ContactSolution from = {state->slip_rate, state->reaction, state->status, state->rod_touches};
-    ContactSolution to = {one->slip_rate, one->reaction, one->status, one->rod_touches};
-    fold_solution(&half->half, &from, &to);
-    return one;
+    ContactSolution to = {one_side->slip_rate, one_side->reaction, one_side->status,
+                          one_side->rod_touches};
+    fold_solution(&half->contact, &from, &to);
+    return one_side;
 }
 
 // K, C and M join no symmetric motion to an antisymmetric one, so that the energy lost is that of
 // what is dropped.
 void half_step_symmetrise(HalfStep *half, State *state, double *bound)
 {
-    const ContactHalf *side = &half->half;
+    const ContactHalf *contact = &half->contact;
     const int32_t *interface_dofs = half->bulk.exists ? half->bulk.system->interface_dofs : NULL;
-    State *to = &half->whole;
+    State *to = &half->both_sides;
     if (!interface_dofs) return;
     state_copy(state, to);
     symmetric_part_take(&half->bulk, state->displacement, to->displacement);
@@ -147,9 +148,9 @@ void half_step_symmetrise(HalfStep *half, State *state, double *bound)
                        (state->elastic_force[k] - to->elastic_force[k]) +
                    (state->velocity[k] - to->velocity[k]) * (state->momentum[k] - to->momentum[k]);
     if (!(0.5 * dropped <= ALIKE * ALIKE * kept)) return;
-    contact_half_symmetrise(side, to->slip_rate, half->g);
-    contact_half_symmetrise(side, bound, half->g);
-    contact_half_symmetrise_forces(side, to->reaction, half->g);
+    contact_half_symmetrise(contact, to->slip_rate, half->g);
+    contact_half_symmetrise(contact, bound, half->g);
+    contact_half_symmetrise_forces(contact, to->reaction, half->g);
     for (int32_t k = 0; k < to->interface_count; k++)
         to->velocity[interface_dofs[k]] = to->slip_rate[k];
     state_copy(to, state);
@@ -159,16 +160,16 @@ void half_step_symmetrise(HalfStep *half, State *state, double *bound)
 bool half_step_solve(HalfStep *half, const ContactProblem *problem, ContactMatrix *antisymmetric,
                      ContactSolution *solution, bool *alike)
 {
-    const ContactHalf *side = &half->half;
-    State *one = &half->state;
-    int32_t count = side->interface.count;
-    size_t bytes = (size_t)side->whole * sizeof(double);
+    const ContactHalf *contact = &half->contact;
+    State *one_side = &half->one_side;
+    int32_t count = contact->interface.count;
+    size_t bytes = (size_t)contact->both_count * sizeof(double);
 
     // The forces and bounds of the problem, folded; how far they are from their own image.
-    contact_half_fold_forces(side, false, problem->g, half->g);
-    contact_half_fold_forces(side, true, problem->g, half->anti_g);
-    contact_half_fold(side, false, problem->bound, half->bound);
-    contact_half_fold(side, true, problem->bound, half->anti_bound);
+    contact_half_fold_forces(contact, false, problem->g, half->g);
+    contact_half_fold_forces(contact, true, problem->g, half->anti_g);
+    contact_half_fold(contact, false, problem->bound, half->bound);
+    contact_half_fold(contact, true, problem->bound, half->anti_bound);
     double force = dense_max_abs(half->g, count);
     double speed = fmax(force / problem->matrix->diagonal, dense_max_abs(half->bound, count));
     half->asymmetry = fmax(dense_max_abs(half->anti_g, count) / force,
@@ -177,31 +178,32 @@ bool half_step_solve(HalfStep *half, const ContactProblem *problem, ContactMatri
     if (!*alike) return false;
 
     // The problem of one side.
-    ContactSolution at = {one->slip_rate, one->reaction, one->status, one->rod_touches};
-    fold_solution(side, solution, &at);
-    ContactProblem one_side = *problem;
-    one_side.interface = &side->interface;
-    one_side.friction = &half->friction;
-    one_side.rod_softness = half->rod.softness;
-    one_side.rod_lag = half->rod.lag;
-    one_side.g = half->g;
-    one_side.bound = half->bound;
-    if (!contact_solve(&half->solver, &one_side, &at)) return false;
+    ContactSolution at = {one_side->slip_rate, one_side->reaction, one_side->status,
+                          one_side->rod_touches};
+    fold_solution(contact, solution, &at);
+    ContactProblem folded = *problem;
+    folded.interface = &contact->interface;
+    folded.friction = &half->friction;
+    folded.rod_softness = half->rod.softness;
+    folded.rod_lag = half->rod.lag;
+    folded.g = half->g;
+    folded.bound = half->bound;
+    if (!contact_solve(&half->solver, &folded, &at)) return false;
     memset(solution->velocity, 0, bytes);
     memset(solution->reaction, 0, bytes);
-    contact_half_add(side, false, at.velocity, solution->velocity);
-    contact_half_add_forces(side, false, at.reaction, solution->reaction);
-    contact_half_unfold_statuses(side, &at, solution->status, solution->rod_touches);
+    contact_half_add(contact, false, at.velocity, solution->velocity);
+    contact_half_add_forces(contact, false, at.reaction, solution->reaction);
+    contact_half_unfold_statuses(contact, &at, solution->status, solution->rod_touches);
     if (!antisymmetric) return true;
 
     // The antisymmetric part, to first order.
-    one_side.matrix = antisymmetric;
-    one_side.g = half->anti_g;
-    one_side.bound = half->anti_bound;
+    folded.matrix = antisymmetric;
+    folded.g = half->anti_g;
+    folded.bound = half->anti_bound;
     ContactSolution anti = {half->anti_velocity, half->anti_reaction, at.status, at.rod_touches};
-    if (!contact_discs_follow(&half->solver.discs, &half->newton, &one_side, &anti)) return false;
-    contact_half_add(side, true, anti.velocity, solution->velocity);
-    contact_half_add_forces(side, true, anti.reaction, solution->reaction);
+    if (!contact_discs_follow(&half->solver.discs, &half->newton, &folded, &anti)) return false;
+    contact_half_add(contact, true, anti.velocity, solution->velocity);
+    contact_half_add_forces(contact, true, anti.reaction, solution->reaction);
     return true;
 }
 
@@ -209,7 +211,7 @@ void half_step_archive(HalfStep *half, Archive *archive)
 {
     if (!half->exists) return;
     archive_number(archive, &half->asymmetry);
-    contact_solver_archive(&half->solver, &half->half.interface, archive);
+    contact_solver_archive(&half->solver, &half->contact.interface, archive);
     certificate_archive(&half->symmetric, archive);
     certificate_archive(&half->antisymmetric, archive);
 }
@@ -221,10 +223,10 @@ bool parts_hold(CertifiedParts parts, const State *state, double reach, bool *an
     HalfStep *half = parts.half;
     *antisymmetric_decays = false;
     if (!parts.halved) return certificate_holds(parts.whole, state, reach);
-    const State *one = half_step_fold(half, state);
-    *antisymmetric_decays = certificate_holds(&half->antisymmetric, one, reach);
+    const State *one_side = half_step_fold(half, state);
+    *antisymmetric_decays = certificate_holds(&half->antisymmetric, one_side, reach);
     half->antisymmetric_decays = *antisymmetric_decays;
-    bool holds = certificate_holds(&half->symmetric, one, reach);
+    bool holds = certificate_holds(&half->symmetric, one_side, reach);
     certificate_take_counts(parts.whole, &half->symmetric);
     certificate_take_counts(parts.whole, &half->antisymmetric);
     return holds && *antisymmetric_decays;
@@ -257,10 +259,10 @@ bool parts_ask(CertifiedParts parts, const State *state, PartsAsked asked, Level
     HalfStep *half = parts.half;
     DtLevels *dt_levels = parts.dt_levels;
     if (!parts.halved) return answer(parts.whole, state, dt_levels, asked, range, growth);
-    const State *one = half_step_fold(half, state);
-    bool yes = answer(&half->symmetric, one, dt_levels, asked, range, growth);
+    const State *one_side = half_step_fold(half, state);
+    bool yes = answer(&half->symmetric, one_side, dt_levels, asked, range, growth);
     if (yes && !half->antisymmetric_decays)
-        yes = answer(&half->antisymmetric, one, dt_levels, asked, range, growth);
+        yes = answer(&half->antisymmetric, one_side, dt_levels, asked, range, growth);
     certificate_take_counts(parts.whole, &half->symmetric);
     certificate_take_counts(parts.whole, &half->antisymmetric);
     return yes && dt_levels->half;   // else a level was found that is not its own mirror image

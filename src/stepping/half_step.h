@@ -16,15 +16,15 @@
 #include "stepping/certificate.h"
 
 typedef struct HalfStep {
-    ContactHalf half;   // owned, like all that follows
+    ContactHalf contact;   // how its two sides fold into one; owned, like all that follows
     bool exists;   // the contact has two sides that are alike
     ContactSolver solver;   // of one side
     Friction friction;   // of one side
     FrictionNode *nodes;   // [contact_count of both sides] its nodes
     Rod rod;   // of one side: softness and lag
-    State state;   // one side of the last one folded: what the contact knows of it, nothing else
+    State one_side;   // of the last state folded: what the contact knows of it, nothing else
     SymmetricPart bulk;   // of both sides
-    State whole;   // both sides: the symmetric part of a state, work
+    State both_sides;   // the symmetric part of a state, work
     double *g, *bound;   // [interface.count] work, like the next
     ContactNewton newton;   // of the antisymmetric part, like the next four
     double *anti_g, *anti_bound, *anti_velocity, *anti_reaction;   // [interface.count] work
@@ -34,7 +34,7 @@ typedef struct HalfStep {
     bool antisymmetric_decays;   // in the state that parts_hold was last asked about
 } HalfStep;
 
-// whole: the certificate of both sides.
+// whole: the certificate of the contact as a whole.
 bool half_step_create(const Block *block, const Certificate *whole, HalfStep *half, Error *err);
 void half_step_destroy(HalfStep *half);
 
