@@ -144,7 +144,7 @@ typedef struct RunSummary {
     int32_t field_files, figures;   // VTU files written, pictures drawn
     RunWarnings warnings;   // also where the run failed
     int32_t phase_count;
-    RunPhase phases[RUN_PHASES_MAX];   // rungs (making levels of dt), contact, certificate,
+    RunPhase phases[RUN_PHASES_MAX];   // levels of dt (making them), contact, certificate,
         // bulk: of relax and solve
     char folder[AMONTONS_PATH_SIZE];   // where everything lies
 } RunSummary;

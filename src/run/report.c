@@ -205,7 +205,7 @@ static void write_all(JsonWriter *json, const char *folder, const RunReport *rep
 
     // Levels on which a step was accepted, the longest first.
     const DtLevels *dt_levels = &simulation->control.dt_levels;
-    json_begin_list(json, "rungs");
+    json_begin_list(json, "step_sizes");
     for (int32_t k = 0; k < dt_levels->level_count; k++) {
         if (dt_levels->accepted[k] == 0) continue;
         json_begin_object(json, NULL);

@@ -20,7 +20,7 @@ bool start_relax(Simulation *simulation, Error *err);
 // an interval as one step, so that a benchmark does not measure the recording, and while slip is
 // rapid as many states as with implicit steps. Parts that only implicit steps have (step-size
 // levels, error control) stand still. RunCounters.accepted counts the explicit steps, and
-// run.json's `rungs` has one entry, the explicit step size.
+// run.json's `step_sizes` has one entry, the explicit step size.
 bool start_explicit_steps(Simulation *simulation, Error *err);
 
 #endif

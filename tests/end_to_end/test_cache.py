@@ -87,7 +87,7 @@ class SameBits(Cached):
                          [False, False, True])
         self.assert_same_history(none, first)
         self.assert_same_history(none, second)
-        for key in ("results", "errors", "rungs", "scene"):
+        for key in ("results", "errors", "step_sizes", "scene"):
             self.assertEqual(read[key], made[key], key)
         for key in made["model"].keys() - {"from_cache", "mesh_by"}:
             self.assertEqual(read["model"][key], made["model"][key], key)

@@ -37,21 +37,21 @@ class Explicit(unittest.TestCase):
         cls.folder.cleanup()
 
     def test_steps(self):
-        """One rung, the explicit step; all its steps counted; the mesh's own unknowns stepped."""
+        """One step size, the explicit step; all its steps counted; the mesh's own unknowns stepped."""
         self.assertEqual(self.result["status"], "done")
-        (rung,) = self.result["rungs"]
+        (size,) = self.result["step_sizes"]
         accepted = self.result["steps"]["accepted"]
-        self.assertEqual(rung["accepted"], accepted)
-        self.assertAlmostEqual(rung["dt"] * accepted, T_END, places=9)
+        self.assertEqual(size["accepted"], accepted)
+        self.assertAlmostEqual(size["dt"] * accepted, T_END, places=9)
         self.assertEqual(self.result["model"]["reduced_dofs"], 2 * 21 * 21)
         # 2 dt C < 4 M, and C of one element alone has a rate of 4 (eta1 + eta2) / dx^2 at least.
-        self.assertLess(rung["dt"], 2 / (4 * 2 / 0.05**2))
+        self.assertLess(size["dt"], 2 / (4 * 2 / 0.05**2))
 
     def test_records(self):
         """A row a recording interval."""
         self.assertEqual(len(self.series["time"]), RECORDS + 1)
         numpy.testing.assert_allclose(numpy.diff(self.series["time"]), T_END / RECORDS, rtol=1e-9)
-        numpy.testing.assert_allclose(self.series["step_size"][1:], self.result["rungs"][0]["dt"])
+        numpy.testing.assert_allclose(self.series["step_size"][1:], self.result["step_sizes"][0]["dt"])
 
     def test_answer(self):
         """mu on the ramp, at the implicit scheme's own steps; the start is a jump of velocity."""

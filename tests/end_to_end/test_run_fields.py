@@ -148,7 +148,7 @@ class RunFields(unittest.TestCase):
         report, series = self.report, self.series
         self.assertEqual(report["status"], "done")
         self.assertEqual(len(series["series/time"]), report["steps"]["accepted"] + 1)
-        self.assertEqual(sum(rung["accepted"] for rung in report["rungs"]),
+        self.assertEqual(sum(size["accepted"] for size in report["step_sizes"]),
                          report["steps"]["accepted"])
         self.assertEqual(report["model"]["contact_nodes"], CELLS + 1)
         self.assertEqual(report["model"]["full_dofs"], 2 * (CELLS + 1) ** 2)

@@ -91,7 +91,7 @@ def time_pair(program, cells, whole):
     times = [loop_times(*one) for one in implicit]
     wall, used = (statistics.median(column) for column in zip(*times))
     explicit_wall, explicit_used = loop_times(*explicit, scale)
-    steps, dt = explicit[0]["steps"]["accepted"] * scale, explicit[0]["rungs"][0]["dt"]
+    steps, dt = explicit[0]["steps"]["accepted"] * scale, explicit[0]["step_sizes"][0]["dt"]
     implicit_steps = implicit[0][0]["steps"]["accepted"]
     return (f"| {cells}x{cells} | {implicit_steps} | {wall:.3f} | {used:.3f} | {steps:.3g} | "
             f"{dt:.3g} | {1e6 * explicit_used / steps:.1f} | {explicit_wall:.4g} | "

@@ -27,7 +27,7 @@ SCENE = ROOT / "validation/paper/fig1.yaml"
 PLAIN = ["output.figures=[]", "output.fields=none", "output.history=false",
          "reduction.cache=false"]
 SHORT = 2.0                                    # cpu s
-LOOP = ("contact", "certificate", "bulk")      # phases of a stage; `rungs` are counted apart
+LOOP = ("contact", "certificate", "bulk")      # phases of a stage; `levels of dt` are counted apart
 SWEEP = """title: Points a second
 scene: {base}
 set: {{mesh.set.nx: 20, mesh.set.nz: 20, time.until.U: 0.006, output.history: false,
@@ -62,8 +62,8 @@ def stage_seconds(ended):
     return sum(ended.phases[name][0] for name in LOOP) / ended.phases["bulk"][1]
 
 
-def rung_seconds(ended):
-    return ended.phases["rungs"][0] / max(1, ended.phases["rungs"][1])
+def level_seconds(ended):
+    return ended.phases["levels of dt"][0] / max(1, ended.phases["levels of dt"][1])
 
 
 def upper(points):
@@ -114,7 +114,7 @@ def cells_series(quick):
         {"reduction s": "4: N m^2 of dense products on N ~ n^2 unknowns, m ~ n of the interface",
          "reduction MB": "3: N m numbers", "reduced stage s": "2: dense, (m + r)^2",
          "reduced factor s": "3: dense, r^3", "full stage s": "2 log n: the factor's entries",
-         "full factor s": "3: nested dissection, N^1.5", "full MB": "2 log n a rung"})
+         "full factor s": "3: nested dissection, N^1.5", "full MB": "2 log n a level"})
     for n in (10, 20, 40) if quick else (20, 40, 80, 160, 240, 320, 400):
         mesh, duration = mesh_of(nx=n, nz=n), 200 if n <= 80 else 20
         full = measure(mesh, "reduction.use=never", f"time.until.t={duration}")
@@ -128,17 +128,17 @@ def cells_series(quick):
             spent = reduced.phases["assemble, reduce"][0]
             cells += [reduced.report["model"]["reduced_dofs"], f"{spent:.2f}",
                       f"{reduced.memory:.0f}", f"{1e3 * stage_seconds(reduced):.3f}",
-                      f"{rung_seconds(reduced):.4f}"]
+                      f"{level_seconds(reduced):.4f}"]
             values = {"reduction_s": spent, "reduction_MB": reduced.memory,
                       "reduced_stage_s": stage_seconds(reduced),
-                      "reduced_factor_s": rung_seconds(reduced)}
+                      "reduced_factor_s": level_seconds(reduced)}
         else:
             cells += ["not tried"] + [""] * 4
         if full:
             cells += [f"{full.memory:.0f}", f"{1e3 * stage_seconds(full):.2f}",
-                      f"{rung_seconds(full):.3f}"]
+                      f"{level_seconds(full):.3f}"]
             values |= {"full_MB": full.memory, "full_stage_s": stage_seconds(full),
-                       "full_factor_s": rung_seconds(full)}
+                       "full_factor_s": level_seconds(full)}
         else:
             cells += [""] * 3
         series.add(n, cells + [took], **values)
@@ -154,8 +154,8 @@ def contact_series(quick):
         "contact nodes",
         ["contact nodes", "unknowns", "MB", "stage, ms", "Newton steps a stage", "factor, s",
          "auto takes"],
-        {"stage s": "2: S v of the dense interface", "factor s": "3: the dense S of a rung",
-         "MB": "2: S of each rung"})
+        {"stage s": "2: S v of the dense interface", "factor s": "3: the dense S of a level",
+         "MB": "2: S of each level"})
     for nodes in (50, 100, 200) if quick else (125, 250, 500, 1000, 2000):
         ended = measure(mesh_of(nx=nodes - 1, nz=10, grade_z=4), "time.until.t=60")
         if ended:
@@ -163,9 +163,9 @@ def contact_series(quick):
             newtons = ended.phases["contact"][1] / ended.phases["bulk"][1]
             series.add(nodes, [nodes, model["full_dofs"], f"{ended.memory:.0f}",
                                f"{1e3 * stage_seconds(ended):.2f}", f"{newtons:.1f}",
-                               f"{rung_seconds(ended):.4f}",
+                               f"{level_seconds(ended):.4f}",
                                "reduced" if model["reduced_dofs"] < model["full_dofs"] else "full"],
-                       stage_s=stage_seconds(ended), factor_s=rung_seconds(ended),
+                       stage_s=stage_seconds(ended), factor_s=level_seconds(ended),
                        MB=ended.memory)
     return series
 

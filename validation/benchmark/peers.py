@@ -97,7 +97,7 @@ def amontons(name, mesh, settings, step=0, duration=T_END):
     loop = took["solve"] * ended.seconds / took["total"]   # as if always on a processor
     scale = T_END / duration
     return Answer(name, time, mu, round(steps * scale), ended.seconds + (scale - 1) * loop,
-                  loop / steps, step or ended.report["rungs"][0]["dt"] *
+                  loop / steps, step or ended.report["step_sizes"][0]["dt"] *
                   ("time.scheme=explicit" in settings), scale > 1)
 
 

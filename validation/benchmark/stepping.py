@@ -27,7 +27,7 @@ ROWS = {"time loop": ["simulation_loop"],
         "- - - r = S v - g": ["contact_react"],
         "- certificate": ["certificate_holds", "certificate_step_resolves", "certificate_finds_runaway"],
         "LU, of contact and certificate": ["dense_lu"],
-        "rungs, before the loop": ["dt_level_operator"]}
+        "levels of dt, before the loop": ["dt_level_operator"]}
 COUNT = re.compile(r"^\s*([\d,]+) \([^)]*\)\s+([\d,]+) \([^)]*\)\s+\S*?:(\w+)(?:\.\w+)*(?: \[|$)")
 
 

@@ -45,7 +45,7 @@ def done_faults(case, ended):
     """What is wrong with a run that says it is done."""
     report = ended.report
     bounds = BOUNDS | {"energy": report["scene"]["time"]["energy_tolerance"]}
-    shortest = min((rung["dt"] for rung in report["rungs"] if rung["accepted"]), default=math.nan)
+    shortest = min((size["dt"] for size in report["step_sizes"] if size["accepted"]), default=math.nan)
     faults = [f"{name} {report['errors'][name]} is above {bound} (shortest step {shortest:.1g})"
               for name, bound in bounds.items()
               if not is_number(report["errors"][name]) or report["errors"][name] > bound]

@@ -26,7 +26,7 @@ RUNS = {"6 x 6 x 6": (6, 6, "reduced"), "6 x 6 x 6, unreduced": (6, 6, "unreduce
         "8 x 8 x 8": (8, 8, "reduced"), "10 x 10 x 10": (10, 10, "reduced"), "10 x 10 x 10, unreduced": (10, 10, "unreduced"),
         "10 x 10 x 10, explicit": (10, 10, "explicit"), "14 x 14 x 14": (14, 14, "reduced"), "14 x 14 x 14, unreduced": (14, 14, "unreduced"),
         "20 x 20 x 10": (20, 10, "reduced"), "20 x 20 x 20": (20, 20, "reduced"), "40 x 40 x 20": (40, 20, "reduced")}
-PHASES = ("mesh", "assemble, reduce", "relax", "rungs", "contact", "certificate", "bulk")
+PHASES = ("mesh", "assemble, reduce", "relax", "levels of dt", "contact", "certificate", "bulk")
 SHORT = 1e-4   # U of the shorter explicit run
 
 
@@ -50,7 +50,7 @@ def measure(n, nz, way):
     steps = said["steps"]
     return {"cpu_s": round(used.ru_utime + used.ru_stime, 2), "MB": round(used.ru_maxrss / 1024), "nodes": said["model"]["contact_nodes"],
             "unknowns": said["model"]["full_dofs"], "reduced": said["model"]["reduced_dofs"], "steps": steps["accepted"],
-            "iterations": steps["contact_iterations"], "rungs": steps["factorisations"], "certificates": steps["certificates"],
+            "iterations": steps["contact_iterations"], "levels": steps["factorisations"], "certificates": steps["certificates"],
             "clock_s": clock, "U": said["results"]["peaks"][-1]["U"],
             "peaks": [round(peak["mu"], 5) for peak in said["results"]["peaks"]]}
 
@@ -76,7 +76,7 @@ def shares(row):
 
 def page(rows):
     table = [[name, str(row["unknowns"]), str(row["reduced"]) if RUNS[name][2] == "reduced" else "", str(row["nodes"]), str(row["steps"]),
-              str(row.get("rungs", "")), str(row.get("iterations", "")), str(row.get("certificates", "")),
+              str(row.get("levels", "")), str(row.get("iterations", "")), str(row.get("certificates", "")),
               f"{row['cpu_s']:.1f}" if RUNS[name][2] != "explicit" else f"{row['cpu_s']:.0f}, extrapolated", str(row.get("MB", "")), shares(row),
               ", ".join(f"{mu:.4f}" for mu in row.get("peaks", [])[:5])] for name in RUNS if (row := rows.get(name))]
     notes = [f"- {name}: {row['note']}" for name in RUNS if (row := rows.get(name)) and "note" in row]
@@ -87,7 +87,7 @@ Processor seconds of the whole process (meshing, reduction, steps), on a machine
 What takes the time are the largest shares of the clock. Explicit steps: so many to where the implicit run of that mesh ended, at what a step takes between two
 short runs; they settle first by implicit steps, which are left out.
 
-{markdown_table(["cells", "unknowns", "reduced", "contact nodes", "steps", "rungs", "Newton", "certificates", "s", "MB", "what takes the time", "peaks"], table)}
+{markdown_table(["cells", "unknowns", "reduced", "contact nodes", "steps", "levels", "Newton", "certificates", "s", "MB", "what takes the time", "peaks"], table)}
 
 {chr(10).join(notes)}
 """

@@ -48,7 +48,7 @@ TEST(test_the_wave_step_is_a_level)
         scene.rod.velocity = V;
         StepControlDef def = step_rule(&scene, &SIZES);
         double levels = log2(def.step_max / def.wave_step), longest = 0.2 * SIZES.slip / V;
-        assert_near("rungs", levels, round(levels), 1e-9);
+        assert_near("levels", levels, round(levels), 1e-9);
         assert_true(def.step_max >= longest * (1 - 1e-12) && def.step_max < 2 * longest);
     }
 }
