@@ -140,18 +140,18 @@ class Command(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             def call(*words):
                 return subprocess.run([FOLDER / "strangers.py", "-o", folder, "--limit", "0", *words], capture_output=True, text=True)
-            first = call("--only", "610")
-            kept = Path(folder, "610.json")
+            first = call("--only", "701")
+            kept = Path(folder, "701.json")
             data = json.loads(kept.read_text())
             self.assertEqual(data["asked"]["status"], 0, first.stderr)
             self.assertGreater(len(data["asked"]["levels"]), 2)
-            self.assertIn("0 problems to compute", call("--only", "610").stdout)
+            self.assertIn("0 problems to compute", call("--only", "701").stdout)
             self.assertEqual(json.loads(kept.read_text()), data)
             table = Path(folder, "table.md").read_text()
-            self.assertNotIn("| 610 |", table)
+            self.assertNotIn("| 701 |", table)
             self.assertIn("1 problems computed", table)
-            call("--only", "610", "--table", "--show-judging")
-            self.assertIn("| 610 |", Path(folder, "table.md").read_text())
+            call("--only", "701", "--table", "--show-judging")
+            self.assertIn("| 701 |", Path(folder, "table.md").read_text())
 
 
 if __name__ == "__main__":
