@@ -225,7 +225,7 @@ bool series_trend_stands_out(const SeriesTrend *trend)
     return fabs(trend->slope) > student(trend->freedoms) * trend->error;   // false of NaN
 }
 
-// Of `looked_at` trends one stands out by chance as often as a single one does by Student's factor
+// One of `looked_at` trends stands out by chance as often as a single one does by Student's factor
 // times sqrt(looked_at), at most.
 static bool stands_out_among(SeriesTrend trend, int32_t looked_at)
 {

@@ -83,8 +83,8 @@ static void list_phases(const Simulation *simulation, RunSummary *summary)
                        : ": not reduced");
     add_phase(summary, "assemble, reduce", model->seconds_reduce, model->system.dof_count, note);
     add_phase(summary, "relax", timing->relax, simulation->relaxation_steps, "steps before t = 0");
-    add_phase(summary, "levels of dt", control->dt_levels.seconds, simulation->model.system.factorisations,
-              "factorisations, each when first used");
+    add_phase(summary, "levels of dt", control->dt_levels.seconds,
+              simulation->model.system.factorisations, "factorisations, each when first used");
     add_phase(summary, "contact", solver->seconds, solver->iterations, "Newton steps");
     add_phase(summary, "certificate", certificate->seconds, certificate->checks,
               simulation->scene.time.certificate ? "small factorisations"
