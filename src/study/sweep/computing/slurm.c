@@ -128,8 +128,8 @@ static bool wait_for_all(SlurmRun *run, Error *err)
             // are taken at each look.
             if (!take_points(run, k, &undone, &first, err)) return false;
             if (undone > 0) {
-                // Unless Slurm is known to have ended the element, it may have written more results:
-                // they are waited for.
+                // Unless Slurm is known to have ended the element, it may have written more
+                // results: they are waited for.
                 bool comes = !element->ended || strcmp(element->state, "COMPLETED") == 0 ||
                              strcmp(element->reason, "NonZeroExitCode") == 0;
                 if (element->gone_since == 0) element->gone_since = clock_seconds();
