@@ -208,7 +208,8 @@ bool history_finish(History *history, const Drops *drops, int32_t counted, doubl
         // k is the number of a drop in tables of peaks, of an event in the others.
         int32_t rows = of_peaks ? drops->count : events->count;
         for (int32_t k = 0; k < rows; k++) {
-            if (of_peaks && !drop_is(&drops->list[k], DROP_BULK)) continue;   // of no peak
+            if (of_peaks && !drop_is(&drops->list[k], DROP_BULK))
+                continue;   // no sliding of the whole block
             const Event *event = &events->list[k];
             Drop peak = of_peaks ? drops_as(drops, DROP_BULK, k) : (Drop){0};
             column[count++] = (const double[RESULT_TABLES_COUNT]){
