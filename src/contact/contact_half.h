@@ -41,8 +41,8 @@ typedef struct ContactHalf {
 bool contact_half_find(const Interface *interface, ContactHalf *half, Error *err);
 void contact_half_destroy(ContactHalf *half);
 
-// out [interface.count^2] = E'S E of the symmetric or antisymmetric part; S: [both_count^2]. Returns
-// false if S is not its own image.
+// out [interface.count^2] = E'S E of the symmetric or antisymmetric part; S: [both_count^2]. false:
+// S is not its own image.
 bool contact_half_matrix(const ContactHalf *half, const double *schur, bool antisymmetric,
                          double *out);
 
