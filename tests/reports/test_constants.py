@@ -48,9 +48,11 @@ class Lists(unittest.TestCase):
         text = ("static const double A = 3, B[] = {[C] = 2e-2, [D] = 1};   // E = 5\n"
                 "static const int32_t F =\n    8;\nenum { G = 4, H, I = 1 << 3 };\n"
                 "static const double *f(int J);\ntypedef enum K { L = 1 } K;\n"
-                "    double l = 2; x = (T){.m = 7};\n")
-        self.assertEqual(listed.defined(text), ["A", "B", "F", "G", "I"])
-        for name, value in (("A", "3"), ("[C]", "2e-2"), ("F", "8"), ("G", "4"), ("m", "7")):
+                "    double l = 2; x = (T){.m = 7};\n"
+                "extern const double N;\nconst double N = 9;\n    const double o = 2;\n")
+        self.assertEqual(listed.defined(text), ["A", "B", "F", "N", "G", "I"])
+        for name, value in (("A", "3"), ("[C]", "2e-2"), ("F", "8"), ("G", "4"), ("m", "7"),
+                            ("N", "9")):
             (start, end), = listed.places(listed.Constant(name, "a.c", "", ""), text)
             self.assertEqual(text[start:end], value)
 

@@ -52,6 +52,8 @@ def of(file, *rows):
 HERE = "this table"   # where a value comes from
 FAR_FIELD = "validation/benchmark/far_field.py"
 STEPPING = "validation/benchmark/stepping.md"
+NO_BRANCHES = "not measured yet: no scene of this table has branches"
+NO_FIT = "not measured yet: no scene of this table fits moduli to data"
 CONSTANTS = [
     *of("contact/contact_solver.c",
         ("ITERATIONS_ALL", "Newton steps in which every broken status changes", HERE),
@@ -73,6 +75,9 @@ CONSTANTS = [
     *of("stepping/oscillation_record.c",
         ("SMALL_RATE", "slip rate up to which an oscillation is small, of v_c", HERE),
         ("SAME_WEAKENING", "how far weakening may exceed what was seen", HERE)),
+    *of("stepping/certificate.c",
+        ("RISEN", "rates at which a node's resistance is computed: down to where every node resists so many times "
+                  "its least", NO_BRANCHES)),
     *of("stepping/sdirk.c",
         ("AUDIT_EVERY", "steps to one whose full equation is computed anew", HERE)),
     *of("stepping/stable_step.c",
@@ -82,7 +87,11 @@ CONSTANTS = [
         ("LEVEL_LOWEST", "lowest level, of the slowest mode of the interior", HERE),
         ("VISCOSITY_RATIO", "between two viscosities that the basis is built at", HERE),
         ("MESH_SHARE", "error allowed where inertia acts within an element", HERE),
-        ("SLOWEST_ITERATIONS", "inverse iterations for the slowest mode", HERE)),
+        ("SLOWEST_ITERATIONS", "inverse iterations for the slowest mode", HERE),
+        ("PATH_STEPS", "steps in which the change of moduli over the viscosities is summed up, with branches",
+         NO_BRANCHES),
+        ("PATH_BEYOND", "how far these viscosities reach beyond the rates of the materials, either way",
+         NO_BRANCHES)),
     *of("reduction/far_patches.h",
         ("FAR_INTERFACE", "unknowns of an interface from which on what is far is replaced", FAR_FIELD)),
     *of("reduction/far_patches.c",
@@ -111,6 +120,12 @@ CONSTANTS = [
         ("LOWEST", "quantile that stands for the least mu without a period", HERE)),
     *of("model/step_rule.c",
         ("STEP_MAX_SLIP", "longest step: what the rod moves in it, of friction's slip", HERE)),
+    *of("model/regions.c",
+        ("FOLDED", "relaxation time over that of waves in an element, below which a branch is a viscosity; its "
+                   "modulus is off by this part", NO_BRANCHES)),
+    *of("fem/relaxation_fit.c",
+        ("BEYOND", "how far relaxation times of a fit reach beyond those of the data, either way", NO_FIT),
+        ("MISFIT_ALLOWED", "misfit above the least that a fit of fewer branches may have", NO_FIT)),
     *of("run/start.c",
         ("[ACCURACY_STANDARD]", "local error of a step, of friction's slip",
          "validation/benchmark/precision.py, promise.py")),
@@ -130,6 +145,7 @@ CONSTANTS = [
 
 SIZE = "room of an array; more than is used"
 ROUNDING = "rounding of coordinates"
+MIDDLE = "It is the middle of a face in its reference coordinates."
 NOT_A_CHOICE = {
     "contact/contact_check.c": {"STILL": "rounding; the judge only reports"},
     "friction/friction.c": {
@@ -188,11 +204,13 @@ NOT_A_CHOICE = {
     "reduction/basis.c": {"WIDE": SIZE, "STRETCH": SIZE,
                           "INVERSE_STEPS": "to an eigenvalue that is compared with powers of 10"},
     "fem/element.h": {"ELEMENT_DOFS_MAX": "of each node as many as the dimension"},
-    "fem/mesh_build.c": {"AREA_TOLERANCE": ROUNDING},
+    "fem/mesh_build.c": {"AREA_TOLERANCE": ROUNDING,
+                         "PROBES_MAX": "It counts nodes and quadrature points of the largest element."},
     "fem/element_group.h": {"GROUP_ELEMENTS_MAX": "a pair of T3 and one at each of its edges"},
     "fem/material.c": {"AREA_RESISTS": "docs/meshes.md, where elements lock"},
-    "fem/material.h": {"MATERIALS_MAX": SIZE, "SHEAR_AXES": "all pairs", "STRAINS_MAX": "of the largest dimension"},
-    "fem/mesh.h": {"MESH_PATH_SIZE": SIZE, "PLACE_TEXT_SIZE": SIZE},
+    "fem/material.h": {"BRANCHES_MAX": "It is room of an array: as many as a scene may give a material.",
+                       "MATERIALS_MAX": SIZE, "SHEAR_AXES": "all pairs", "STRAINS_MAX": "of the largest dimension"},
+    "fem/mesh.h": {"MESH_PATH_SIZE": SIZE, "MOVE_TEXT_SIZE": SIZE, "PLACE_TEXT_SIZE": SIZE},
     "fem/mesh_contact.c": {"PLACE_TOLERANCE": ROUNDING, "UPRIGHT": "a face that is a side of the block"},
     "fem/mesh_faces.h": {"FACE_INNER_MAX": "of the largest face"},
     "reduction/reduced_bulk.c": {"BETWEEN": "of what is said of the error, not of the basis"},
@@ -201,10 +219,48 @@ NOT_A_CHOICE = {
     "reduction/transform.h": {"NO_BLOCK": "none"},
     "reduction/mirror.c": {"AXES_MAX": "of the floor", "ALIKE": "rounding", "NONE": "none",
                       "MIRRORED_MAX": "far above a rod's nodes, far below a contact on one side"},
+    "reduction/symmetric_part.c": {"ACROSS": "It is the axis across the mirror, y."},
+    "reduction/reduction_block.c": {
+        "BASE_APART": "It keeps nodes of the block and of the base apart that stand at one place; as a number of the grid "
+                      "it adds no rounding."},
     "reduction/mirror_nodes.c": {"APART": "rounding of two nodes to the grid", "SLANT": "any that is no ratio of small numbers"},
-    "reduction/operator_terms.h": {"BULK_TERMS": "K, C, M"},
+    "reduction/operator_terms.h": {"BULK_TERMS": "K, C, M",
+                                    "BULK_TERMS_MAX": "It counts K, C, M and all shape matrices that there is room for."},
     "reduction/responses.h": {"RESPONSE_BLOCKS_MAX": SIZE,
                        "RESPONSES_TOGETHER": "columns whose image stays in the cache"},
+    "fem/floor.c": {
+        "SHARE_ROUNDING": "It is the rounding of shares, which sum up to 1.",
+        "COVER_ROUNDING": "It is the rounding of coordinates, over the size of a face.",
+        "GAP_ROUNDING": "It is the rounding of coordinates, over the block's length.",
+        "UPRIGHT": "It is the rounding of the shadow of an upright face, which is 0.",
+        "SHADOW_DIM": "A shadow has one axis less than space.",
+        "POLYGON_MAX": "Two convex faces have no more corners in common than both have together.",
+        "GAUSS_POINTS": "The rule is exact for a product of two shape functions, both of degree 4 at most, on a piece of a "
+                        "parallelogram.",
+        "GAUSS_PLACE": "These are the places of Gauss's rule.", "GAUSS_WEIGHT": "These are the weights of Gauss's rule."},
+    "fem/mesh_inside.c": {
+        "OUTSIDE": "It is more than the rounding of coordinates; a slit that is so wide open is no fault.",
+        "triangle": MIDDLE, "square": MIDDLE},
+    "fem/mesh_locate.c": {
+        "REFERENCE_TOLERANCE": "It is the rounding of reference coordinates, which are of order 1.",
+        "BENT_BOX": "A side of three nodes leaves their box by 1/8 of it at most; a larger box costs time alone.",
+        "BOX_ROUNDING": "It is the rounding of coordinates, over the size of an element."},
+    "fem/mesh_parts.h": {"PART_TEXT_SIZE": SIZE},
+    "fem/mesh_place.c": {"GRID": "Its steps are far smaller than an element and far larger than rounding."},
+    "fem/relaxation_fit.c": {
+        "ROUNDING": "It is the rounding of a gradient that is 0.",
+        "DEPENDENT": "It is the rounding of a column that depends on others, with room.",
+        "offered": "These are all numbers of times that a fit may keep, and larger ones, of which it keeps few.",
+        "TIMES_MAX": "It is the last number that is offered.", "COLUMNS_MAX": "A fit has two columns besides its times.",
+        "TRIALS": "It counts the numbers that are offered."},
+    "fem/relaxation_fit.h": {
+        "RELAXATION_TERMS_MAX": "It is room of an array: as many as a scene may give a material.",
+        "RELAXATION_POINTS_MAX": "It is the most that a table of data may have; a longer one is refused."},
+    "fem/spectrum.c": {"ALIKE": "It is the rounding of a quotient of moduli.",
+                       "NOTHING": "It is the rounding of a modulus that is 0."},
+    "fem/spectrum.h": {
+        "SPECTRUM_SHAPES_MAX": "It is room for 8 regions with branches; a scene with more is refused.",
+        "SPECTRUM_TIMES_MAX": "It is room of an array; a scene with more relaxation times is refused."},
     "fem/assembly.c": {"ROUNDING": "rounding of an integral that is 0"},
     "reduction/responses.c": {"FAR": "condition of two equations"},
     "reduction/symmetry_reduction.c": {"TOGETHER": "parts in memory at once"},
@@ -213,6 +269,8 @@ NOT_A_CHOICE = {
     "record/events.c": {
         "RATE_COUNTS": "from which rate a bounded event counts: a quarter above the 2 V that an oscillation about V comes to; Figure 1 has 16 "
                        "rapid events that stop, 5 of them of 2.02 to 2.09 V",
+        "LEAST_RAPID": "over which part of the contact slip is rapid at least; the bounded events of Figure 1 are rapid over half of "
+                       "it; the jumps of single nodes are left out",
         "AFTER_SLIP": "of what counts: ringing is a hundred times slower, precursors in a row are alike", "RATE_START": "what is called rapid: twice the rod's velocity; 1 and 4 change no event",
         "RATE_STOP": "the end of it; 0.5 and 2 change no event", "FIRST_ROOM": SIZE},
     "record/drops.c": {"FIRST_ROOM": SIZE},
@@ -250,10 +308,18 @@ NOT_A_CHOICE = {
                                   "LEAST": "bins that make a level", "ARRIVED": "what counts as the rod's new velocity, in the definition of the direct effect"},
     "record/program_readings.h": {"PROGRAM_BINS": SIZE, "PROGRAM_READINGS_MAX": SIZE},
     "record/steady.c": {"STEADY_RANGE": "twice what the steps of a standard run move mu by"},
-    "record/history.c": {"FLUSH_EVERY": "seconds of a run that a kill may cost"},
+    "record/history.c": {
+        "FLUSH_EVERY": "seconds of a run that a kill may cost",
+        "FLUSH_SHARE": "It is the part of the time that a slow disk may take; it changes time, and what a kill may cost, alone."},
+    "record/pads.h": {"PADS_ORDER_SIZE": "It is room of a text; names for which there is none are counted."},
+    "record/probes.c": {"READINGS_MAX": "It counts displacements and strains of the largest dimension."},
     "record/window.h": {"WINDOW_SLIDINGS_MAX": "slidings that a scene may ask for as the last: room for their states"},
     "record/observation.h": {"RECORDERS_MAX": SIZE},
     "model/gaps.c": {"ROUNDING": "digits of a file, far below a cell"},
+    "model/assemble.c": {
+        "MOTIONS_MAX": "It counts the rigid motions in space.",
+        "FREE": "It is the rounding of a singular value that is 0, with room."},
+    "model/model.h": {"NOT_REDUCED_SIZE": "It is room of a text; a longer message is cut."},
     "model/scene_mesh.c": {"NODE_BYTES": "memory"},
     "stepping/growth.c": {
         "NO_RATE": "rounding, with room: 0 that is not 0",
@@ -307,11 +373,11 @@ def places(constant, text):
 
 def defined(text):
     """Names of the constants that a file of C defines: static const numbers and arrays of them,
-    and enumerators with a value."""
+    const ones at the start of a line, which other files see, and enumerators with a value."""
     text = re.sub(r"//.*", "", text)
     names = []
-    for found in re.finditer(r"static const (?:double|float|u?int\d*_t|int|size_t) ([^;(]*?);", text,
-                             re.S):
+    for found in re.finditer(r"(?:static |^)const (?:double|float|u?int\d*_t|int|size_t) ([^;(]*?);",
+                             text, re.S | re.M):
         flat = re.sub(r"\{.*?\}(?=\s*(?:,|$))", "0", found[1], flags=re.S)
         names += re.findall(r"(\w+)(?:\[[^\]]*\])*\s*=", flat)
     for found in re.finditer(r"\benum \{(.*?)\}", text, re.S):
