@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Two cycles of stick and slip that coexist: which one comes, and what does the contact hold for sure? Runs within a window of
+"""Two cycles of stick and slip that coexist: which one comes, and what does the contact hold in nearly all runs? Runs within a window of
 pressures, 1 % wide, on one mesh.
 
     python3 docs/examples/branches.py [KEY=VALUE ...]
@@ -30,7 +30,7 @@ for name, part in (("upper branch", mu > cut), ("lower branch", mu <= cut)):
         print(f"{name}: mu_M {mu[part].mean():.4f}, chance {part.mean():.0%}")
 print("quantiles 5, 50, 95 %:  mu_M " + ", ".join(f"{q:.4f}" for q in np.quantile(mu, [0.05, 0.5, 0.95])) +
       ";  mu_hold " + ", ".join(f"{q:.4f}" for q in np.quantile(hold, [0.05, 0.5, 0.95])))
-print(f"held for sure, in 19 of 20 runs: {np.quantile(hold, 0.05):.4f}")
+print(f"held in 19 of 20 runs: {np.quantile(hold, 0.05):.4f}")
 
 figure, (left, right) = plt.subplots(1, 2, figsize=(8, 3.6), layout="constrained", sharey=True,
                                      gridspec_kw={"width_ratios": [3, 2]})
