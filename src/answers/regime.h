@@ -3,7 +3,8 @@
 //
 //   run-in    until every node of the contact has slipped; while a part of it lags behind the drive
 //             (what sticks on is loaded more and more, so nothing can repeat); and while mu at
-//             successive drops shows a trend that stands out from their scatter
+//             successive drops shows a trend that stands out from their scatter, or a scatter that
+//             grows
 //   period    the state of the whole contact comes back: what slid, mu and the share of the load
 //             that each segment carries (record/segments)
 //
@@ -31,7 +32,7 @@ typedef struct Regime {
     int32_t count;   // the last load drops: whole rounds, or without a period all but the start's
     int32_t first;   // number in drops->list of the first of them
     RunIn run_in;   // with fewer than two load drops only whether every node has slipped
-    double drift;   // of mu, a load drop, relative; NaN: none that stands out from scatter
+    double drift;   // of mu or of its scatter, a load drop, over mu; NaN: none that stands out
     double ahead;   // what is still to come of it at most, relative; 0: none
     double drops_left;   // load drops that run-in may still take; NaN: not known
 } Regime;
