@@ -18,7 +18,7 @@ static const double USUAL = 0.05, USUAL_LEAST = 0.2;
 enum { USUAL_LEVELS = 1 };
 static const double ROUNDING = 1e-9;   // of products of steps from mesh to mesh
 static const double SPAN = 2;   // of cell size, of the levels behind a bar that is met
-static const double CONFIRM = 4;   // likewise, of all levels, where pads may slide otherwise
+static const double CONFIRM = 4;   // likewise, of all levels, behind one that is confirmed
 static const double ONE_MESH = 0.5;   // of mu, over nodes: nine of ten meshes are off by less
 static const double ONE_MESH_IN_SPACE = 0.9;   // likewise, over nodes along the contact
 static const double END_WAITS = 3;   // mu may rise so many times as much before they let go
@@ -81,8 +81,12 @@ double levels_confirm_left(const Levels *levels)
 {
     const Level *last = &levels->list[levels->count - 1];
     double left = CONFIRM * levels->list[0].refine / last->refine;
-    bool needed = last->pads > 1 || levels->list[0].other_drops;
-    return !needed || left < 1 + ROUNDING ? 1 : left;
+    return left < 1 + ROUNDING ? 1 : left;
+}
+
+bool levels_may_differ(const Levels *levels)
+{
+    return levels->list[levels->count - 1].pads > 1 || levels->list[0].other_drops;
 }
 
 // Single runs about their level's mean: from the levels at least as fine as number `from`, or if

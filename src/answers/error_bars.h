@@ -19,8 +19,8 @@
 //              contact hold the block they scatter more, and three times what mu rises by
 //              meanwhile (`end_wait`) is added. One level: its own value, nothing known. A bar that
 //              is short enough is met where levels differ by a factor of two in cell size
-//              (levels_span_left), or, where pads may slide otherwise on finer meshes, of four
-//              if time allows (levels_confirm_left; run/accuracy, is_met).
+//              (levels_span_left), or of four (levels_confirm_left) if time allows: where pads may
+//              slide otherwise on finer meshes all of it, else a small part (run/accuracy, is_met).
 //
 // How often bars hold, and by how much, is measured by validation/benchmark/promise.py.
 #ifndef AMONTONS_ANSWERS_ERROR_BARS_H
@@ -112,9 +112,11 @@ int32_t levels_known(const Levels *levels, AnswerKind kind);
 // bar needs at least this span: neighbours agree by chance, and coarse meshes alone agree on a
 // value that only they have.
 double levels_span_left(const Levels *levels, AnswerKind kind);   // 1: none is left
-// Likewise to one that is four times as fine as the first, where coarse meshes may all have other
-// drops than fine ones: on several pads, and where levels differ in it. 1: none is left, or needed.
-double levels_confirm_left(const Levels *levels);
+// Likewise to one that is four times as fine as the first, which confirms a bar.
+double levels_confirm_left(const Levels *levels);   // 1: none is left
+// Coarse levels may all have other drops than fine ones: on several pads, and where levels differ
+// in it. There a bar wants to be confirmed whatever that costs.
+bool levels_may_differ(const Levels *levels);
 
 // Value from the level's own runs: mean of mu_M, lowest mu_hold; NaN: a run has none.
 double level_value(const Level *level, AnswerKind kind);

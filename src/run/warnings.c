@@ -321,7 +321,7 @@ void warnings_of_last_mesh(const Levels *levels, RunWarnings *warnings)
                      "contact nodes, which have no part in the answers",
                      last->pads > 1 ? "other pads slide" : "other parts of the contact slide",
                      levels->list[other - 1].contact_nodes);
-    if (levels->count > 1 && levels_confirm_left(levels) > 1)
+    if (levels->count > 1 && levels_may_differ(levels) && levels_confirm_left(levels) > 1)
         warnings_add(warnings,
                      "on finer meshes %s: the bar is not confirmed, as no mesh four times as fine "
                      "as the first was reached (%s)",

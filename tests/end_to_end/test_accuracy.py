@@ -88,6 +88,16 @@ class Accuracy(unittest.TestCase):
         self.assertRegex(ended.stdout, r"mu_M +0\.26\d+ \+- [\d.e-]+ \(mesh .*, branches .*, drops .*\)")
         self.assertTrue((self.folder / "history.h5").exists())
 
+    def test_confirmed_where_time_is_given(self):
+        """Whoever gives time has the bar confirmed by a mesh four times as fine as the first; three hours are enough on any
+        machine. Without a time, and where a twentieth of it is nothing, it is met with one twice as fine."""
+        for words, finest in ((["--within", "3h"], 1), ([], 0.5)):
+            ended = self.run_it("--to", "3%", "--overwrite", *words)
+            self.assertEqual(ended.returncode, 0, ended.stderr)
+            found = self.report()["accuracy"]
+            self.assertTrue(found["met"])
+            self.assertEqual((found["levels"][0]["refine"], found["levels"][-1]["refine"]), (0.25, finest))
+
     def test_ends_of_the_scene(self):
         """A scene that ends early by an event: the runs behind its bar go on until their answer is known."""
         ended = self.run_it("--to", "30%", settings=[*SETTINGS, "time.until={U: 0.03, slidings: 1, mu_below: 0.2}"])

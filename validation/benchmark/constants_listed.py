@@ -296,7 +296,7 @@ NOT_A_CHOICE = {
     "answers/error_bars_json.c": {"BRANCH_WIDTH": "of branches: the next is twice as far"},
     "answers/error_bars.c": {
         "USUAL": "of error bars: [priors.md](../validation/benchmark/priors.md)", "USUAL_LEAST": "the same", "USUAL_LEVELS": "the same", "ONE_MESH": "the same", "ONE_MESH_IN_SPACE": "of digits without a bar: validation/space/priors.md", "SPAN": "the same",
-        "CONFIRM": "of error bars on several pads: two feet of unequal height, strangers 467",
+        "CONFIRM": "of error bars on several pads: two feet of unequal height, strangers 467; on other contacts strangers 55, 138, 328, 730",
         "ROUNDING": "of products of a few steps from mesh to mesh", "END_WAITS": "of error bars: set B at P = 1e-5",
         "ONE_PRECURSOR": "of digits of the first loading: [accuracy](accuracy.md#without-a-bar)",
         "STEPS": "of error bars: what this table's tolerances move"},
