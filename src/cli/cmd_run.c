@@ -75,7 +75,7 @@ int command_run(const Command *command, int argc, char **argv)
          .word = &to},
         {"within", 0, "TIME",
          "With --to: begin no mesh or run that would end later (300s, 5min, 1h); a "
-         "mesh that takes no more than a twentieth of it confirms the bar",
+         "mesh that takes no more than a sixtieth of it confirms the bar",
          .word = &within},
         {"resume", 0, NULL, "Go on with the run in DIR that was cut off", .flag = &resume},
         {"extend", 0, "END", "Go on with the run in DIR beyond its end, to U=0.02 or t=500",

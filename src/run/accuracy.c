@@ -25,7 +25,7 @@ static const double RATIO = 1.189207115002721;   // of cell size from level to l
 static const double GROWTH[] = {2, 4};
 // Part of the time given that a mesh may take which confirms a bar where nothing says that finer
 // meshes differ.
-static const double CONFIRM_SHARE = 0.05;
+static const double CONFIRM_SHARE = 1. / 60;
 
 // One more run on its mesh, s.
 static double seconds_of_run(const Level *level)
@@ -95,22 +95,19 @@ static bool has_time_for_level(const Accuracy *accuracy, double ratio)
     return level_seconds(accuracy, ratio) + more <= accuracy_seconds_left(accuracy);
 }
 
-// Where pads may slide otherwise on finer meshes a bar is worth all of the time that is left, else
-// a part of the time that was given; none if no time was given.
-static bool is_worth_confirming(const Accuracy *accuracy, double ratio)
-{
-    double most = CONFIRM_SHARE * accuracy->scene->accuracy.within;
-    if (!has_time_for_level(accuracy, ratio)) return false;
-    return levels_may_differ(&accuracy->levels) || level_seconds(accuracy, ratio) <= most;
-}
-
 // Ratio of cell sizes to the mesh that puts a bar to the test: the farther one, which confirms it,
-// or as far towards that one as it is worth. 1: none is left.
+// where that takes a small part of the time given; where pads may slide otherwise on finer meshes,
+// as far towards it as time allows. 1: none is left.
 static double span_left(const Accuracy *accuracy)
 {
     double left = levels_span_left(&accuracy->levels, accuracy->levels.asked);
     double far = levels_confirm_left(&accuracy->levels);
-    while (far > left && !is_worth_confirming(accuracy, fmax(far, accuracy->cell_ratio)))
+    if (!levels_may_differ(&accuracy->levels)) {
+        double most = CONFIRM_SHARE * accuracy->scene->accuracy.within;
+        bool confirms = far > left && level_seconds(accuracy, far) <= most;
+        return confirms && has_time_for_level(accuracy, far) ? far : left;
+    }
+    while (far > left && !has_time_for_level(accuracy, fmax(far, accuracy->cell_ratio)))
         far /= accuracy->cell_ratio;
     return fmax(far, left);
 }

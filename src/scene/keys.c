@@ -335,7 +335,7 @@ static const SceneKey keys[] = {
            "mu_M", "mu_hold"),
     NUMBER(accuracy.within, "1", RANGE_NOT_NEGATIVE, "0",
            "Seconds of this computer's time that may go into it; a mesh that takes no more than a "
-           "twentieth of it confirms the bar. 0: as many as it takes, without such a mesh."),
+           "sixtieth of it confirms the bar. 0: as many as it takes, without such a mesh."),
     NUMBER(accuracy.window, "1", RANGE_PART, "0.01",
            "Width of the window of pressures, relative, over which branches that coexist are "
            "averaged."),

@@ -90,7 +90,7 @@ class Accuracy(unittest.TestCase):
 
     def test_confirmed_where_time_is_given(self):
         """Whoever gives time has the bar confirmed by a mesh four times as fine as the first; three hours are enough on any
-        machine. Without a time, and where a twentieth of it is nothing, it is met with one twice as fine."""
+        machine. Without a time it is met with one twice as fine."""
         for words, finest in ((["--within", "3h"], 1), ([], 0.5)):
             ended = self.run_it("--to", "3%", "--overwrite", *words)
             self.assertEqual(ended.returncode, 0, ended.stderr)
