@@ -79,12 +79,13 @@ static bool analyse_with_border(SparseAnalysis *analysis, const SparsePattern *p
 {
     cholmod_common *common = &analysis->common;
     int32_t size = analysis->size, count = analysis->border_count;
-    int32_t *member = NEW_ARRAY(int32_t, size, err);   // of CAMD's sets: the border is the last
+    int32_t *member = NULL;   // of CAMD's sets: the border is the last
     int32_t *order = NEW_ARRAY(int32_t, size, err);
-    if (!member || !order) goto cleanup;
+    if (!order) goto cleanup;
     if (place) {
         TRY(sparse_order_dissect(pattern, place, border, count, order, err));
     } else {
+        TRY((member = NEW_ARRAY(int32_t, size, err)));
         for (int32_t j = 0; j < count; j++) member[border[j]] = 1;
         // Without an interior there is nothing to order, and CAMD takes no set whose number is not
         // below the size.
