@@ -179,8 +179,12 @@ TEST(test_no_trend)
                                 series_trend(items, 12, 0), series_trend(items, 36, 0)};
         for (int32_t t = 0; t < 4; t++) found[t] += series_trend_stands_out(&trends[t]);
     }
-    for (int32_t t = 0; t < 4; t++)
-        assert_true(found[t] > 0.02 * trials && found[t] < 0.10 * trials);
+    for (int32_t t = 0; t < 2; t++)
+        assert_true(found[t] > 0.05 * trials && found[t] < 0.10 * trials);
+    // Without a round fewer do: the correlation that chance shows lengthens errors, and never
+    // shortens them.
+    for (int32_t t = 2; t < 4; t++)
+        assert_true(found[t] > 0.02 * trials && found[t] < 0.05 * trials);
 }
 
 // Values that go along with their neighbours (of first order, r = 0.5).
