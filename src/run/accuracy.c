@@ -86,7 +86,8 @@ static bool is_short_enough(const Accuracy *accuracy)
     return answer->bar <= accuracy->levels.wanted * answer->value;
 }
 
-// With the run in full on it. Of one mesh alone no error is known: a second is begun in any case.
+// With the run in full on it. Of one mesh alone no error is known: a second, finer or coarser, is
+// begun in any case.
 static bool has_time_for_level(const Accuracy *accuracy, double ratio)
 {
     if (accuracy->levels.count == 1) return accuracy_seconds_left(accuracy) > 0;
@@ -113,8 +114,8 @@ static double span_left(const Accuracy *accuracy)
 }
 
 // Ratio of cell sizes to the next level. From the third level on it is large enough that slip has
-// enough cells there, as all levels tell, but at most RATIO_SPLIT; or it leads to the mesh that
-// tests a bar which is short enough.
+// enough cells there, as all levels tell, but at most RATIO_SPLIT, and no larger than time allows;
+// or it leads to the mesh that tests a bar which is short enough.
 static double next_ratio(const Accuracy *accuracy)
 {
     const Levels *levels = &accuracy->levels;
@@ -122,7 +123,10 @@ static double next_ratio(const Accuracy *accuracy)
     double lacks = SLIP_CELLS_ENOUGH / levels_cells(levels), span = span_left(accuracy);
     double ratio = fmin(fmax(accuracy->cell_ratio, 1.1 * lacks), RATIO_SPLIT);
     bool far = is_short_enough(accuracy) && span > ratio && has_time_for_level(accuracy, span);
-    return far ? span : ratio;
+    if (far) return span;
+    while (ratio > accuracy->cell_ratio && !has_time_for_level(accuracy, ratio))
+        ratio = fmax(ratio / RATIO, accuracy->cell_ratio);
+    return ratio;
 }
 
 // Runs on a finer mesh. One whose cells are still too long for slip is passed over, while there is
@@ -155,6 +159,40 @@ static bool add_level(Accuracy *accuracy, double refine, Error *err)
     return add_runs(accuracy, accuracy_runs_first(accuracy) - 1, err);
 }
 
+// Where a second mesh that is finer is not expected to end in time, a coarser one tells how far
+// meshes differ.
+static bool wants_coarser_level(const Accuracy *accuracy)
+{
+    return accuracy->levels.count == 1 && accuracy->cell_ratio < RATIO_SPLIT &&
+           level_seconds(accuracy, accuracy->cell_ratio) > accuracy_seconds_left(accuracy);
+}
+
+// The coarser of two meshes, in the time that is left, becomes the first level. The finer one is
+// begun all the same where there is no coarser one that counts.
+static bool add_coarser_level(Accuracy *accuracy, Error *err)
+{
+    Levels *levels = &accuracy->levels;
+    Level finer = levels->list[0];
+    double stepping = accuracy->stepping, making = accuracy->making;
+    double excess = level_seconds(accuracy, 1) / accuracy_seconds_left(accuracy);
+    double ratio = fmax(pow(excess, 1 / GROWTH[finer.space]), accuracy->cell_ratio);
+    bool coarse = false;
+    begin_level(accuracy, finer.refine / fmin(ratio, RATIO_SPLIT));
+    accuracy_run_member(accuracy, &coarse, err);
+    accuracy->stepping = stepping;   // the run in full is on the finer one
+    accuracy->making = making;
+    if (coarse || err->code == ERROR_INPUT || err->code == ERROR_LIBRARY) {
+        *err = (Error){0};
+        levels->count--;
+        return add_level(accuracy, finer.refine, err);
+    }
+    if (accuracy_last_level(accuracy)->run_count > 0) {
+        levels->list[0] = levels->list[1];
+        levels->list[1] = finer;
+    }
+    return error_is_clean(err);
+}
+
 // --- what next ----------------------------------------------------------------------------------
 
 static bool is_met(const Accuracy *accuracy)
@@ -162,11 +200,11 @@ static bool is_met(const Accuracy *accuracy)
     return is_short_enough(accuracy) && span_left(accuracy) <= 1;
 }
 
-static void show_level(const Accuracy *accuracy)
+// What all levels say after runs on `level`.
+static void show_level(const Accuracy *accuracy, const Level *level)
 {
     const RunOptions *options = accuracy->options;
     const ErrorBar *answer = asked(accuracy);
-    const Level *level = &accuracy->levels.list[accuracy->levels.count - 1];
     LevelView view = {.level = accuracy->levels.count,
                       .contact_nodes = level->contact_nodes,
                       .runs = level->run_count,
@@ -202,12 +240,13 @@ static bool find_levels(Accuracy *accuracy, Error *err)
     if (!error_is_clean(err)) return false;
     if (!add_runs(accuracy, accuracy_runs_first(accuracy) - 1, err)) return false;
     if (!levels_have_runs(levels)) levels->ended = NO_TIME;
-    if (!levels->ended) show_level(accuracy);
+    if (!levels->ended) show_level(accuracy, levels->list);
 
     while (!levels->ended) {
         const ErrorBar *answer = asked(accuracy);
         const Level *level = accuracy_last_level(accuracy);
         int32_t before = levels->count, runs = level->run_count;
+        double refine = level->refine;
 
         // More runs where branches and drops leave more than the mesh does, else a finer mesh.
         double between = hypot(answer->parts.branches, answer->parts.drops);
@@ -225,16 +264,20 @@ static bool find_levels(Accuracy *accuracy, Error *err)
         else if (!has_time_for_level(accuracy, next_ratio(accuracy)))
             levels->ended = NO_TIME;
         if (levels->ended) break;
+        bool coarser = !more_runs && wants_coarser_level(accuracy);
         bool added = more_runs ? add_runs(accuracy, 2, err)
-                               : add_level(accuracy, level->refine, err);
+                     : coarser ? add_coarser_level(accuracy, err)
+                               : add_level(accuracy, refine, err);
         if (!more_runs && accuracy->out_of_time) levels->ended = NO_TIME;
 
         // A level without a whole run does not count.
         if (levels->count > 1 && accuracy_last_level(accuracy)->run_count == 0) levels->count--;
         levels_estimate(levels);
         if (!added) return false;
-        if (levels->count != before || accuracy_last_level(accuracy)->run_count != runs)
-            show_level(accuracy);
+        const Level *last = accuracy_last_level(accuracy);
+        bool is_coarser = coarser && levels->count == 2 && levels->list[1].refine == refine;
+        if (levels->count != before || last->run_count != runs)
+            show_level(accuracy, is_coarser ? levels->list : last);
     }
     return true;
 }

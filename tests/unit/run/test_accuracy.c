@@ -11,6 +11,7 @@
 #include "small_scene.h"
 
 #include <signal.h>
+#include <time.h>
 
 // Stops in the run of so many, 0: the first of the first mesh; counts the meshes that were done.
 typedef struct Watch {
@@ -103,6 +104,57 @@ TEST_BETWEEN(test_out_of_time_in_the_first_run, begin, end)
     amontons_let_go();
     assert_false(place_has(place, "next.lock"));
     file_lock_release(&lock);
+}
+
+// A search whose steps all take the same time, as most of it is slept.
+typedef struct Slow {
+    int32_t meshes, nodes[2];
+    double seconds;   // of the first mesh
+} Slow;
+
+static void sleep_at_step(const StepView *view, void *context)
+{
+    static const struct timespec pause = {.tv_nsec = 2000000};
+    (void)context;
+    if (view->mesh > 0) nanosleep(&pause, NULL);
+}
+
+static void note_mesh(const LevelView *view, void *context)
+{
+    Slow *slow = context;
+    if (view->level == slow->meshes || slow->meshes == 2) return;
+    if (slow->meshes == 0) slow->seconds = view->seconds;
+    slow->nodes[slow->meshes++] = view->contact_nodes;
+}
+
+static Slow search_slowly(const char *asked, double within)
+{
+    char limit[60];
+    Slow slow = {0};
+    Error err = {0};
+    RunSummary summary;
+    snprintf(limit, sizeof limit, "accuracy.within=%.3f", within);
+    Scene *scene = small_scene((const char *const[]){"mesh.set.nx=26", "mesh.set.nz=5",
+                                                     "load.pressure=0.006", "time.until.U=0.003",
+                                                     asked, within > 0 ? limit : NULL, NULL});
+    RunOptions options = {.on_step = sleep_at_step, .on_level = note_mesh, .context = &slow};
+    if (!amontons_run(scene, &options, &summary, &err)) fail_msg("%s", err.message);
+    amontons_scene_destroy(scene);
+    return slow;
+}
+
+// Two runs on the first mesh take two of 3.3 parts of the time, the run in full a quarter. One on a
+// finer mesh is expected to take 1.4 of the part that is left, one on a coarser mesh 0.7: so it is
+// the coarser one that says how far meshes differ.
+TEST(test_a_coarser_mesh_where_time_is_short)
+{
+    Slow free = search_slowly("accuracy.mu=0.5", 0);
+    assert_int_equal(free.meshes, 2);
+    assert_true(free.nodes[1] > free.nodes[0]);
+    Slow hurried = search_slowly("accuracy.mu=0.001", 3.3 * free.seconds / 2);
+    assert_int_equal(hurried.meshes, 2);
+    assert_int_equal(hurried.nodes[0], free.nodes[0]);
+    assert_true(hurried.nodes[1] < free.nodes[0]);
 }
 
 // mu_M of the first mesh's two runs is kept, but not beside an earlier result.
