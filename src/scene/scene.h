@@ -81,7 +81,6 @@ typedef struct Scene {
     SceneFrictionKeys friction_keys;
     SceneContactLaws contact_laws;   // friction.contacts
     struct {
-        double radius;   // of the substrate's curvature; 0: flat
         char gap[SCENE_TEXT_SIZE];   // formula of x, length; empty: 0
         char profile[SCENE_TEXT_SIZE];   // file (scene/profile), resolved like mesh.file; empty: 0
     } contact;
