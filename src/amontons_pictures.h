@@ -167,12 +167,9 @@ typedef struct FilmRequest {
     const char *begin, *end;   // "U=0.0117" or "t=120"; NULL: those of the history
     const char *cycle;   // "first", "last" or its number: from the end of a bulk sliding to a
         // little after the next; NULL, "all": the history
-    const char *of;   // field of the block, as FieldChoice has it; without fields not asked
+    const char *of;   // field of the block, as FieldChoice has it; or a state of friction
     double magnification;   // of the deformation; 0: chosen
     double depth;   // how far below its floor a base is drawn, length; 0: all of it
-    bool
-        fields;   // the run is computed once more for as many fields of the block as the film shows
-    bool trust;   // of the run that is computed, as amontons_scene_read_trusted
     const char *title;   // words above it; "none"; NULL: the scene's
     bool dark;   // light lines on dark paper
     bool overwrite;   // what is there goes; else it is refused, if no list has it

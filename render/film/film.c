@@ -114,22 +114,3 @@ cleanup:
     result_view_close(&view);
     return error_is_clean(err);
 }
-
-__attribute__((visibility("default"))) bool amontons_render_film_part(const char *folder,
-                                                                      const FilmRequest *request,
-                                                                      FilmPart *part, Error *err)
-{
-    FilmRequest film;
-    ResultView view = {0};
-    double t[2] = {0, 0};
-    FilmSpan span = {request->begin, request->end, request->cycle};
-    *part = (FilmPart){0};
-    TRY(complete(request, &film, &part->frames, err));
-    TRY(result_view_open(folder, &view, err));
-    TRY(film_span_find(&view, &span, t, err));
-    part->from_U = film_moment(&view, t[0]).U;
-    part->to_U = film_moment(&view, t[1]).U;
-cleanup:
-    result_view_close(&view);
-    return error_is_clean(err);
-}

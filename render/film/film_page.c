@@ -163,6 +163,11 @@ FilmPage *film_page_create(const FilmPageDef *def, Error *err)
     TRY(page_open(page, &page->base, err));
     TRY(page_open(page, &page->frame, err));
     TRY(film_block_open(&page->block, err));
+    if (def->film->of && !state && !page->block.stored)
+        FAIL(err, ERROR_INPUT,
+             "of %s: the run stored no fields of its block then; run the scene with output: "
+             "{fields: film}, and film that",
+             def->film->of);
     TRY(lay_out(page, err));
     double V = fabs(view->number[NUMBER_ROD_VELOCITY]);
     double step = page->band.speed_low / clock->rate;

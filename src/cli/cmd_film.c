@@ -34,7 +34,7 @@ int command_film(const Command *command, int argc, char **argv)
     const char *result = NULL, *seconds = NULL, *rate = NULL, *size = NULL, *magnification = NULL,
                *depth = NULL;
     char name[NAME_SIZE];
-    bool quiet = false;
+    bool quiet = false, fields = false;
     FilmRequest film = {0};
     const Option options[] = {
         {"output", 'o', "FILE", "The film; its ending says of which kind", .word = &film.path},
@@ -58,17 +58,17 @@ int command_film(const Command *command, int argc, char **argv)
         {"depth", 0, "LENGTH",
          "Of a base that deforms: how far below its floor it is drawn; by default all of it",
          .word = &depth},
-        {"fields", 0, NULL,
-         "Compute the run once more, for as many fields of the block as the film shows",
-         .flag = &film.fields},
+        {"fields", 0, NULL, NULL, .flag = &fields},
         {"title", 0, "WORDS", "Words above it; `none`; by default the scene's title",
          .word = &film.title},
         {"dark", 0, NULL, "Light lines on dark paper", .flag = &film.dark},
         option_overwrite(&film.overwrite),
-        option_trust(&film.trust),
         {"quiet", 'q', NULL, "Print nothing but errors", .flag = &quiet},
         {0}};
     int status = options_read(command, options, argc, argv, &result);
+    if (status == 0 && fields)
+        status = report_misuse("--fields is gone: run the scene with --set output.fields=film, and "
+                               "film that result");
     if (status == 0) status = read_number("--seconds", seconds, &film.seconds);
     if (status == 0) status = read_number("--magnification", magnification, &film.magnification);
     if (status == 0) status = read_number("--depth", depth, &film.depth);
@@ -103,9 +103,12 @@ int command_film(const Command *command, int argc, char **argv)
     progress_end(&progress);
     if (!done) return report_error(&err);
     if (!quiet) say("film: %s\n", film.path);
-    if (!quiet && !film.fields && still > STILL_MOST)
+    if (!quiet && still == 0)
+        say("It shows no block, as the run stored no fields of it then: run the scene with --set "
+            "output.fields=film for that.\n");
+    if (!quiet && still > STILL_MOST)
         say("Its block stands still for up to %.1f s while time goes on: fields are stored too "
-            "seldom for slow motion. With --fields as many are computed as the film shows.\n",
+            "seldom for slow motion. Run the scene with --set output.fields=film for more.\n",
             still);
     return 0;
 }
