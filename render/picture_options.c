@@ -14,13 +14,14 @@ typedef struct PictureOption {
     OptionKind kind;
     double low, high;   // of a number
     const char *figures;   // that take it, with blanks between; "": all
+    int32_t taker;   // films and pages do, too
     const char *words;   // that are allowed, likewise
     size_t offset;   // of the member of PictureStyle: a double for a number, else a text
 } PictureOption;
 
 static const PictureOption OPTIONS[] = {
-#define X(name, kind, low, high, figures, words, argument, meaning)                                \
-    {#name, OPTION_##kind, low, high, figures, words, offsetof(PictureStyle, name)},
+#define X(name, kind, low, high, figures, taker, words, argument, meaning)                         \
+    {#name, OPTION_##kind, low, high, figures, taker, words, offsetof(PictureStyle, name)},
     PICTURE_OPTIONS(X)
 #undef X
 };
@@ -99,20 +100,33 @@ static bool is_taken(const char *name, const char *takers, const char *const *fi
                   count > 1 ? " and the others that are asked for" : "", list);
 }
 
+static bool is_given(const PictureStyle *style, const PictureOption *option)
+{
+    const void *place = (const char *)style + option->offset;
+    return option->kind == OPTION_NUMBER ? *(const double *)place > 0
+                                         : *(const char *const *)place != NULL;
+}
+
 bool picture_options_fit(const PictureStyle *style, const FieldChoice *field,
                          const char *const *figures, int32_t count, Error *err)
 {
-    for (int32_t k = 0; k < OPTIONS_COUNT; ++k) {
-        const void *place = (const char *)style + OPTIONS[k].offset;
-        bool given = OPTIONS[k].kind == OPTION_NUMBER ? *(const double *)place > 0
-                                                      : *(const char *const *)place != NULL;
-        if (given && !is_taken(OPTIONS[k].name, OPTIONS[k].figures, figures, count, err))
+    for (int32_t k = 0; k < OPTIONS_COUNT; ++k)
+        if (is_given(style, &OPTIONS[k]) &&
+            !is_taken(OPTIONS[k].name, OPTIONS[k].figures, figures, count, err))
             return false;
-    }
 #define X(name, takers)                                                                            \
     if (field && field->name && !is_taken(#name, takers, figures, count, err)) return false;
     FIELD_OPTIONS(X)
 #undef X
+    return true;
+}
+
+bool picture_options_fit_taker(const PictureStyle *style, int32_t taker, Error *err)
+{
+    for (int32_t k = 0; k < OPTIONS_COUNT; ++k)
+        if (OPTIONS[k].taker < taker && is_given(style, &OPTIONS[k]))
+            return REFUSE(err, "%s has no meaning for a %s", OPTIONS[k].name,
+                          taker == TAKEN_BY_FILMS ? "film" : "page");
     return true;
 }
 

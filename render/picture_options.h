@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The options of a picture by their names, read and checked by the one table, PICTURE_OPTIONS.
-// Called by run/result/pictures, for callers, and by render/plot, for the `page` of a plot file.
+// Called by run/result/pictures, for callers, by render/plot, for the `page` of a plot file, and by
+// render/film and page/report.
 #ifndef AMONTONS_RENDER_PICTURE_OPTIONS_H
 #define AMONTONS_RENDER_PICTURE_OPTIONS_H
 
@@ -14,6 +15,9 @@ bool picture_option_set(PictureStyle *style, const char *name, const char *value
 // `field` NULL: none. Of a plot file the figure is "plot".
 bool picture_options_fit(const PictureStyle *style, const FieldChoice *field,
                          const char *const *figures, int32_t count, Error *err);
+
+// The same of a film or a page.
+bool picture_options_fit_taker(const PictureStyle *style, int32_t taker, Error *err);
 
 // Sets the options that `style` leaves open to those of `base`.
 void picture_style_complete(PictureStyle *style, const PictureStyle *base);

@@ -27,16 +27,6 @@ bool amontons_render_plot(const char *plot, const char *picture, const PictureSt
 // amontons_film.
 typedef bool (*RenderFilmFunction)(const char *folder, const FilmRequest *request, Error *err);
 bool amontons_render_film(const char *folder, const FilmRequest *request, Error *err);
-// Part of a result that the film shows: from one place of the drive to another, length, in so many
-// frames.
-typedef struct FilmPart {
-    double from_U, to_U;
-    int32_t frames;
-} FilmPart;
-typedef bool (*RenderFilmPartFunction)(const char *folder, const FilmRequest *request,
-                                       FilmPart *part, Error *err);
-bool amontons_render_film_part(const char *folder, const FilmRequest *request, FilmPart *part,
-                               Error *err);
 
 // A mesh to draw: arrays as in io/mesh/mesh_file, all borrowed.
 typedef struct RenderMesh {

@@ -29,57 +29,61 @@ extern "C" {
     X(FIGURE_FIELD, "field", "a field of the block at one time")                                   \
     X(FIGURE_STRIP, "field-strip", "a field of the block in frames of one sliding")
 
-// How a picture is drawn, in ONE table: the options of `amontons render`, the keys of `page` in a
-// plot file, what Python's functions take, and the members of PictureStyle.
-// X(name, kind, least, most, figures that take it ("": all; "plot": a plot file), words that are
-// allowed, argument, meaning)
+// What takes an option of pictures beside figures: nothing, films, or films and pages of a report.
+enum { TAKEN_BY_FIGURES = 0, TAKEN_BY_FILMS = 1, TAKEN_BY_PAGES = 2 };
+
+// How a picture is drawn, in ONE table: the options of `amontons render`, `film` and `report`, the
+// keys of `page` in a plot file, what Python's functions take, and the members of PictureStyle.
+// X(name, kind, least, most, figures that take it ("": all; "plot": a plot file), what else takes
+// it, words that are allowed, argument, meaning)
 #define PICTURE_OPTIONS(X)                                                                         \
-    X(style, WORD, 0, 0, "", "column columns slide poster", "NAME",                                \
+    X(style, WORD, 0, 0, "", TAKEN_BY_FIGURES, "column columns slide poster", "NAME",              \
       "What it is for: column (86 mm, the default) or columns (178 mm) of a journal, with "        \
       "letters "                                                                                   \
       "of 8 pt; slide (254 mm) or poster (400 mm), with letters and lines two and three times as " \
       "large")                                                                                     \
-    X(width, NUMBER, 20, 1000, "", "", "MM", "Of the page in print, in the place of the style's")  \
-    X(height, NUMBER, 20, 1000, "", "", "MM",                                                      \
+    X(width, NUMBER, 20, 1000, "", TAKEN_BY_FIGURES, "", "MM",                                     \
+      "Of the page in print, in the place of the style's")                                         \
+    X(height, NUMBER, 20, 1000, "", TAKEN_BY_FIGURES, "", "MM",                                    \
       "Of the page in print; by default as the figure asks")                                       \
-    X(dpi, NUMBER, 50, 2400, "", "", "N",                                                          \
+    X(dpi, NUMBER, 50, 2400, "", TAKEN_BY_FIGURES, "", "N",                                        \
       "Dots per inch, of a PNG and of maps; 600 by default, of a slide 200, of a poster 300")      \
-    X(title, TEXT, 0, 0, "", "", "WORDS",                                                          \
-      "Words above the figure; `scene`: the title of what is shown; `none`")                       \
-    X(inset, WORD, 0, 0, "force", "above none", "WHERE",                                           \
+    X(title, TEXT, 0, 0, "", TAKEN_BY_FILMS, "", "WORDS",                                          \
+      "Words above it; `scene`: the title of what is shown, which a film has by default; `none`")  \
+    X(inset, WORD, 0, 0, "force", TAKEN_BY_FIGURES, "above none", "WHERE",                         \
       "What force enlarges: above (the default) or none")                                          \
-    X(legend, WORD, 0, 0, "",                                                                      \
+    X(legend, WORD, 0, 0, "", TAKEN_BY_FIGURES,                                                    \
       "auto none upper-right upper-left lower-left lower-right outside below", "WHERE",            \
       "Where the legend stands: auto, none, upper-right, upper-left, lower-left, lower-right, "    \
       "outside or below")                                                                          \
     X(limits, RANGE, 0, 0, "slip-map contact-area state-map contact-plane field field-strip plot", \
-      "", "LOW,HIGH",                                                                              \
+      TAKEN_BY_FIGURES, "", "LOW,HIGH",                                                            \
       "Ends of the colours, in the numbers shown; or percents of what is shown, as in 1%,99%")     \
-    X(from, TEXT, 0, 0, "force slip-map contact-area state-map probes", "", "U=U",                 \
-      "Of force, slip-map, contact-area, state-map, probes: where they begin; or t=TIME")          \
-    X(to, TEXT, 0, 0, "force slip-map contact-area state-map probes", "", "U=U",                   \
-      "Where they end; or t=TIME")                                                                 \
+    X(from, TEXT, 0, 0, "force slip-map contact-area state-map probes", TAKEN_BY_FILMS, "", "U=U", \
+      "Where force, slip-map, contact-area, state-map, probes or a film begins; or t=TIME")        \
+    X(to, TEXT, 0, 0, "force slip-map contact-area state-map probes", TAKEN_BY_FILMS, "", "U=U",   \
+      "Where such a figure or film ends; or t=TIME")                                               \
     X(cycle, TEXT, 0, 0,                                                                           \
       "force slip-map contact-density contact-area state-map contact-plane precursors "            \
       "front-speed pads field field-strip",                                                        \
-      "", "first|last|N|all",                                                                      \
+      TAKEN_BY_PAGES, "", "first|last|N|all",                                                      \
       "Which cycle is shown, from one sliding to the next: first (the first loading), last, its "  \
       "number, or all; by default one with precursors, and in a run of one or two slidings the "   \
-      "first")                                                                                     \
-    X(pixels, WORD, 0, 0, "slip-map state-map", "largest mean", "WHAT",                            \
+      "first; of a film all")                                                                      \
+    X(pixels, WORD, 0, 0, "slip-map state-map", TAKEN_BY_FIGURES, "largest mean", "WHAT",          \
       "What of the slip rates in a pixel slip-map shows: the largest (the default) or the mean; "  \
       "of states state-map shows the smallest, or the largest where that is asked for")            \
     X(line, TEXT, 0, 0,                                                                            \
-      "force slip-map contact-density contact-area state-map precursors front-speed profile", "",  \
-      "y=Y",                                                                                       \
+      "force slip-map contact-density contact-area state-map precursors front-speed profile",      \
+      TAKEN_BY_FIGURES, "", "y=Y",                                                                 \
       "Of a block in space: the line along the drive that is shown against U; by default in the "  \
       "middle")                                                                                    \
     X(compare, TEXT, 0, 0,                                                                         \
-      "force slip-map contact-density contact-area precursors front-speed probes plot", "",        \
-      "FILE.csv", "Measurements to draw beside what was computed")                                 \
-    X(depth, NUMBER, 1e-12, 1e12, "field field-strip", "", "LENGTH",                               \
+      "force slip-map contact-density contact-area precursors front-speed probes plot",            \
+      TAKEN_BY_FIGURES, "", "FILE.csv", "Measurements to draw beside what was computed")           \
+    X(depth, NUMBER, 1e-12, 1e12, "field field-strip", TAKEN_BY_FILMS, "", "LENGTH",               \
       "Of a base that deforms: how far below its floor it is drawn; by default all of it")         \
-    X(warnings, WORD, 0, 0, "", "below none", "WHERE",                                             \
+    X(warnings, WORD, 0, 0, "", TAKEN_BY_FIGURES, "below none", "WHERE",                           \
       "What the run was warned of: below (the default) or none; run.json has it in any case")
 
 // Style of the printed page; zeroed is fine. Letters and lines keep their size, whatever the width.
@@ -148,11 +152,11 @@ bool amontons_render_sweep(const char *folder, const char *plot, const PictureSt
                            Error *err);
 
 // Writes one page about results (count folders) into `file`, an .html that needs nothing else: of a
-// run, of a sweep, or of several runs side by side. cycle: of a run, which its figures show, as in
-// PICTURE_OPTIONS; NULL: as they choose. overwrite: what is there goes; else it is refused, if the
-// list of its folder (amontons.files) does not have it.
-bool amontons_report(const char *const *results, int32_t count, const char *file, const char *cycle,
-                     bool overwrite, Error *err);
+// run, of a sweep, or of several runs side by side. style: of the options that pages take, `cycle`
+// is for the page of one run; overwrite: what is there goes, else it is refused, if the list of its
+// folder (amontons.files) does not have it. NULL is fine.
+bool amontons_report(const char *const *results, int32_t count, const char *file,
+                     const PictureStyle *style, Error *err);
 
 // Called after each frame of a film that is drawn, `frame` from 1.
 typedef void (*FrameCallback)(int32_t frame, int32_t frames, void *context);
@@ -164,18 +168,9 @@ typedef struct FilmRequest {
     double seconds;   // 0: 20
     int32_t rate;   // frames a second; 0: 30, of a GIF 20
     int32_t width, height;   // pixels, even; 0: 1920 and 1080, of a GIF 800 and 450
-    const char *begin, *end;   // "U=0.0117" or "t=120"; NULL: those of the history
-    const char *cycle;   // "first", "last" or its number: from the end of a bulk sliding to a
-        // little after the next; NULL, "all": the history
-    const char *of;   // field of the block, as FieldChoice has it; without fields not asked
+    PictureStyle style;   // of the options that films take; dark, overwrite; format is not asked
+    const char *of;   // field of the block, as FieldChoice has it; or a state of friction
     double magnification;   // of the deformation; 0: chosen
-    double depth;   // how far below its floor a base is drawn, length; 0: all of it
-    bool
-        fields;   // the run is computed once more for as many fields of the block as the film shows
-    bool trust;   // of the run that is computed, as amontons_scene_read_trusted
-    const char *title;   // words above it; "none"; NULL: the scene's
-    bool dark;   // light lines on dark paper
-    bool overwrite;   // what is there goes; else it is refused, if no list has it
     FrameCallback on_frame;   // NULL: none
     void *context;   // handed to it
     const volatile sig_atomic_t *stop;   // non-zero: ERROR_INTERRUPT, and no file; NULL: never

@@ -198,7 +198,7 @@ class Static:
             drawn = self.position[self.contact, -1]   # a curved contact: gaps far larger than u, and r of open nodes is rounding
             gap, pressing, mu = (drawn + u[:, -1]) / max(length, drawn.max()), r[:, -1] / force, self.scene["friction"]["mu_static"]
             shear = np.linalg.norm(r[:, :-1], axis=1)
-            if not any(self.scene.get("contact", {}).get(key) for key in ("radius", "gap", "profile")):
+            if not any(self.scene.get("contact", {}).get(key) for key in ("gap", "profile")):
                 study.check(name, "penetration", max(0, -gap.min()), 1e-15)
                 study.check(name, "gap times pressure", np.abs(gap * pressing).max(), 1e-9 * slack if drawn.any() else 1e-12)
             study.check(name, "pull", max(0, -pressing.min()), 1e-9 * slack)

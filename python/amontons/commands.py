@@ -292,11 +292,15 @@ def render_sweep(folder: Any, plot: str | None = None, **style: Any) -> None:
 
 def film(result: Any, path: Any, **options: Any) -> Path:
     """A film of a stored result: `amontons film`. path: its ending (.mp4, .webm, .gif) says what is made; a folder gets
-    PNG frames. options: seconds, rate (frames a second), width and height (pixels), begin and end ("U=0.0117"),
-    cycle ("first", "last", "3"), of (field), magnification, depth (how far below its floor a base is drawn), fields (the run is computed once more for them), title, dark, overwrite. Ctrl-C stops; there is then no film."""
+    PNG frames. options: seconds, rate (frames a second), width and height (pixels), of (field), magnification, and as for render
+    from_ and to ("U=0.0117"), cycle ("first", "last", "3"), depth (how far below its floor a base is drawn), title, dark, overwrite.
+    Ctrl-C stops; there is then no film."""
     stop = ctypes.c_int(0)
     folder = result.folder if isinstance(result, Result) else path_of(result)
-    request = c.FilmRequest(path=c_text(path), stop=ctypes.pointer(stop), **fields(c.FilmRequest, options))
+    own = {name for name, *_ in c.FilmRequest._fields_} & set(options)
+    style = _picture_style({name: value for name, value in options.items() if name not in own})
+    request = c.FilmRequest(path=c_text(path), stop=ctypes.pointer(stop), style=style,
+                            **fields(c.FilmRequest, {name: options[name] for name in own}))
     call_stoppable(lib.amontons_film, stop, c_text(folder), ctypes.byref(request))
     return path_of(path)
 

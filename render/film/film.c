@@ -3,6 +3,7 @@
 // the file it goes into.
 #include "render/film/film_page.h"
 #include "render/film/film_sink.h"
+#include "render/picture_options.h"
 #include "render/render.h"
 
 #include "base/memory.h"
@@ -44,10 +45,8 @@ static bool complete(const FilmRequest *request, FilmRequest *film, int32_t *fra
                       film->seconds, film->rate, FRAMES_MAX);
     if (!(film->magnification >= 0) || !isfinite(film->magnification))
         return REFUSE(err, "a magnification of %g: it must be above 0", film->magnification);
-    if (!(film->depth >= 0) || !isfinite(film->depth))
-        return REFUSE(err, "a depth of %g: it must be above 0", film->depth);
     *frames = (int32_t)lround(count);
-    return true;
+    return picture_options_fit_taker(&film->style, TAKEN_BY_FILMS, err);
 }
 
 __attribute__((visibility("default"))) bool
@@ -69,7 +68,8 @@ amontons_render_film(const char *folder, const FilmRequest *request, Error *err)
 
     // The clock. fastest: the largest |slip rate| at each step, of nodes in contact: one that has
     // lifted off does not slip.
-    FilmSpan span = {film.begin, film.end, film.cycle};
+    const PictureStyle *style = &film.style;
+    FilmSpan span = {style->from, style->to, style->cycle};
     TRY(film_span_find(&view, &span, t, err));
     TRY((fastest = NEW_ARRAY(double, view.rows, err)));
     for (int64_t row = 0; row < view.rows; ++row)
@@ -88,11 +88,10 @@ amontons_render_film(const char *folder, const FilmRequest *request, Error *err)
     TRY(film_clock_create(&run, &clock, err));
 
     // The page, the file, and frame by frame from one to the other.
-    const PictureStyle titled = {.title = film.title};
-    FilmPageDef def = {folder, &view, &clock, &film, page_title(&titled, view.title, true)};
+    FilmPageDef def = {folder, &view, &clock, &film, page_title(style, view.title, true)};
     TRY(page = film_page_create(&def, err));
-    VideoDef file = {film.path,  film.width, film.height,   film.rate,
-                     view.title, NULL,       film.overwrite};
+    VideoDef file = {film.path,  film.width, film.height,     film.rate,
+                     view.title, NULL,       style->overwrite};
     TRY(sink = film_sink_create(&file, err));
     for (int32_t k = 0; k < frames; ++k) {
         const uint8_t *pixels = NULL;
@@ -111,25 +110,6 @@ cleanup:
     film_sink_destroy(sink);
     film_page_destroy(page);
     film_clock_destroy(&clock);
-    result_view_close(&view);
-    return error_is_clean(err);
-}
-
-__attribute__((visibility("default"))) bool amontons_render_film_part(const char *folder,
-                                                                      const FilmRequest *request,
-                                                                      FilmPart *part, Error *err)
-{
-    FilmRequest film;
-    ResultView view = {0};
-    double t[2] = {0, 0};
-    FilmSpan span = {request->begin, request->end, request->cycle};
-    *part = (FilmPart){0};
-    TRY(complete(request, &film, &part->frames, err));
-    TRY(result_view_open(folder, &view, err));
-    TRY(film_span_find(&view, &span, t, err));
-    part->from_U = film_moment(&view, t[0]).U;
-    part->to_U = film_moment(&view, t[1]).U;
-cleanup:
     result_view_close(&view);
     return error_is_clean(err);
 }

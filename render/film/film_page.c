@@ -41,7 +41,7 @@ static bool page_open(const FilmPage *self, Page *page, Error *err)
 {
     double point =
         fmax(fmin(self->def.film->height / HEIGHT, self->def.film->width / WIDTH), POINT_LEAST);
-    PictureStyle style = {.dpi = point * POINTS_AN_INCH, .dark = self->def.film->dark};
+    PictureStyle style = {.dpi = point * POINTS_AN_INCH, .dark = self->def.film->style.dark};
     style.width = self->def.film->width / style.dpi * INCH;
     PageDef def = {.style = &style,
                    .height = (double)self->def.film->height / self->def.film->width};
@@ -130,10 +130,10 @@ FilmPage *film_page_create(const FilmPageDef *def, Error *err)
     FilmPage *page = NEW_ARRAY(FilmPage, 1, err);
     TRY(page);
     page->def = *def;
-    page->block =
-        (FilmBlock){.clock = def->clock,
-                    .source = {.folder = def->folder, .view = def->view, .depth = def->film->depth},
-                    .magnification = def->film->magnification};
+    page->block = (FilmBlock){
+        .clock = def->clock,
+        .source = {.folder = def->folder, .view = def->view, .depth = def->film->style.depth},
+        .magnification = def->film->magnification};
     page->force.view = page->profile.view = page->band.view = page->plane.view = def->view;
     page->in_space = def->view->line && result_file_has_faces(def->view->file);
     page->band.clock = def->clock;
@@ -163,6 +163,11 @@ FilmPage *film_page_create(const FilmPageDef *def, Error *err)
     TRY(page_open(page, &page->base, err));
     TRY(page_open(page, &page->frame, err));
     TRY(film_block_open(&page->block, err));
+    if (def->film->of && !state && !page->block.stored)
+        FAIL(err, ERROR_INPUT,
+             "of %s: the run stored no fields of its block then; run the scene with output: "
+             "{fields: film}, and film that",
+             def->film->of);
     TRY(lay_out(page, err));
     double V = fabs(view->number[NUMBER_ROD_VELOCITY]);
     double step = page->band.speed_low / clock->rate;

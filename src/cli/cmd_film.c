@@ -31,10 +31,9 @@ static void show_frame(int32_t frame, int32_t frames, void *context)
 
 int command_film(const Command *command, int argc, char **argv)
 {
-    const char *result = NULL, *seconds = NULL, *rate = NULL, *size = NULL, *magnification = NULL,
-               *depth = NULL;
+    const char *result = NULL, *seconds = NULL, *rate = NULL, *size = NULL, *magnification = NULL;
     char name[NAME_SIZE];
-    bool quiet = false;
+    bool quiet = false, fields = false;
     FilmRequest film = {0};
     const Option options[] = {
         {"output", 'o', "FILE", "The film; its ending says of which kind", .word = &film.path},
@@ -42,12 +41,7 @@ int command_film(const Command *command, int argc, char **argv)
         {"fps", 0, "N", "Frames a second; 30 by default, of a GIF 20", .word = &rate},
         {"size", 0, "WxH", "Pixels, even numbers; 1920x1080 by default, of a GIF 800x450",
          .word = &size},
-        {"from", 0, "U=U", "Where it begins; or t=TIME; the start by default", .word = &film.begin},
-        {"to", 0, "U=U", "Where it ends; or t=TIME; the end by default", .word = &film.end},
-        {"cycle", 0, "first|last|N",
-         "A cycle, from the end of one bulk sliding to a little after the next: the first, which "
-         "is the first loading, the last, or its number",
-         .word = &film.cycle},
+        option_pictures(&film.style, TAKEN_BY_FILMS),
         {"of", 0, "FIELD",
          "What is shown of the block: von_mises (default), stress_xx, stress_zz, stress_xz, "
          "pressure, velocity, displacement, strain_energy or dissipation; or of the contact: a "
@@ -55,30 +49,24 @@ int command_film(const Command *command, int argc, char **argv)
          .word = &film.of},
         {"magnification", 0, "N", "Of the block's deformation; chosen by default",
          .word = &magnification},
-        {"depth", 0, "LENGTH",
-         "Of a base that deforms: how far below its floor it is drawn; by default all of it",
-         .word = &depth},
-        {"fields", 0, NULL,
-         "Compute the run once more, for as many fields of the block as the film shows",
-         .flag = &film.fields},
-        {"title", 0, "WORDS", "Words above it; `none`; by default the scene's title",
-         .word = &film.title},
-        {"dark", 0, NULL, "Light lines on dark paper", .flag = &film.dark},
-        option_overwrite(&film.overwrite),
-        option_trust(&film.trust),
+        {"fields", 0, NULL, NULL, .flag = &fields},
+        {"dark", 0, NULL, "Light lines on dark paper", .flag = &film.style.dark},
+        option_overwrite(&film.style.overwrite),
         {"quiet", 'q', NULL, "Print nothing but errors", .flag = &quiet},
         {0}};
     int status = options_read(command, options, argc, argv, &result);
+    if (status == 0 && fields)
+        status = report_misuse("--fields is gone: run the scene with --set output.fields=film, and "
+                               "film that result");
     if (status == 0) status = read_number("--seconds", seconds, &film.seconds);
     if (status == 0) status = read_number("--magnification", magnification, &film.magnification);
-    if (status == 0) status = read_number("--depth", depth, &film.depth);
     if (status == 0 && rate) status = option_count("--fps", rate, 1, RATE_MAX, &film.rate);
     int end = 0;
     if (status == 0 && size &&
         (sscanf(size, "%dx%d%n", &film.width, &film.height, &end) != 2 || size[end] ||
          film.width <= 0 || film.height <= 0))
         status = report_misuse("--size %s: width and height in pixels are given as 1280x720", size);
-    if (status == 0) status = option_may_write(film.path, film.overwrite);
+    if (status == 0) status = option_may_write(film.path, film.style.overwrite);
     if (status != 0) return status;
 
     // results/fig1/ becomes fig1.mp4.
@@ -103,9 +91,12 @@ int command_film(const Command *command, int argc, char **argv)
     progress_end(&progress);
     if (!done) return report_error(&err);
     if (!quiet) say("film: %s\n", film.path);
-    if (!quiet && !film.fields && still > STILL_MOST)
+    if (!quiet && still == 0)
+        say("It shows no block, as the run stored no fields of it then: run the scene with --set "
+            "output.fields=film for that.\n");
+    if (!quiet && still > STILL_MOST)
         say("Its block stands still for up to %.1f s while time goes on: fields are stored too "
-            "seldom for slow motion. With --fields as many are computed as the film shows.\n",
+            "seldom for slow motion. Run the scene with --set output.fields=film for more.\n",
             still);
     return 0;
 }

@@ -12,23 +12,10 @@
 
 enum { PATH_SIZE = 1200, WORDS_SIZE = 2000 };
 
-// The options of a picture, as PICTURE_OPTIONS has them.
-enum {
-#define X(name, ...) PICTURE_##name,
-    PICTURE_OPTIONS(X) PICTURE_OPTION_COUNT
-#undef X
-};
-
-static const char *const picture_options[PICTURE_OPTION_COUNT] = {
-#define X(name, ...) #name,
-    PICTURE_OPTIONS(X)
-#undef X
-};
-
 // The module that draws them checks the figures: it knows which there are.
 int command_render(const Command *command, int argc, char **argv)
 {
-    const char *from = NULL, *plot = NULL, *words[PICTURE_OPTION_COUNT] = {0};
+    const char *from = NULL, *plot = NULL;
     bool no_title = false;
     OptionWords figures = {0};
     PictureRequest request = {.style = {.format = "png"}};
@@ -47,11 +34,8 @@ int command_render(const Command *command, int argc, char **argv)
          "other, as panels.png",
          .word = &request.panels},
         {"format", 0, "png|pdf|svg", "Of the files; png by default", .word = &request.style.format},
-#define X(name, kind, low, high, figures, allowed, argument, meaning)                              \
-    {#name, 0, argument, meaning, .word = &words[PICTURE_##name]},
-        PICTURE_OPTIONS(X)
-#undef X
-            {"no-title", 0, NULL, "As --title none", .flag = &no_title},
+        option_pictures(&request.style, TAKEN_BY_FIGURES),
+        {"no-title", 0, NULL, "As --title none", .flag = &no_title},
         {"plot", 0, "PLOT", "Of a sweep: draw this, as in '{x: load.pressure, y: mu_M}'",
          .word = &plot},
         {"of", 0, "FIELD",
@@ -76,10 +60,6 @@ int command_render(const Command *command, int argc, char **argv)
     int status = options_read(command, options, argc, argv, &from);
     if (status != 0) return status;
     if (no_title) request.style.title = "none";
-    for (int32_t k = 0; k < PICTURE_OPTION_COUNT; ++k)
-        if (words[k] &&
-            !amontons_picture_option(&request.style, picture_options[k], words[k], &err))
-            return report_misuse("--%s", err.message);
 
     // A plot is a description, also one that a sweep leaves: JSON is YAML.
     char path[PATH_SIZE];

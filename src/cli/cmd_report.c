@@ -9,26 +9,25 @@
 
 int command_report(const Command *command, int argc, char **argv)
 {
-    const char *first = NULL, *file = NULL, *cycle = NULL;
+    const char *first = NULL, *file = NULL;
     char path[AMONTONS_PATH_SIZE];
     OptionWords results = {0};
     Command taken = *command;
-    bool overwrite = false;
+    PictureStyle style = {0};
     Error err = {0};
     const Option options[] = {
         {"output", 'o', "FILE.html",
          "The page (default: RESULT/report.html; of several runs comparison.html, in the current "
          "folder)",
          .word = &file},
-        {"cycle", 0, "first|last|N|all",
-         "Of one run: which cycle its figures show, as in `amontons render`", .word = &cycle},
-        option_overwrite(&overwrite),
+        option_pictures(&style, TAKEN_BY_PAGES),
+        option_overwrite(&style.overwrite),
         {0}};
     taken.all = &results;
     int status = options_read(&taken, options, argc, argv, &first);
     if (status != 0) return status;
     if (file && !*file) return report_misuse("-o: the file has no name");
-    if ((status = option_may_write(file, overwrite)) != 0) return status;
+    if ((status = option_may_write(file, style.overwrite)) != 0) return status;
 
     if (!file) {
         // In the result's folder, whose path may end with slashes and has an argument's length.
@@ -42,7 +41,7 @@ int command_report(const Command *command, int argc, char **argv)
     }
 
     if (!file) file = path;
-    if (!amontons_report(results.list, results.count, file, cycle, overwrite, &err))
+    if (!amontons_report(results.list, results.count, file, &style, &err))
         return report_error(&err);
     say("report written: %s\n", file);
     return 0;

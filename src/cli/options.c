@@ -12,13 +12,26 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { KEY_FIRST = 1000, OPTIONS_MAX = 40 };   // keys of argp without a letter: from KEY_FIRST on
+// Keys of argp without a letter: from KEY_FIRST on; those of pictures from KEY_PICTURES on.
+enum { KEY_FIRST = 1000, KEY_PICTURES = 2000, OPTIONS_MAX = 60 };
+
+static const struct {
+    const char *name, *argument, *meaning;
+    int32_t taker;
+} PICTURES[] = {
+#define X(name, kind, low, high, figures, taker, allowed, argument, meaning)                       \
+    {#name, argument, meaning, taker},
+    PICTURE_OPTIONS(X)
+#undef X
+};
+enum { PICTURES_COUNT = sizeof PICTURES / sizeof *PICTURES };
 
 typedef struct Reading {
     const Option *options;
     const char *argument;
     OptionWords *all;   // arguments; NULL: one is taken
     bool too_many;   // of them
+    Error wrong;   // the first option of a picture that is
 } Reading;
 
 static int option_key(const Option *options, int32_t k)
@@ -59,6 +72,12 @@ static error_t take_word(int key, char *word, struct argp_state *state)
     }
     for (int32_t k = 0; reading->options[k].name; k++) {
         const Option *option = &reading->options[k];
+        int32_t p = key - KEY_PICTURES;   // argp's own keys lie beyond them
+        if (option->style && p >= 0 && p < PICTURES_COUNT) {
+            Error *wrong = reading->wrong.code ? &(Error){0} : &reading->wrong;
+            amontons_picture_option(option->style, PICTURES[p].name, word, wrong);
+            return 0;
+        }
         if (option_key(reading->options, k) != key) continue;
         if (option->flag) *option->flag = true;
         if (option->word) *option->word = word ? word : "";
@@ -97,20 +116,29 @@ int options_read(const Command *command, const Option *options, int argc, char *
     Reading reading = {.options = options, .all = command->all};
     struct argp argp = {
         .options = known, .parser = take_word, .args_doc = command->argument, .doc = command->help};
-    for (int32_t k = 0; k < OPTIONS_MAX && options[k].name; k++)
-        known[k] = (struct argp_option){
+    for (int32_t k = 0, count = 0; options[k].name && count < OPTIONS_MAX; k++) {
+        for (int32_t p = 0; options[k].style && p < PICTURES_COUNT; p++)
+            if (PICTURES[p].taker >= options[k].taker)
+                known[count++] = (struct argp_option){.name = PICTURES[p].name,
+                                                      .key = KEY_PICTURES + p,
+                                                      .arg = PICTURES[p].argument,
+                                                      .doc = PICTURES[p].meaning};
+        if (options[k].style) continue;
+        known[count++] = (struct argp_option){
             .name = options[k].name,
             .key = option_key(options, k),
             .arg = options[k].argument,
             .flags = (options[k].flag && options[k].word ? OPTION_ARG_OPTIONAL : 0) |
                      (options[k].meaning ? 0 : OPTION_HIDDEN),
             .doc = options[k].meaning};
+    }
     argp_err_exit_status = amontons_error_exit_status(ERROR_INPUT);
     snprintf(name, sizeof name, "amontons %s", command->name);
     argv[0] = name;
     argp_parse(&argp, argc, argv, 0, NULL, &reading);
     *argument = reading.argument;
     guard_end(true);   // argp itself may end the program until here
+    if (reading.wrong.code) return report_misuse("--%s", reading.wrong.message);
     if (!command->argument && reading.argument)
         return report_misuse("%s takes no argument, `%s` is one", command->name, reading.argument);
     if (!command->argument) return 0;
@@ -161,6 +189,11 @@ int option_may_write(const char *named, bool overwrite)
     struct stat status;
     if (!named || overwrite || lstat(named, &status) != 0 || S_ISDIR(status.st_mode)) return 0;
     return report_misuse("%s is there already: name another file, or say --overwrite", named);
+}
+
+Option option_pictures(PictureStyle *style, int32_t taker)
+{
+    return (Option){.name = "", .style = style, .taker = taker};
 }
 
 Option option_trust(bool *trust)

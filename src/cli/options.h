@@ -24,6 +24,9 @@ typedef struct Option {
     bool *flag;
     const char **word;   // the last one given
     OptionWords *words;   // all of them, also `--set a=1 b=2`
+    // A row of this kind stands for all of PICTURE_OPTIONS that `taker` takes; its name is "".
+    PictureStyle *style;
+    int32_t taker;
 } Option;
 
 typedef struct Command Command;
@@ -60,6 +63,9 @@ int option_may_write(const char *named, bool overwrite);
 
 // `--trust`, of every command that reads meshes: a .geo may run commands.
 Option option_trust(bool *trust);
+
+// The options of a picture, film or page, which go into `style`.
+Option option_pictures(PictureStyle *style, int32_t taker);
 
 // Prints "amontons: error: ..." and gives the exit status that belongs to it.
 int report_error(const Error *err);

@@ -56,19 +56,10 @@ bool model_lay_gaps(Model *model, Error *err)
     const Scene *scene = model->scene;
     Interface *interface = &model->interface;
     Formula formula;
-    double radius = scene->contact.radius;
     bool profile = *scene->contact.profile;
-    if (!(radius > 0) && !*scene->contact.gap && !profile) return true;
+    if (!*scene->contact.gap && !profile) return true;
     if (!interface->gap && !(interface->gap = NEW_ARRAY(double, interface->contact_count, err)))
         return false;
-
-    if (radius > 0) {
-        // The middle is that of the block, which begins at x = 0 or anywhere.
-        for (int32_t i = 0; i < interface->contact_count; i++) {
-            double x = interface->x[i] - model->middle;
-            interface->gap[i] += x * x / (2 * radius);
-        }
-    }
 
     // The formula: in the plane it is read once, in space anew for the y of each node.
     for (int32_t i = 0; *scene->contact.gap && i < interface->contact_count; i++) {

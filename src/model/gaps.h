@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The shape of the substrate: contact.radius, contact.gap and contact.profile. Called by
+// The shape of the substrate: contact.gap and contact.profile. Called by
 // model/obtain and run/static/static_solve when the interface is known.
 #ifndef AMONTONS_MODEL_GAPS_H
 #define AMONTONS_MODEL_GAPS_H

@@ -8,6 +8,7 @@
 #include "io/files/part_file.h"
 #include "page/pages.h"
 #include "page/run_source.h"
+#include "render/picture_options.h"
 #include "run/result/own_file.h"
 #include "run/result/pictures.h"
 
@@ -19,8 +20,7 @@ typedef struct ReportRequest {
     const char *const *results;   // [count]
     int32_t count;
     const char *file;
-    const char *cycle;
-    bool overwrite;
+    PictureStyle style;
 } ReportRequest;
 
 static bool write_file(void *context, FILE *reply, Error *err)
@@ -37,15 +37,15 @@ static bool write_file(void *context, FILE *reply, Error *err)
                  "%s is a sweep: only runs are compared; a sweep has its own page", folder);
     }
     bool sweep = count == 1 && folder_holds(request->results[0], "sweep.csv", NULL);
-    if (request->cycle && (sweep || count > 1))
+    if (request->style.cycle && (sweep || count > 1))
         FAIL(err, ERROR_INPUT, "a cycle has a meaning for the page of one run alone");
-    TRY(html = html_create(request->file, request->overwrite, err));
+    TRY(html = html_create(request->file, request->style.overwrite, err));
     if (count > 1)
         TRY(compare_page_write(html, request->results, count, err));
     else if (sweep)
         TRY(sweep_page_write(html, request->results[0], err));
     else
-        TRY(run_page_write(html, request->results[0], request->cycle, err));
+        TRY(run_page_write(html, request->results[0], request->style.cycle, err));
     return html_finish(html, err);
 cleanup:
     html_abandon(html);
@@ -53,11 +53,11 @@ cleanup:
 }
 
 // A stranger's history may crash HDF5, or keep it busy for ever.
-bool amontons_report(const char *const *results, int32_t count, const char *file, const char *cycle,
-                     bool overwrite, Error *err)
+bool amontons_report(const char *const *results, int32_t count, const char *file,
+                     const PictureStyle *style, Error *err)
 {
     NUMBERS_HAVE_A_POINT;
-    ReportRequest request = {results, count, file, cycle, overwrite};
+    ReportRequest request = {results, count, file, style ? *style : (PictureStyle){0}};
     ChildWork work = {.path = count > 0 ? results[0] : "",
                       .reader = "HDF5 or VTK",
                       .seconds = SECONDS_MAX,
@@ -67,6 +67,7 @@ bool amontons_report(const char *const *results, int32_t count, const char *file
     char part[PATH_MAX + 8];
     bool left = part_file_name(file, part) && open_is_there(part);   // by whom, is not known
     if (count < 1) FAIL(err, ERROR_INPUT, "a report needs a result folder");
+    TRY(picture_options_fit_taker(&request.style, TAKEN_BY_PAGES, err));
     for (int32_t k = 0; k < count; k++) TRY(own_file_adopt(results[k], err));
     TRY(child_do(&work, err));
 cleanup:

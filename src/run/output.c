@@ -175,9 +175,12 @@ bool output_open(Simulation *simulation, Error *err)
                             .at_events = scene->output.fields_at_events};
         if (scene->output.fields_film) {
             double V = fabs(scene->rod.velocity), U = scene->time.until_U;
-            double way = U > 0 ? U : V * scene->time.until_t, step = scene->output.film_step;
+            double way = U > 0 ? U : V * scene->time.until_t;
+            double begin = fmax(def.from_U, V * def.from_t);
+            double end = fmin(way, fmin(def.to_U, V * def.to_t));
+            if (end > begin) way = end - begin;   // the window's part of it
             fields.at_events = true;
-            fields.every_U = fields.every_slip = step > 0 ? step : way / FILM_PARTS;
+            fields.every_U = fields.every_slip = way / FILM_PARTS;
         }
         if (!fields_create(&fields, simulation->folder.path, &simulation->model.mesh,
                            &simulation->model.interface, &simulation->fields, err))

@@ -191,14 +191,11 @@ static const SceneKey keys[] = {
         "Friction of single contact groups, a list of {group: NAME, ...} with those of law, "
         "mu_static, mu_kinetic, critical_velocity, formula and along that differ there.",
         .items = &scene_contact_items),
-    NUMBER(contact.radius, "length", RANGE_NOT_NEGATIVE, "0",
-           "The substrate falls away from the middle of the block as x^2 / (2 radius); 0: it is "
-           "flat."),
     WORDS(
         KEY_TEXT, contact.gap, NULL,
         "How far the substrate lies below z = 0: a formula of x (and y), as in `max(0, 0.1 - x)^2 "
         "/ 0.4`, a trailing edge rounded by a radius of 0.2, or `points(x, 0, 1e-3, 0.5, 0, ...)`, "
-        "a measured profile. It adds to radius and to what the mesh's own contact curves leave."),
+        "a measured profile. It adds to what the mesh's own contact curves leave."),
     WORDS(KEY_TEXT, contact.profile, NULL,
           "The same as a file, relative to the scene's folder: a line for each point, x and gap, "
           "in space also x, y and gap (a height map), over all of the contact. A first line may "
@@ -402,6 +399,15 @@ const SceneKey *scene_keys(int32_t *count)
     return keys;
 }
 
+// Keys of earlier versions that are gone, and what takes their place.
+static const struct {
+    const char *name, *instead;
+} retired_keys[] = {
+    {"contact.radius", "a round contact is a formula, `contact.gap: \"(x - X)^2 / (2 * R)\"`, "
+                       "where X is the x of the "
+                       "block's middle and R the radius; a radius of 0 is left out"},
+};
+
 int32_t scene_key_index(const char *name)
 {
     for (int32_t k = 0; k < KEY_COUNT; k++)
@@ -459,4 +465,16 @@ const char *scene_key_nearest(const char *name)
     int32_t nearest = text_nearest(name, names, COUNT);
     if (nearest < 0) nearest = text_nearest(last_word(name), words, COUNT);
     return nearest < 0 ? NULL : names[nearest];
+}
+
+bool scene_key_refuse(const YamlDocument *document, YamlNode node, const char *name, Error *err)
+{
+    for (size_t k = 0; k < sizeof retired_keys / sizeof retired_keys[0]; k++)
+        if (strcmp(retired_keys[k].name, name) == 0)
+            return yaml_key_error(document, node, err, "%s: this key of version 0.2 is gone: %s",
+                                  name, retired_keys[k].instead);
+    const char *nearest = scene_key_nearest(name);
+    return yaml_key_error(
+        document, node, err, "%s: unknown key%s%s%s (`amontons info keys` lists them all)", name,
+        nearest ? "; did you mean `" : "", nearest ? nearest : "", nearest ? "`?" : "");
 }

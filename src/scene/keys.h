@@ -112,6 +112,9 @@ bool scene_key_is_group(const char *name);   // "material", "time.until"
 int32_t scene_key_above(const char *name, const char **part);
 // The known key or group (of keys) nearest to `name`; NULL when none is near.
 const char *scene_key_nearest(const char *name);
+// Refuses `name`, which is no key of a scene, at the key of `node`: says what takes the place of a
+// key that is gone, else which known one is nearest. Returns false.
+bool scene_key_refuse(const YamlDocument *document, YamlNode node, const char *name, Error *err);
 
 // Least and largest size of a number that is not 0. Beyond them a product of some numbers is 0 or
 // infinite, and loops that double a step do not end.

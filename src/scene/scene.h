@@ -81,7 +81,6 @@ typedef struct Scene {
     SceneFrictionKeys friction_keys;
     SceneContactLaws contact_laws;   // friction.contacts
     struct {
-        double radius;   // of the substrate's curvature; 0: flat
         char gap[SCENE_TEXT_SIZE];   // formula of x, length; empty: 0
         char profile[SCENE_TEXT_SIZE];   // file (scene/profile), resolved like mesh.file; empty: 0
     } contact;
@@ -142,7 +141,6 @@ typedef struct Scene {
         bool fields_every_step, fields_at_events, fields_film;
         SceneWindow window;
         SceneProbes probes;   // points inside the bodies
-        double film_step;   // no key: between two files of a film, length; 0: by time.until
         bool whole_block;   // not a key: the whole mesh is wanted by the caller of the library
         SceneNames figures;   // names of PICTURE_FIGURES
         char cycle[SCENE_TEXT_SIZE];   // that they show; empty: as they choose

@@ -136,11 +136,7 @@ static bool gather(Reader *reader, const char *name, const SceneValue *value, Er
         return !has_children || gather_children(reader, name, value, err);
     }
     if (scene_key_is_group(name)) return gather_children(reader, name, value, err);
-    const char *nearest = scene_key_nearest(name);
-    return yaml_key_error(value->document, value->node, err,
-                          "%s: unknown key%s%s%s (`amontons info keys` lists them all)", name,
-                          nearest ? "; did you mean `" : "", nearest ? nearest : "",
-                          nearest ? "`?" : "");
+    return scene_key_refuse(value->document, value->node, name, err);
 }
 
 // A value given for `name` from outside of the file; `mesh.set.NAME` sets a single parameter,

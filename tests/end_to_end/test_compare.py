@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Measurements beside what is computed: what each figure compares, and its misfit, worked out once more from history.h5 and
-run.json; the tables that go with figures; compare in scenes, plots and on the command line; films with fields made for them."""
+run.json; the tables that go with figures; compare in scenes, plots and on the command line."""
 import csv
 import json
 import os
@@ -12,7 +12,6 @@ from pathlib import Path
 
 import h5py
 import numpy as np
-from PIL import Image
 
 PROGRAM = Path(os.environ["AMONTONS_BIN"]) / "amontons"
 SOURCE = Path(os.environ.get("AMONTONS_SOURCE", Path(__file__).resolve().parents[2]))
@@ -315,34 +314,6 @@ class Compared(unittest.TestCase):
         self.assertEqual((self.folder / "study/hand-compared.csv").read_text().splitlines(), ["x,y,error,computed", "10,1.5,,1"])
         (self.folder / "study/hand.csv").write_text("a,b\n10,1.5\n")
         self.assertIn("it needs the columns x and y", call(self.folder, "render", "study/hand.yaml", status=2).stderr)
-
-    def film(self, name, *words, status=0):
-        done = call(self.folder, "film", "out", "-o", f"{name}/", "--cycle", "last", "--seconds", "30", "--fps", "5", "--size", "640x360",
-                    "--title", "none", *words, status=status)
-        return done.stderr if status else [np.asarray(Image.open(path)) for path in sorted((self.folder / name).glob("*.png"))]
-
-    def test_a_film_with_fields_of_its_own(self):
-        """The run stored none; its film has a block, which moves from frame to frame where slip is rapid."""
-        before = sorted(path.relative_to(self.folder) for path in (self.folder / "out").rglob("*"))
-        frames = self.film("moving", "--fields")
-        self.assertEqual(sorted(path.relative_to(self.folder) for path in (self.folder / "out").rglob("*")), before)
-        block = [frame[60:210, 10:300].astype(int) for frame in frames]
-        moved = [np.abs(b - a).max() > 0 for a, b in zip(block, block[1:])]
-        self.assertGreater(np.mean(moved), 0.8, "every frame but a few shows another state of the block")
-        plain = [frame[60:210, 10:300].astype(int) for frame in self.film("plain")]
-        self.assertGreater(np.abs(plain[5] - block[5]).max(), 100, "without fields there is none")
-
-    def test_a_film_of_another_run_is_refused(self):
-        report = self.folder / "out/run.json"
-        kept = report.read_text()
-        try:
-            report.write_text(kept.replace('"pressure": 0.003', '"pressure": 0.0031'))
-            said = self.film("wrong", "--fields", status=2)
-        finally:
-            report.write_text(kept)
-        self.assertIn("the run does not come out as it is stored", said)
-        self.assertEqual(list((self.folder / "out").glob("film.*")), [])
-        self.assertFalse((self.folder / "wrong").exists() and list((self.folder / "wrong").glob("*.png")))
 
 
 if __name__ == "__main__":

@@ -24,6 +24,15 @@ PROGRAM = Path(os.environ["AMONTONS_BIN"]) / "amontons"
 SIZE, RATE, SECONDS = (640, 360), 10, 2
 SLOW, FAST = 0.5, 50.0           # slip rates over V: before and in the last tenth of the history
 DECADES = (-2, 2)                # of the scale: from V/100 to the half decade above 50 V
+WINDOW = (0.0048, 0.0066)        # of U: a cycle
+SCENE = f"""mesh: {{file: {os.environ["AMONTONS_SOURCE"]}/meshes/block.geo, set: {{length: 1, height: 0.5, nx: 40, nz: 20}}}}
+material: {{young: 1, poisson: 0.34, density: 1, eta1: 1, eta2: 1}}
+friction: {{mu_static: 0.38, mu_kinetic: 0.1, critical_velocity: 3.4e-4}}
+load: {{pressure: 0.003}}
+rod: {{velocity: 1e-5, height: 0.25, width: 0.05}}
+time: {{until: {{U: 0.007}}}}
+output: {{figures: [], fields: film, window: {{from_U: {WINDOW[0]}, to_U: {WINDOW[1]}}}}}
+"""
 FIELDS = {0.0: 0.0, 40.0: 0.5, 80.0: 1.0}   # time: velocity of the whole block
 
 
@@ -174,14 +183,14 @@ class Films(OfHistory):
 
     def test_sparse_fields_are_said(self):
         """Of the 2 s rapid slip has 1 and the time from 60 to 90, which the field stored at 80 is the nearest to, a third; with
-        a field in every tenth of a second of film, or none, nothing is said."""
+        a field in every tenth of a second of film nothing is said; without any that there is no block."""
         result = self.folder / "sparse"
         make_history(result)
-        self.assertNotIn("--fields", film(result, self.folder / "none.mp4").stdout)
+        self.assertRegex(film(result, self.folder / "none.mp4").stdout, "shows no block.*--set output.fields=film")
         make_fields(result)
-        said = re.search(r"stands still for up to (\d\.\d) s .*--fields", film(result, self.folder / "sparse.mp4").stdout)
+        said = re.search(r"stands still for up to (\d\.\d) s .*--set output.fields=film", film(result, self.folder / "sparse.mp4").stdout)
         self.assertAlmostEqual(float(said[1]), 1 + 1 / 3, delta=0.2)   # eased at both ends
-        self.assertNotIn("--fields", film(result, self.folder / "early.mp4", "--seconds", "1", "--to", "t=80").stdout)
+        self.assertNotIn("output.fields", film(result, self.folder / "early.mp4", "--seconds", "1", "--to", "t=80").stdout)
         self.assertEqual(film(result, self.folder / "quiet.mp4", "--quiet").stdout, "")
 
     def test_fields(self):
@@ -201,6 +210,23 @@ class Films(OfHistory):
             stored = FIELDS[min(FIELDS, key=lambda when: abs(when - t))]
             wanted = bar[int(round(stored * (len(bar) - 1)))]
             self.assertLessEqual(np.abs(middle - wanted).max(), 6, f"t = {t}")
+
+
+class OfRun(unittest.TestCase):
+    def test_a_run_that_stores_fields_for_a_film(self):
+        """In a window from one U to another: the block moves from frame to frame, also where slip is rapid, and stands outside of it."""
+        folder = Path(tempfile.mkdtemp(prefix="amontons_film_"))
+        self.addCleanup(shutil.rmtree, folder)
+        (folder / "scene.yaml").write_text(SCENE)
+        subprocess.run([PROGRAM, "run", folder / "scene.yaml", "-o", folder / "result", "--quiet"], check=True,
+                       env=os.environ | {"AMONTONS_CACHE": str(folder / "cache")})
+        said = film(folder / "result", folder / "frames", "--from", f"U={WINDOW[0]}", "--to", f"U={WINDOW[1]}", "--seconds", "15").stdout
+        self.assertNotIn("output.fields", said)
+        block = decode(folder / "frames/frame-%04d.png")[:, 60:210, 10:300]
+        moved = [np.abs(b - a).max() > 0 for a, b in zip(block, block[1:])]
+        self.assertGreater(np.mean(moved), 0.8, "every frame but a few shows another state of the block")
+        said = film(folder / "result", folder / "all", "--seconds", "10").stdout
+        self.assertRegex(said, "stands still for up to")
 
 
 class Ends(OfHistory):
@@ -266,6 +292,8 @@ class Ends(OfHistory):
         self.refused("no bulk sliding", options=("--cycle", "last"))
         self.refused("10, 20, 25 or 50", name="film.gif", options=("--fps", "30"))
         self.refused("there is no field called", "von_mises", options=("--of", "heat"))
+        self.refused("of velocity: the run stored no fields", "output: {fields: film}", options=("--of", "velocity"))
+        self.refused("--fields is gone", "--set output.fields=film", options=("--fields",))
         self.refused("no history", result=self.folder)
 
     def test_frames_are_not_mixed(self):

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Contacts that are not flat: a parabola as contact.radius, as a formula and as the mesh's own shape gives Hertz's
-contact; a run comes to rest at the static state and, pushed slowly, slips at the rim first, explicit steps alike; a shape out of the cache is the one put in; what cannot be is refused with its place."""
+"""Contacts that are not flat: a parabola as a formula and as the mesh's own shape gives Hertz's contact; a run comes to rest at the static state and, pushed slowly, slips at the rim first, explicit steps alike; a shape out of the cache is the one put in; what cannot be is refused with its place."""
 import json
 import os
 import shutil
@@ -29,7 +28,7 @@ STILL = ["friction.mu_static=0", "rod.kind=none", "load.supports=[{group: top, d
 FINE = ["load.pressure=1e-4", "mesh.set={length: 2, height: 1, nx: 40, nz: 20, order: 2, grade_x: 0.02, grade_z: 40}"]
 RADIUS = 10
 HALF_WIDTH = (4 * FORCE * RADIUS * (1 - NU ** 2) / numpy.pi) ** 0.5
-PARABOLA = "contact={radius: 10}"
+PARABOLA = "contact={gap: (x - 1)^2 / 20}"
 
 
 def width_of(x, force):
@@ -73,9 +72,7 @@ class Gaps(OwnCache):
             x, force = self.static(name, *FINE, setting)
             self.assertLess(abs(width_of(x, force) / HALF_WIDTH - 1), 3e-3, name)
             self.assertLess(numpy.abs(force[numpy.abs(x - 1) > 1.1 * HALF_WIDTH]).max(), 1e-6 * force.max())
-        x, floor = self.static("coarse", PARABOLA)
-        _, formula = self.static("formula", "contact={gap: (x - 1)^2 / 20}")
-        numpy.testing.assert_allclose(formula, floor, rtol=0, atol=1e-9 * floor.max())
+        _, floor = self.static("coarse", PARABOLA)
         self.assertGreater((floor < 1e-6 * floor.max()).sum(), 3)
 
     def test_slow_limit(self):
@@ -197,7 +194,7 @@ class Gaps(OwnCache):
                 ("run", "contact.gap=x - 1", ["contact.gap", "at x = 0 the gap is -1", ">= 0"]),
                 ("run", "contact.gap=y", ["contact.gap", "y"]),
                 ("run", "contact.gap=log(x)", ["contact.gap", "at x = 0"]),
-                ("model1d", "contact.radius=3", ["contact.radius", "flat"])):
+                ("model1d", "contact.gap=0.01*x", ["contact.gap", "flat"])):
             said = self.call(command, setting, "friction={mu_static: 0.3, mu_kinetic: 0.1, critical_velocity: 1e-3}",
                              status=2, flags=("-o", self.folder / "no", "--overwrite"))
             for word in words:

@@ -167,7 +167,7 @@ class Run(InFolder):
         for call in (lambda: amontons.run(FIG1, SMALL, cut), lambda: amontons.run(cut), lambda: amontons.info(cut),
                      lambda: amontons.run(FIG1, {**SMALL, "title": "a\0b"}), lambda: simulation.save(cut),
                      lambda: simulation.restore(cut), lambda: amontons.static(FIG1, SMALL, cut),
-                     lambda: amontons.film(result, cut + ".gif"), lambda: amontons.film(result, "film.gif", end="U=1\0"),
+                     lambda: amontons.film(result, cut + ".gif"), lambda: amontons.film(result, "film.gif", to="U=1\0"),
                      lambda: amontons.render(result, ["force\0"]), lambda: amontons.render(result, ["force"], format="png\0"),
                      lambda: amontons.render_plot(cut, "a.png"), lambda: amontons.info(FIG1, picture=cut),
                      lambda: amontons.sweep(cut, folder=self.folder / "sweep")):
@@ -479,7 +479,7 @@ class Commands(InFolder):
         found = amontons.compare(result, self.folder / "measured.csv", overwrite=True)
         self.assertEqual([found[name][0] for name in ("figure", "points", "covered")], ["force", 2, 1])
         self.assertAlmostEqual(found["misfit"][0], 0.01, delta=1e-6)
-        made = amontons.film(result, self.folder / "frames", seconds=0.2, rate=10, width=640, height=360, end="U=0.001")
+        made = amontons.film(result, self.folder / "frames", seconds=0.2, rate=10, width=640, height=360, to="U=0.001")
         self.assertEqual(sorted(path.name for path in made.iterdir()), ["amontons.files", "frame-0001.png", "frame-0002.png"])
         with self.assertRaisesRegex(amontons.InputError, ".mp4, .webm or .gif"):
             amontons.film(result, self.folder / "film.avi")

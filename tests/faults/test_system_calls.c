@@ -122,7 +122,8 @@ static bool report(Error *err)
 {
     char page[PLACE_SIZE + 20];
     snprintf(page, sizeof page, "%s/page.html", place);
-    return amontons_report((const char *const[]){result}, 1, page, NULL, true, err);
+    return amontons_report((const char *const[]){result}, 1, page,
+                           &(PictureStyle){.overwrite = true}, err);
 }
 
 static bool draw_sweep(Error *err)
@@ -174,7 +175,7 @@ static bool film(Error *err)
     char path[PLACE_SIZE + 20];
     snprintf(path, sizeof path, "%s/film.mp4", place);
     FilmRequest request = {
-        .path = path, .seconds = 0.1, .width = 640, .height = 360, .overwrite = true};
+        .path = path, .seconds = 0.1, .width = 640, .height = 360, .style.overwrite = true};
     return amontons_film(result, &request, err);
 }
 
@@ -182,7 +183,8 @@ static bool compare(Error *err)
 {
     char page[PLACE_SIZE + 20];
     snprintf(page, sizeof page, "%s/page.html", place);
-    return amontons_report((const char *const[]){result, result}, 2, page, NULL, true, err);
+    return amontons_report((const char *const[]){result, result}, 2, page,
+                           &(PictureStyle){.overwrite = true}, err);
 }
 
 // --- and how it may end -------------------------------------------------------------------------

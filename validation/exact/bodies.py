@@ -92,7 +92,7 @@ def line_contact(study, nu, stiffness):
     a = np.sqrt(4 * FORCE * RADIUS / (np.pi * modulus))
     mesh = ("{length: 2, height: 1, base_height: 1, behind: 1, before: 1, nx: 64, nz: 32, order: 2, grade_x: 0.03, "
             "grade_z: 40}")
-    sets = {"mesh.set": mesh, "material.plane": "strain", "material.poisson": nu, "contact": f"{{radius: {RADIUS}}}",
+    sets = {"mesh.set": mesh, "material.plane": "strain", "material.poisson": nu, "contact": f"{{gap: (x - 1)^2 / {2 * RADIUS}}}",
             "materials": f"{{base: {{young: {stiffness}}}}}", "load.pressure": FORCE / 2}
     held = "{group: bottom, direction: both}"
     normal = Static(study, HERE / "bodies.yaml", "hertz-two", {

@@ -345,7 +345,8 @@ def gap_of(dice, kind, shape, pressure, floor, strain, length):
     stiff = floor.young / (1 - floor.poisson**2) if strain else floor.young
     if kind == "radius":
         half = dice.uniform(0.3, 0.48)
-        return {"radius": number_of(length * half**2 * math.pi * stiff / (4 * pressure))}, pressure / (2 * half) * 4 / math.pi, {}
+        middle, radius = float(number_of(length)) / 2, number_of(length * half**2 * math.pi * stiff / (4 * pressure))
+        return {"gap": f'"(x - {middle:g})^2 / (2 * {radius})"'}, pressure / (2 * half) * 4 / math.pi, {}
     if kind == "edges":
         wide = dice.uniform(0.05, 0.3)
         high = dice.uniform(0.2, 2) * pressure * wide / stiff

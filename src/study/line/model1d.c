@@ -63,9 +63,9 @@ static bool check_input(const Scene *scene, const Model1dOptions *options, Error
         return REFUSE(
             err, "%s: friction.contacts, friction.along: the 1D model has one law along its line",
             path);
-    if (scene->contact.radius > 0 || *scene->contact.gap || *scene->contact.profile)
+    if (*scene->contact.gap || *scene->contact.profile)
         return REFUSE(
-            err, "%s: contact.radius, gap, profile: the 1D model's line lies on a flat substrate",
+            err, "%s: contact.gap, contact.profile: the 1D model's line lies on a flat substrate",
             path);
     if (scene->material.relaxation.count > 0)
         return REFUSE(err,

@@ -16,7 +16,7 @@ static char *page_of(const char *const *results, int32_t count)
     Error err = {0};
     int64_t live = memory_counters().live;
     snprintf(file, sizeof file, "%s/page.html", place);
-    if (!amontons_report(results, count, file, NULL, false, &err)) fail_msg("%s", err.message);
+    if (!amontons_report(results, count, file, NULL, &err)) fail_msg("%s", err.message);
     assert_int_equal(memory_counters().live, live);
     place_read(place, "page.html", text, sizeof text);
     unlink(file);
@@ -49,7 +49,7 @@ static void refuse(const char *const *results, int32_t count, const char *words)
     char file[PLACE_SIZE + 20];
     Error err = {0};
     snprintf(file, sizeof file, "%s/page.html", place);
-    assert_false(amontons_report(results, count, file, NULL, false, &err));
+    assert_false(amontons_report(results, count, file, NULL, &err));
     assert_int_equal(err.code, ERROR_INPUT);
     if (!strstr(err.message, words)) fail_msg("%s", err.message);
     assert_false(place_has(place, "page.html") || place_has(place, "page.html.part"));
@@ -70,7 +70,7 @@ TEST_BETWEEN(test_refused, begin, end)
     Error err = {0};
     snprintf(file, sizeof file, "%s/page.html", place);
     place_write(place, "page.html.part", "of somebody");   // is neither used nor removed
-    assert_false(amontons_report(results, 1, file, NULL, false, &err));
+    assert_false(amontons_report(results, 1, file, NULL, &err));
     assert_non_null(strstr(err.message, "page.html.part is there already"));
     assert_true(place_has(place, "page.html.part"));
 }

@@ -93,3 +93,17 @@ TEST(options_fit_their_figures)
         if (!fits && !strstr(err.message, cases[k].says)) fail_msg("%s", err.message);
     }
 }
+
+TEST(films_and_pages_take_less)
+{
+    const PictureStyle shown = {.from = "U=1", .cycle = "last", .title = "none", .depth = 1};
+    const PictureStyle wide = {.width = 100}, cycle = {.cycle = "last"};
+    Error err = {0};
+    assert_true(picture_options_fit_taker(&shown, TAKEN_BY_FILMS, &err));
+    assert_true(picture_options_fit_taker(&cycle, TAKEN_BY_PAGES, &err));
+    assert_false(picture_options_fit_taker(&wide, TAKEN_BY_FILMS, &err));
+    assert_non_null(strstr(err.message, "width has no meaning for a film"));
+    error_clear(&err);
+    assert_false(picture_options_fit_taker(&shown, TAKEN_BY_PAGES, &err));
+    assert_non_null(strstr(err.message, "has no meaning for a page"));
+}

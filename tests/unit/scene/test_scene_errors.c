@@ -34,6 +34,11 @@ static const BadScene bad_values[] = {
     {1, "zzzzzzzz: 1", "s.yaml:1:1: zzzzzzzz: unknown key (`amontons info keys`", {0}},
     {0, "output: {fields: {every: 1}}", "s.yaml:9:19: output.fields.every: unknown key", {0}},
     {1, "1: 2", "s.yaml:1:1: 1: unknown key", {0}},
+    // a key of an earlier version
+    {4,
+     "contact: {radius: 3}",
+     "s.yaml:4:11: contact.radius: this key of version 0.2 is gone",
+     {"`contact.gap: \"(x - X)^2 / (2 * R)\"`"}},
     // wrong types
     {4,
      "material: {poisson: abc}",
@@ -420,6 +425,7 @@ TEST(test_bad_overrides)
     } cases[] = {
         {"load.pressure=abc", "--set load.pressure:1:15: load.pressure: found `abc`", "a number"},
         {"load.presure=1", "--set load.presure:1:1: load.presure: unknown key", "`load.pressure`"},
+        {"contact.radius=3", "--set contact.radius:1:1: contact.radius: ", "`contact.gap: "},
         {"time.until.U== 6*load.presure",
          "--set time.until.U:1:14: time.until.U: ", "load.presure"},
         {"time.until.U== 0 - 1", "--set time.until.U, value of `= 0 - 1`:1:1: time.until.U", "-1"},

@@ -80,7 +80,7 @@ static bool check_given(const Study *study, const char *what, YamlNode item, boo
 // Whether it can be set is known here; whether its value is right when a scene is made.
 static bool check_key(const YamlDocument *document, YamlNode item, Error *err)
 {
-    const char *key = yaml_key(document, item), *nearest = scene_key_nearest(key), *part;
+    const char *key = yaml_key(document, item), *part;
     int32_t above = scene_key_above(key, &part), count;
     bool is_state = above >= 0 && scene_keys(&count)[above].items == &scene_state_items;
     bool is_known = scene_key_index(key) >= 0 || scene_key_is_group(key) ||
@@ -88,10 +88,7 @@ static bool check_key(const YamlDocument *document, YamlNode item, Error *err)
     if (strlen(key) >= STUDY_NAME_SIZE)
         yaml_key_error(document, item, err, "a key of more than %d bytes", STUDY_NAME_SIZE - 1);
     else if (!is_known)
-        yaml_key_error(document, item, err,
-                       "%s: unknown key of a scene%s%s%s (`amontons info keys` lists them all)",
-                       key, nearest ? "; did you mean `" : "", nearest ? nearest : "",
-                       nearest ? "`?" : "");
+        scene_key_refuse(document, item, key, err);
     return error_is_clean(err);
 }
 

@@ -93,7 +93,7 @@ TEST(test_push_never_pulls)
 TEST(test_cylinder_touches_in_the_middle)
 {
     StaticSummary summary = solve("friction: {law: coulomb, mu_static: 0.2}\n"
-                                  "contact: {radius: 10}\n"
+                                  "contact: {gap: (x - 0.5)^2 / 20}\n"
                                   "load: {pressure: 0.01}\n"
                                   "rod: {kind: none}");
     assert_int_equal(summary.open,

@@ -196,7 +196,6 @@ TEST(test_refusals)
         {"rod.stiffness=1", "rod.stiffness"},
         {"friction.contacts=[{group: contact, along: '1 + x'}]", "one law along its line"},
         {"friction.along='1 + x'", "one law along its line"},
-        {"contact.radius=3", "lies on a flat substrate"},
         {"contact.gap='0.001*x'", "lies on a flat substrate"},
         {"load.supports=[{group: leading, direction: x}]", "load.supports"},
         {"mesh.set.crown=0.01", "that are not flat"},

@@ -323,8 +323,10 @@ TEST(test_faults)
         const char *body, *message;
     } known[] = {
         {"varry: {}\n", ":2:1: study: unknown key `varry`; did you mean `vary`?"},
-        {"vary: {load.presure: [1]}\n", ":2:8: load.presure: unknown key of a scene; did you mean"},
-        {"set: {colour: red}\n", ":2:7: colour: unknown key of a scene ("},
+        {"vary: {load.presure: [1]}\n", ":2:8: load.presure: unknown key; did you mean"},
+        {"vary: {contact.radius: [1, 2]}\n",
+         ":2:8: contact.radius: this key of version 0.2 is gone"},
+        {"set: {colour: red}\n", ":2:7: colour: unknown key ("},
         {"cases: [{}, {rod: {kind: glued}}]\n", "rod.kind: found `glued`"},
         {"vary: {load.pressure: [1, -2]}\n", ":2:27: load.pressure: found `-2`; allowed"},
         {"vary: {load.pressure: 3}\n", ":2:23: load.pressure: found `3`; allowed: a list"},
