@@ -29,8 +29,8 @@ extern "C" {
     X(FIGURE_FIELD, "field", "a field of the block at one time")                                   \
     X(FIGURE_STRIP, "field-strip", "a field of the block in frames of one sliding")
 
-// How a picture is drawn, in ONE table: the options of `amontons render`, the keys of `page` in a
-// plot file, what Python's functions take, and the members of PictureStyle.
+// The options by which a picture is drawn, in ONE table: those of `amontons render`, the keys of
+// `page` in a plot file, what Python's functions take, and the members of PictureStyle.
 // X(name, kind, least, most, figures that take it ("": all; "plot": a plot file), words that are
 // allowed, argument, meaning)
 #define PICTURE_OPTIONS(X)                                                                         \
@@ -91,7 +91,7 @@ typedef struct PictureStyle {
     bool overwrite;   // what is there goes; else it is refused, if no list has it
     double height;   // mm; 0: as the figure asks
     double depth;   // how far below its floor a base is drawn, length; 0: all of it
-    // As PICTURE_OPTIONS has them; NULL: the default.
+    // The options of PICTURE_OPTIONS; NULL: the default.
     const char *style, *title, *inset, *legend, *limits, *from, *to, *cycle, *pixels, *line,
         *compare, *warnings;
 } PictureStyle;

@@ -91,7 +91,7 @@ Ticks axis_ticks(const Axis *axis, int32_t wanted)
     return axis->whole ? ticks_whole(&ticks, axis->low, axis->high) : ticks;
 }
 
-// As many ticks as leave room between their numbers.
+// Chooses as many ticks as leave room between their numbers.
 static Ticks ticks_along_x(const Page *page, const Axes *axes)
 {
     double room = axes->box.right - axes->box.left;
@@ -274,8 +274,8 @@ void axes_draw_left(const Page *page, const Axes *axes)
     draw_outline(page->canvas, &stroke, &axes->box);
 }
 
-// From the frame downwards: ticks, numbers, then the name in the middle with the power of ten at
-// its right.
+// Draws from the frame downwards: ticks, numbers, then the name in the middle with the power of ten
+// at its right.
 void axes_draw(const Page *page, const Axes *axes)
 {
     Ticks ticks = ticks_along_x(page, axes);

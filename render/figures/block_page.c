@@ -28,7 +28,8 @@ static const Color CONTOUR = {0.08f, 0.08f, 0.10f, 0.55f};
 static const Color LOAD_COLOR = {0.10f, 0.32f, 0.66f, 1};
 static const char PRESSURE_IN_SPACE[] =
     "pressure \u2212(~{\u03c3}_{xx} + ~{\u03c3}_{yy} + ~{\u03c3}_{zz})/3";
-// By the history's status: open, sticks, slips where friction weakens, slips where it does not.
+// Colour and name by the history's status: open, sticks, slips where friction weakens, slips where
+// it does not.
 static const struct {
     Color color;
     const char *name;
@@ -236,7 +237,7 @@ static void draw_load(const Page *page, const BlockPage *map, const Block *block
     }
 }
 
-// Where a height of the trailing face is drawn: between the nodes of it below and above.
+// Drawn place of a height of the trailing face: between the nodes of it below and above.
 static double drawn_height(const Block *block, double height, double face, double slack)
 {
     const FieldFrame *frame = &block->frame;

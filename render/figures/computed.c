@@ -34,8 +34,8 @@ void computed_choose_cycle(ResultView *view, int32_t cycle)
 
 // --- length over load ----------------------------------------------------------------------------
 
-// From the trailing end to the farthest point that slip has come to since the sliding before, be it
-// slow or in a precursor, against the largest F_T/F_N since then.
+// Finds the length from the trailing end to the farthest point that slip, slow or in a precursor,
+// has come to since the sliding before, against the largest F_T/F_N since then.
 static bool find_lengths(ResultView *view, Error *err)
 {
     int64_t first = 0, end = view->rows;

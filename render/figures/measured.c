@@ -37,7 +37,8 @@ typedef struct Column {
 
 static const Column NONE = {-1, -1, 1};
 
-// How many of the result's units one is. Normalised results have none: L_0, t_0, L_0/t_0 are 1.
+// Finds how many of the result's units one such unit is. Normalised results have none: L_0, t_0,
+// L_0/t_0 are 1.
 static bool unit_factor(const CsvTable *table, const ResultView *view, CsvUnit unit,
                         const char *dimension, Column *column, Error *err)
 {

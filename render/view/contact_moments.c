@@ -54,7 +54,7 @@ static bool take_event(const ResultView *view, const char *at, ContactMoments *m
     return true;
 }
 
-// How much of the contact rapid slip had come to at a step.
+// Area of the contact that rapid slip had come to at a step.
 static double area_reached(const ResultView *view, const ContactPlane *plane,
                            const ContactMoments *moments, int64_t row)
 {
@@ -71,7 +71,7 @@ static void add_row(ContactMoments *moments, int64_t row)
         moments->row[moments->count++] = row;
 }
 
-// How much of the contact slips at a step.
+// Area of the contact that slips at a step.
 static double area_slipping(const ResultView *view, const ContactPlane *plane, const double *rates,
                             int64_t row)
 {

@@ -33,8 +33,8 @@ typedef struct PointGroups {
 bool sparse_pattern_of_groups(const PointGroups *groups, int32_t width, SparsePattern *pattern,
                               Error *err);
 
-// Where (row, column) stands among the values; where the pattern has no such entry, the place of
-// another one of the row, which must have one.
+// Index of the entry (row, column) among the values. Where the pattern has no such entry it is that
+// of another entry of the row, which must have one.
 int32_t sparse_entry(const SparsePattern *pattern, int32_t row, int32_t column);
 
 // y = A x; values: [start[size]].

@@ -45,7 +45,7 @@ static cholmod_sparse pattern_view(const SparsePattern *pattern)
                             .packed = 1};
 }
 
-// Whether the analysis left the border last, in the caller's order.
+// True if the analysis left the border last, in the caller's order.
 static bool border_is_last(const SparseAnalysis *analysis, const int32_t *border)
 {
     int64_t count = analysis->border_count, first = analysis->size - count;

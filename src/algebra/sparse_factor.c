@@ -49,7 +49,7 @@ static bool factorise_alone(cholmod_sparse *matrix, cholmod_factor *numeric, cho
     return done;
 }
 
-// Not positive definite: a user's mesh or material can cause it.
+// The matrix may not be positive definite: a user's mesh or material can cause it.
 SparseFactor *sparse_factorise(SparseAnalysis *analysis, const double *values, Error *err)
 {
     cholmod_common *common = &analysis->common;

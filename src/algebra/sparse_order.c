@@ -122,7 +122,7 @@ typedef struct Plane {
     Side half;
 } Plane;
 
-// Whether a point of a set has a neighbour in it on the other side of the plane.
+// True if a point of a set has a neighbour in it on the other side of the plane.
 static bool reaches_over(const Dissection *all, int32_t point, int axis, int32_t plane_rank)
 {
     const SparsePattern *pattern = all->pattern;

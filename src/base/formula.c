@@ -457,7 +457,7 @@ static Range points_range(Range x, const Range *point, int32_t count)
         const double value[2] = {before[1].low, next[1].low};
         if (!(place[0] <= place[1])) return ANYTHING;
         if (k > 0 && k < count) {
-            // From a to b on a line through two points, which may be a jump.
+            // Integrate from a to b along a line through two points, which may be a jump.
             double a = fmax(x.low, place[0]), b = fmin(x.high, place[1]);
             double width = place[1] - place[0], rise = value[1] - value[0];
             if (a > b) continue;

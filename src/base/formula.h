@@ -37,7 +37,7 @@ typedef struct FormulaStep {
         // variable, which it is
 } FormulaStep;
 
-// As a list of steps on a stack: nothing is owned, and copies are as good.
+// A formula is a list of steps on a stack: nothing is owned, and copies are as good.
 typedef struct Formula {
     int32_t count;
     FormulaStep step[FORMULA_STEPS_MAX];

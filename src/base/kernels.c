@@ -7,7 +7,7 @@
 #include <stddef.h>
 #include <strings.h>
 
-// By the widest instructions that they use.
+// Kernels by the widest instructions that they use.
 typedef enum KernelLevel { LEVEL_SSE, LEVEL_AVX, LEVEL_AVX2, LEVEL_AVX512 } KernelLevel;
 static const char *const best_of[] = {
     [LEVEL_AVX] = "Sandybridge", [LEVEL_AVX2] = "Haswell", [LEVEL_AVX512] = "SkylakeX"};

@@ -128,7 +128,7 @@ static void print_mu_hold(const RunSummary *summary)
         say("the %s of %d load ratios at which the load dropped\n",
             summary->drop_period > 0 ? "lowest" : "lowest tenth", summary->drops);
 
-    // Whether the load drops behind it repeat.
+    // Say if the load drops behind it repeat.
     if (summary->drop_period > 1)
         say("%swhich repeat after %d\n", INDENT, summary->drop_period);
     else if (summary->drop_period == 0 && summary->drops_enough)

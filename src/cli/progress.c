@@ -114,7 +114,7 @@ static double begin_clock(Progress *progress, const struct timespec *now)
     return seconds_between(&progress->started, now);
 }
 
-// Whether a bar is drawn now, or a line printed.
+// True if a bar is drawn now, or a line printed.
 static bool is_due(const Progress *progress, double part, const struct timespec *now)
 {
     if (progress->style == PROGRESS_LINES) return (int32_t)(10 * part) > progress->tenths;

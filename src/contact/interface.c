@@ -12,7 +12,7 @@
 #include <math.h>
 #include <stdio.h>
 
-// How far outside the strip a rod node may lie, relative to the block's height: rounding only.
+// Largest distance of a rod node from the strip, relative to the block's height: rounding only.
 static const double STRIP_TOLERANCE = 1e-9;
 static const double LINE_ROUNDING =
     1e-6;   // of places along the contact, over the length of a cell
@@ -184,14 +184,14 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Where the strip lies along z and, in space, along y.
+// The rod's strip: its range along z and, in space, along y.
 typedef struct Strip {
     double low[2], high[2];   // length
     bool in_part;
 } Strip;
 
-// How much of the stretch of node k along one of the axes lies in the strip, 0 to 1. Without
-// in_part a node is in or out: 1 or 0.
+// Share of node k's part of the face, along one of the axes, that lies in the strip, 0 to 1.
+// Without in_part a node is in or out: 1 or 0.
 static double strip_share(const Mesh *mesh, const Strip *strip, const Face *face, int32_t k,
                           int32_t which)
 {

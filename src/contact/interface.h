@@ -91,8 +91,8 @@ static inline double interface_line_x(const Interface *interface, int32_t k)
     return interface->x[interface_line_node(interface, k)];
 }
 
-// How many contact nodes stand along its length: all of them in the plane; in space so many as if
-// cells were as long along the drive as across it.
+// Number of contact nodes along its length: all of them in the plane; in space as many as if cells
+// were as long along the drive as across it.
 double interface_nodes_along(const Interface *interface);
 
 static inline double interface_gap(const Interface *interface, int32_t i)

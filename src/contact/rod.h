@@ -69,8 +69,8 @@ double rod_arrival(const Rod *rod, double way);
 // It moves with V from `time` on, from where it is then.
 void rod_set_velocity(Rod *rod, double velocity, double time);
 
-// Where node j must go: the velocity bound of contact/contact_problem, from where it is without any
-// velocity (`position`), for a stage that ends at `time` and moves by `reach` times its velocity.
+// The velocity bound of node j of contact/contact_problem, from where it is without any velocity
+// (`position`), for a stage that ends at `time` and moves by `reach` times its velocity.
 double rod_bound(const Rod *rod, int32_t j, double position, double time, double reach);
 // The same against a rod on a spring that would be at `way` if it had no velocity.
 double rod_bound_on_spring(const Rod *rod, int32_t j, double position, double way, double reach);
@@ -78,7 +78,7 @@ double rod_bound_on_spring(const Rod *rod, int32_t j, double position, double wa
 // F_T, from the reactions on the interface [interface->count].
 double rod_force(const Interface *interface, const double *reaction);
 
-// How it moves and from where; its springs are the model's.
+// Lists how it moves and from where; its springs are the model's.
 void rod_archive(Rod *rod, Archive *archive);
 
 #endif

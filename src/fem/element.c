@@ -98,7 +98,7 @@ void element_matrices_clear(int32_t dof_count, ElementMatrices *out)
     out->dof_count = dof_count;
 }
 
-// By the element's own quadrature; in the plane per unit width.
+// Integrates with the element's own quadrature; in the plane per unit width.
 static void integrate(ElementKind kind, const MeshPlace *position,
                       const double elastic[STRAINS_MAX][STRAINS_MAX],
                       const double viscous[STRAINS_MAX][STRAINS_MAX], ElementMatrices *out)

@@ -100,8 +100,8 @@ double material_wave_damping(const Material *material, double length);
 // (tau/G, p/E'), E' that of uniaxial stress in the plane.
 double material_gradient(const Material *material, double pressure, double shear);
 
-// For the time scales of slip: c_L, but at most 2 c_S. (c_L grows without bound towards nu = 1/2 in
-// plane strain, while slip does not get faster.)
+// Speed that sets the time scales of slip: c_L, but at most 2 c_S. (c_L grows without bound towards
+// nu = 1/2 in plane strain, while slip does not get faster.)
 double material_slip_speed(const Material *material);
 
 // Linear elements would lock in it: area resists so much more than shape, in K or in C, that it is

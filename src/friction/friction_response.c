@@ -85,7 +85,7 @@ void friction_own_rates(const FrictionRates *rates, double *re, double *im)
     for (int32_t k = 0; k < n; k++) re[k] = INFINITY;
 }
 
-// By Gershgorin's circles first, which lie about the diagonal.
+// Gershgorin's circles, which lie about the diagonal, are asked first.
 bool friction_states_calm(const FrictionRates *rates, double reach)
 {
     double re[STATES_MAX], im[STATES_MAX] = {0};

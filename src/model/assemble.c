@@ -13,7 +13,7 @@
 #include <math.h>
 #include <stdio.h>
 
-// Where gmsh has to make it, the slowest part of a small run.
+// This is the slowest part of a small run where gmsh has to make the mesh.
 bool model_read_mesh(const ChildWatch *watch, Model *model, Error *err)
 {
     const Scene *scene = model->scene;

@@ -36,7 +36,7 @@ static bool wants_modes(const Scene *scene)
     return scene->output.fields || scene->output.whole_block || scene->output.probes.count > 0;
 }
 
-// As the scene says, else by the accuracy it wants.
+// The scene's own tolerance, else one that follows from the accuracy it wants.
 static double reduction_tolerance(const Scene *scene)
 {
     return scene->reduction.tolerance > 0 ? scene->reduction.tolerance
@@ -156,7 +156,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Whether the bulk is to be reduced. That takes implicit steps, viscosity in every region (else the
+// Decides if the bulk is reduced. That takes implicit steps, viscosity in every region (else the
 // basis would have to answer for a block that nothing holds together, as it does for all that is
 // between elastic and viscous), and states that the interface made: not a load put on at once, nor
 // a velocity that supports stop.

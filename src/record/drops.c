@@ -146,7 +146,7 @@ bool drops_record(void *self, const Observation *seen, Error *err)
     segments_follow(&drops->segments, seen);
     if (drops->settled < 0 && drops->segments.stuck == 0) drops->settled = drops->count;
 
-    // How far mu falls in the event under way.
+    // The fall of mu in the event under way.
     if (in_event) {
         drops->top = fmax(drops->top, seen->mu);
         drops->fall = fmax(drops->fall, drops->top - seen->mu);

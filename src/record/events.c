@@ -294,8 +294,8 @@ static bool follow_step(Events *events, const Observation *seen, Error *err)
         for (int32_t p = 1; p < interface->pad_count; p++)
             if (events->pads[p].fastest > events->pads[event->pad].fastest) event->pad = p;
 
-        // How much slipped in the step before, on the event's pad and in all. A cell in space is as
-        // long as the root of its mean area.
+        // The lengths that slipped in the step before, on the event's pad and in all. A cell in
+        // space is as long as the root of its mean area.
         const PadSum *before = &events->pads_before[event->pad];
         PadSize size = pad_size(interface, event->pad);
         event->slip_length = before->slipping / size.breadth;

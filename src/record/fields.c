@@ -111,7 +111,7 @@ bool fields_flush(Fields *fields, Error *err)
     return done;
 }
 
-// For one more time. The writer must be idle where there is none.
+// Makes room for one more time. The writer must be idle where there is none.
 static bool make_room(Fields *fields, Error *err)
 {
     if (fields->written < fields->room) return true;

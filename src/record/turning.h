@@ -20,8 +20,8 @@ typedef struct Turning {
 
 bool turning_record(void *self, const Observation *seen, Error *err);   // a Recorder
 
-// How far it took the block's sides along the drive, and the block across it, over the way along
-// the drive.
+// Way of the block's sides along the drive and of the block across it, over the way along the
+// drive.
 double turning_share(const Turning *turning);
 
 void turning_write_json(const Turning *turning, JsonWriter *json);   // results.turning

@@ -211,7 +211,7 @@ static bool transform_matrices(const Bulk *from, const Transform *by, Bulk *to, 
                                   .start = NEW_ARRAY(int32_t, (int64_t)by->count + 1, err)};
     if (!error_is_clean(err)) goto cleanup;
 
-    // How many entries each column has.
+    // Count the entries of each column.
     int64_t entries = 0;
     for (const TransformBlock *block = by->blocks; block < by->blocks + by->block_count; block++) {
         int64_t touched = 0;

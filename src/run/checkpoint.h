@@ -16,7 +16,7 @@ bool checkpoint_at_end(Simulation *simulation, Error *err);
 
 // That of `folder`. ERROR_INPUT: there is none.
 bool checkpoint_read(const char *folder, SavedState *state, Error *err);
-// Whether the history there is that of the checkpoint and can be gone on with (ERROR_INPUT).
+// Checks that the history there is that of the checkpoint and can be continued (else ERROR_INPUT).
 bool checkpoint_try_history(const char *folder, const HistoryEnd *end, Error *err);
 
 #endif

@@ -132,8 +132,8 @@ static void write_results(JsonWriter *json, const RunReport *report)
     json_end(json);
 }
 
-// Where the work since the rod's start went, per width in the plane; nothing of a run that failed
-// before there was a block to step.
+// Writes where the work since the rod's start went, per width in the plane. A run that failed
+// before there was a block to step has none.
 static void write_energy(JsonWriter *json, const Simulation *simulation)
 {
     const EnergyLedger *ledger = &simulation->control.ledger;

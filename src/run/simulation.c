@@ -84,7 +84,7 @@ static bool record_step(Simulation *simulation, Error *err)
     Observation seen = observe(control, &simulation->model.scales);
     simulation->seen = seen;
 
-    // For time.until.mu_below.
+    // time.until.mu_below asks whether mu has fallen.
     double limit = simulation->scene.time.until_mu_below, mu = simulation->seen.mu;
     simulation->mu_fell = limit > 0 && simulation->mu_above && mu < limit;
     simulation->mu_above = simulation->mu_above || mu >= limit;
@@ -124,7 +124,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// For a StageNotice.
+// This is a StageNotice.
 static bool tell_stage(void *self, const char *stage, Error *err)
 {
     const Simulation *simulation = self;
@@ -139,7 +139,7 @@ static bool goes_on_reducing(void *self, Error *err)
     return simulation_may_go_on(self, err);
 }
 
-// From a checkpoint, which is known to be this scene's before the result is touched.
+// Continues from a checkpoint, which is known to be this scene's before the result is touched.
 static bool go_on(Simulation *simulation, const SavedState *state, Error *err)
 {
     SavedHead head;
@@ -238,7 +238,7 @@ bool simulation_create_by(const Scene *scene, const RunOptions *options, double 
     if (options->resume)
         TRY(go_on(simulation, &state, err));
     else {
-        // From the scene: the block relaxes, an earlier result is set aside, t = 0 is recorded.
+        // A new run: the block relaxes, an earlier result is set aside, t = 0 is recorded.
         double begun = clock_processor_seconds();
         TRY(tell_stage(simulation, "relaxing", err));
         TRY(start_relax(simulation, err));

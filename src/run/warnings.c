@@ -256,7 +256,7 @@ static bool gives_parameter(const Scene *scene, const char *name)
     return false;
 }
 
-// How to get a mesh with contact cells of half the size, from the parameters that the scene gives.
+// Advice for a mesh with contact cells of half the size, by the parameters that the scene gives.
 static const char *finer_mesh(const Scene *scene)
 {
     static const struct {
@@ -388,7 +388,7 @@ typedef struct Slope {
     double at[2];   // x and y, half way between the nodes
 } Slope;
 
-// From contact node a to b, if one of them has a gap that may close.
+// Notes the slope from contact node a to b, if one of them has a gap that may close.
 static void note_slope(const Interface *interface, double reach, int32_t a, int32_t b, Slope *slope)
 {
     const double *gap = interface->gap, *x = interface->x, *y = interface->y;

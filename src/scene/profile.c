@@ -196,7 +196,7 @@ void scene_profile_destroy(SceneProfile *profile)
     *profile = (SceneProfile){0};
 }
 
-// How far from place k to the next `at` lies, from 0 to 1.
+// Position of `at` between place k and the next, from 0 to 1.
 static double part_between(const double *places, int32_t k, double at)
 {
     double part = (at - places[k]) / (places[k + 1] - places[k]);

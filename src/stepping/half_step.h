@@ -79,7 +79,7 @@ typedef enum PartsAsked {
     PARTS_EXCLUDE_RUNAWAY   // certificate_excludes_runaway
 } PartsAsked;
 
-// Whether the whole, or both parts, are so.
+// True if the answer is yes for the whole, or for both parts.
 bool parts_ask(CertifiedParts parts, const State *state, PartsAsked asked, LevelRange range,
                double growth);
 

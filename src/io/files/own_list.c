@@ -16,7 +16,7 @@ enum { PATH_SIZE = PATH_MAX + 32 };
 
 static const char HEAD[] = "# Files that amontons wrote here; --overwrite removes these alone.\n";
 
-// Whether a list may hold this name: see own_list_next.
+// True if a list may hold this name: see own_list_next.
 static bool is_a_name(const char *name)
 {
     int32_t slashes = 0;

@@ -160,7 +160,7 @@ static bool word_set(const char *words, WordSet *set, Error *err)
     return true;
 }
 
-// For lists that are asked once a statement and not once a word.
+// Searches a list that is asked once a statement and not once a word.
 static bool is_listed(const char *words, const char *text, int32_t length)
 {
     for (const char *at = words; *at;) {
@@ -668,7 +668,7 @@ static int32_t left_out(const Reading *reading, int32_t k, Error *err)
         return k;
     if (!for_screen && !is_plugin && !word_is_in(&reading->left_out, text, token->length)) return k;
 
-    // Where a statement may begin.
+    // A statement may begin here.
     bool begins = k == 0;
     if (k > 0) {
         const Token *before = &reading->tokens[k - 1];

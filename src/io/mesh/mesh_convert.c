@@ -112,7 +112,8 @@ static bool append_block(RawElements *elements, const RawBlock *block, Error *er
     return error_is_clean(err);
 }
 
-// By node tags, so that copies of one element come together; among copies the lowest tag first.
+// Compares node tags, so that copies of one element come together; among copies the lowest tag
+// first.
 static int compare_nodes(const void *a, const void *b)
 {
     const RawElement *first = a, *second = b;
@@ -122,7 +123,7 @@ static int compare_nodes(const void *a, const void *b)
     return order_int64(a, b);
 }
 
-// By tag, as gmsh mostly delivers them.
+// Sorts by tag, as gmsh mostly delivers them.
 static void sort_elements(RawElements *elements, bool may_repeat)
 {
     int32_t kept = 0;
@@ -257,7 +258,7 @@ static bool number_nodes(const MeshRaw *raw, const char *path, NodeTable *table,
     if (!(mesh->position = NEW_ARRAY(double, (int64_t)mesh->dim * mesh->node_count, err)))
         return false;
     if (!(mesh->node_number = NEW_ARRAY(int64_t, mesh->node_count, err))) return false;
-    // From the first node: it only scales the plane's tolerance.
+    // The extent is measured from the first node: it only scales the plane's tolerance.
     double extent = 0, deepest = 0;
     int64_t worst = 0;
     for (int32_t k = 0; k < table->count; k++) {
@@ -287,7 +288,7 @@ static bool number_nodes(const MeshRaw *raw, const char *path, NodeTable *table,
 
 // --- groups -------------------------------------------------------------------------------------
 
-// By dimension, then by number: the order promised in io/mesh/mesh_file.h.
+// Compares dimensions, then numbers: the order promised in io/mesh/mesh_file.h.
 static int compare_groups(const void *a, const void *b)
 {
     const MeshGroup *first = a, *second = b;
@@ -355,7 +356,7 @@ static bool convert_group(const MeshRaw *raw, const char *path, const NodeTable 
             const RawBlock *block = &raw->blocks[k];
             if (!group_holds(from, block)) continue;
             for (int64_t i = 0; i < block->count; i++) {
-                // By gmsh's numbers, which ascend; a copy that was dropped is not found.
+                // gmsh's numbers ascend; a copy that was dropped is not found.
                 const int64_t *found = bsearch(&block->number[i], mesh->element_number,
                                                (size_t)mesh->element_count, sizeof *block->number,
                                                order_int64);

@@ -78,7 +78,8 @@ typedef struct MeshFile {
 // .msh4 and .geo_unrolled.
 typedef enum MeshFormat { MESH_NO_FORMAT, MESH_MSH, MESH_SCRIPT } MeshFormat;
 MeshFormat mesh_file_format(const char *path);
-// How another program's file becomes a mesh: the end of a message, empty where nothing is known.
+// Advice how another program's file becomes a mesh: the end of a message, empty where there is
+// none.
 const char *mesh_format_advice(const char *path);
 
 // A value for one name of a .geo: `DefineConstant[ nx = 80 ]` takes what is given here instead.

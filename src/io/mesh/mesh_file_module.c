@@ -125,7 +125,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Where there is a volume, its mesh is that of the block. Two: a surface.
+// Dimension of the block's mesh: 3 where there is a volume, 2 where there is a surface.
 static int model_dimension(void)
 {
     int status = 0;

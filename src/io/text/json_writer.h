@@ -13,7 +13,7 @@ typedef struct JsonWriter JsonWriter;
 
 // `key` is NULL inside a list and at the top. The first failure is kept and reported by finish.
 JsonWriter *json_create(const char *path, Error *err);   // path NULL: for json_take
-// As YAML reads it on one line, for json_take: {group: top, x: 0.5}.
+// Writes one line that YAML reads, for json_take: {group: top, x: 0.5}.
 JsonWriter *json_create_flow(Error *err);
 void json_begin_object(JsonWriter *json, const char *key);
 void json_begin_list(JsonWriter *json, const char *key);

@@ -38,7 +38,7 @@ struct YamlDocument {
 
 enum { SHOWN_WIDTH = 88 };   // of a source line in an error, characters
 
-// Where a byte of the text stands.
+// Place of a byte of the text.
 typedef struct YamlPlace {
     int32_t line, column;   // from 1; column in characters
     int32_t line_start, line_end;   // bytes
@@ -68,7 +68,7 @@ static YamlPlace find_place(const YamlDocument *document, int32_t position)
     return place;
 }
 
-// As yaml_error, at a byte of the text.
+// The error of yaml_error, at a byte of the text.
 static bool error_at(const YamlDocument *document, int32_t position, Error *err,
                      const char *message)
 {
