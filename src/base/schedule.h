@@ -22,8 +22,8 @@ double schedule_factor(const Schedule *schedule, double x);
 double schedule_next(const Schedule *schedule, double x);
 double schedule_largest(const Schedule *schedule);   // |factor|
 
-// The stretch between two points that x lies or, at a point, ends in, from 0; count - 1 beyond the
+// The segment between two points that x lies or, at a point, ends in, from 0; count - 1 beyond the
 // last. *from: where x is counted from: 0, or the beginning of this repetition.
-int32_t schedule_stretch(const Schedule *schedule, double x, double *from);
+int32_t schedule_segment(const Schedule *schedule, double x, double *from);
 
 #endif

@@ -117,21 +117,21 @@ cleanup:
     return error_is_clean(err);
 }
 
-// The face that the rod touches, by ascending z of its nodes. Each stands for a stretch that
+// The face that the rod touches, by ascending z of its nodes. Each has a tributary part that
 // reaches half way to the nodes beside it on the face, along z and, where the strip has a breadth,
 // along y.
 typedef struct Face {
     int32_t count;
     int32_t *node;   // [count]; owned
-    double *from[2], *to[2];   // [count] of the stretches along z and y, length; owned
+    double *from[2], *to[2];   // [count] bounds of the tributary parts along z and y, length; owned
     double *area;   // [nodes of the mesh] integral of the shape function; owned
     double rounding;   // of a place, length
 } Face;
 
-// Widens the stretch of each node along an axis by those beside it on its faces. place: [nodes of
-// the mesh] in the face's list.
-static void find_stretches(const Mesh *mesh, const MeshBoundary *boundary, int32_t axis,
-                           const int32_t *place, Face *face)
+// Widens the tributary part of each node along an axis by those beside it on its faces. place:
+// [nodes of the mesh] in the face's list.
+static void find_tributary_parts(const Mesh *mesh, const MeshBoundary *boundary, int32_t axis,
+                                 const int32_t *place, Face *face)
 {
     int32_t which = axis == mesh->dim - 1 ? 0 : 1;
     double *from = face->from[which], *to = face->to[which];
@@ -177,7 +177,7 @@ static bool face_build(const Mesh *mesh, const MeshBoundary *boundary, Face *fac
     }
     for (int32_t k = 0; k < face->count; k++) place[face->node[k]] = k;
     for (int32_t axis = 1; axis < mesh->dim; axis++)
-        find_stretches(mesh, boundary, axis, place, face);
+        find_tributary_parts(mesh, boundary, axis, place, face);
     boundary_add_weights(mesh, boundary, false, face->area);
 cleanup:
     memory_free(place);
@@ -190,8 +190,8 @@ typedef struct Strip {
     bool in_part;
 } Strip;
 
-// Share of node k's part of the face, along one of the axes, that lies in the strip, 0 to 1.
-// Without in_part a node is in or out: 1 or 0.
+// Share of node k's tributary part of the face, along one of the axes, that lies in the strip, 0 to
+// 1. Without in_part a node is in or out: 1 or 0.
 static double strip_share(const Mesh *mesh, const Strip *strip, const Face *face, int32_t k,
                           int32_t which)
 {

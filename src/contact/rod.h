@@ -6,9 +6,9 @@
 //
 // The ends of the strip seldom stand half way between two nodes, and a mesh knows no other place
 // for an end: of whole nodes, the strip's width is off by up to a cell, and with it the force at
-// a given U. A node whose stretch of the face lies in the strip with a share w < 1 only is
+// a given U. A node whose tributary part of the face lies in the strip with a share w < 1 only is
 // therefore led through a spring. A frictionless rigid strip on a half-plane goes in by -2 P
-// ln(width)/(pi E*) (Johnson, Contact Mechanics, 1985, ch. 2), so a piece w of a node's stretch
+// ln(width)/(pi E*) (Johnson, Contact Mechanics, 1985, ch. 2), so a piece w of a node's part
 // yields more by a multiple of ln(1/w)/E*:
 //
 //     softness = 4 ln(1/w) / (pi E*),    r = [(U - u) + lag (V - v)] / softness

@@ -87,8 +87,8 @@ static void write_results(JsonWriter *json, const RunReport *report)
     steady_write_json(&simulation->steady, answers, json);
     write_slip(json, report->least_resolved, &simulation->pads);
     pads_write_json(&simulation->pads, json);
-    if (simulation->turning.contact && model->interface.dim > 2)
-        turning_write_json(&simulation->turning, json);
+    if (simulation->rotation.contact && model->interface.dim > 2)
+        rotation_write_json(&simulation->rotation, json);
     if (simulation->readings.course) program_results_json(&simulation->readings, json);
 
     // Events in order of time, slow ones too; only rapid ones have a front to follow.

@@ -151,7 +151,7 @@ static bool archive_parts(Simulation *simulation, Archive *archive, Error *err)
     steady_archive(&simulation->steady, archive);
     pads_archive(&simulation->pads, archive);
     contact_arrays_archive(&simulation->contact, archive);
-    turning_archive(&simulation->turning, archive);
+    rotation_archive(&simulation->rotation, archive);
     program_readings_archive(&simulation->readings, archive);
 
     RunErrors *errors = &simulation->errors;

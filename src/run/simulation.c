@@ -52,7 +52,7 @@ static bool open_recorders(Simulation *simulation, Error *err)
                                   {&simulation->pads, pads_record},
                                   {&simulation->contact, contact_arrays_record},
                                   {&simulation->readings, program_readings_record},
-                                  {&simulation->turning, turning_record}};
+                                  {&simulation->rotation, rotation_record}};
     Events *events = &simulation->events;
     if (!events_create(&model->interface, model->scales.slip_velocity, events, err) ||
         !drops_create(&model->interface, events, simulation->scene.time.periodic_tolerance,
@@ -66,7 +66,7 @@ static bool open_recorders(Simulation *simulation, Error *err)
                                    model->scales.slip_velocity / model_forgets(model));
     if (program_jumps(&simulation->rod_course))
         simulation->readings.course = &simulation->rod_course;
-    simulation->turning.contact = &simulation->contact;
+    simulation->rotation.contact = &simulation->contact;
     for (size_t k = 0; k < sizeof recorders / sizeof *recorders; k++)
         recorders_add(&simulation->recorders, recorders[k].self, recorders[k].record);
     if (result_folder_is_ours(&simulation->folder) && !output_open(simulation, err)) return false;
@@ -425,7 +425,7 @@ bool simulation_finish(Simulation *simulation, const Error *failure, RunSummary 
     warnings_of_strain(&simulation->model, answers.mu_max, &simulation->warnings);
     warnings_of_base(base_slip(&simulation->model, &simulation->control.now),
                      &simulation->warnings);
-    warnings_of_turning(&simulation->scene, &simulation->turning, &simulation->warnings);
+    warnings_of_rotation(&simulation->scene, &simulation->rotation, &simulation->warnings);
     RunCounters counters = summary_count(simulation);
     if (simulation->history.file && !simulation->folder.aside &&
         !(output_store_warnings(simulation, err) &&

@@ -16,7 +16,7 @@
 #include "record/pads.h"
 #include "record/program_readings.h"
 #include "record/steady.h"
-#include "record/turning.h"
+#include "record/rotation.h"
 #include "run/kept_states.h"
 #include "run/result/result_folder.h"
 #include "stepping/explicit_reference.h"
@@ -55,7 +55,7 @@ struct Simulation {
     Steady steady;
     Pads pads;
     ContactArrays contact;
-    Turning turning;
+    Rotation rotation;
     ProgramReadings readings;   // empty where the rod never jumps
     History history;
     Probes probes;   // read by it

@@ -12,7 +12,7 @@
 #include "answers/error_bars.h"
 #include "model/model.h"
 #include "record/events.h"
-#include "record/turning.h"
+#include "record/rotation.h"
 #include "scene/scene.h"
 #include "stepping/certificate.h"
 
@@ -64,7 +64,7 @@ double base_slip(const Model *model, const State *state);
 void warnings_of_base(double slip, RunWarnings *warnings);
 
 // The block turned about z, or went across the drive, by a part of its way that can be seen.
-void warnings_of_turning(const Scene *scene, const Turning *turning, RunWarnings *warnings);
+void warnings_of_rotation(const Scene *scene, const Rotation *rotation, RunWarnings *warnings);
 
 // least: the event with the fewest cells (record/drops); NULL: none, and nothing is said.
 void warnings_of_slip(const Scene *scene, const Interface *interface, const Event *least,

@@ -103,8 +103,9 @@ void moving_set_subtract_weakening(const MovingSet *set, double reach, double *m
 // |s| >= 1/reach and Re s >= narrow |s|, 0 <= narrow < 1.
 void moving_set_subtract_memory(const MovingSet *set, double reach, double narrow, double factor,
                                 double *matrix);
-// No state by itself, at held slip, grows at a real rate of 1/reach or more: no pole of W(s).
-bool moving_set_is_calm(const MovingSet *set, double reach);
+// True if no state by itself, at held slip, grows at a real rate of 1/reach or more: W(s) has no
+// pole there.
+bool moving_set_decays(const MovingSet *set, double reach);
 // W(s) at s = 1/reach as weakening or damper, in place of what is remembered.
 void moving_set_settle(MovingSet *set, double reach);
 

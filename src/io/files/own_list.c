@@ -113,8 +113,8 @@ bool own_list_next(FILE *list, char name[OWN_NAME_SIZE])
     return false;
 }
 
-// Window by window, each beginning with the end of the one before: files are written in the loop of
-// steps, which allocates nothing.
+// Reads piece by piece, each beginning with the end of the one before: files are written in the
+// loop of steps, which allocates nothing.
 bool own_list_has(const char *path, bool *has, Error *err)
 {
     char folder[PATH_SIZE], list[PATH_SIZE], line[PATH_SIZE], bytes[2 * PATH_SIZE];
