@@ -131,6 +131,7 @@ const char *amontons_better_kernels(void)
 // answer is lost has failed.
 int amontons_command(int argc, char **argv)
 {
+    amontons_use_child_processes(true);
     int status = run_command(argc, argv);
     guard_end(false);
     bool written = fflush(stdout) == 0 && !ferror(stdout);
