@@ -273,8 +273,8 @@ bool canvas_is_vector(const Canvas *canvas)
     return canvas->def.format != CANVAS_PNG;
 }
 
-// In a PDF or SVG a little larger than asked: viewers leave a hair of paper between shapes that
-// only touch.
+// A cell is drawn in a PDF or SVG a little larger than asked: viewers leave a hair of paper between
+// shapes that only touch.
 void canvas_heat_cell(Canvas *canvas, const Box *box, float value)
 {
     static const double over = 0.04;   // points

@@ -188,7 +188,7 @@ static void line_begin(Text *text, Line *line, Color color)
     cairo_set_font_options(line->cairo, text->options);
 }
 
-// In the pixels of `size`, marks not counted.
+// Width in the pixels of `size`, marks not counted.
 double text_width(Text *text, double size, const char *words)
 {
     Line line = {0};

@@ -144,9 +144,9 @@ static SpacePage space_of(const Page *page, const BlockPage *map, const Axes *ax
     return space;
 }
 
-// Below the floor's line, a colour for each contact node, where it is drawn on the deformed block:
-// at its node of the block, the lowest one there of the elements above the floor's line, which
-// those of a base are not. Without memory the nodes are drawn where they were.
+// Draws below the floor's line a colour for each contact node, where it is drawn on the deformed
+// block: at its node of the block, the lowest one there of the elements above the floor's line,
+// which those of a base are not. Without memory the nodes are drawn where they were.
 static void draw_contact(const Page *page, const BlockPage *map, const Block *block, int64_t row,
                          const Axes *axes)
 {
@@ -266,7 +266,7 @@ bool block_page_draw(const Page *page, const BlockPage *map, const Block *block,
         return false;
     if (map->edges) block_edges_draw(page, block, axes, &edge);
 
-    // At the numbers of the bar.
+    // Contours lie at the numbers of the bar.
     Stroke stroke = {.color = CONTOUR, .width = CONTOUR_WIDTH * unit};
     Ticks ticks = colorbar_ticks(&map->bar);
     for (int32_t k = 0; k < ticks.count; ++k) {

@@ -59,7 +59,8 @@ void depth_image_add(DepthImage *image, const DepthPoint corner[3])
         }
 }
 
-// Against the farthest of the pixels around: a line on an edge has the face behind it beside it.
+// Compares with the farthest of the pixels around: a line on an edge has the face behind it beside
+// it.
 static bool shows(const DepthImage *image, Point at, double depth)
 {
     double farthest = -INFINITY;

@@ -44,7 +44,7 @@ bool figure_contact_plane_shows(ResultView *view, const char *quantity);
 // Readings of the probes, strains where nothing is named, against U.
 bool figure_probes(Page *page, const FigureInput *input, Error *err);
 bool figure_probes_show(const char *quantity);   // whether it knows that
-// Which pad lets go first.
+// Draws which pad lets go first.
 bool figure_pads(Page *page, const FigureInput *input, Error *err);
 // The contact along x at moments, those around the last sliding where none are asked for.
 bool figure_profile(Page *page, const FigureInput *input, Error *err);

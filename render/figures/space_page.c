@@ -185,8 +185,8 @@ void space_page_floor(const Page *page, const SpacePage *space, const Block *blo
 
 // --- axes ----------------------------------------------------------------------------------------
 
-// Along `axis` from `start`: ticks go to `aside`, a direction on the page. Where that is left or
-// right the name rises, beside the numbers that it passes: the axis may lean.
+// Draws along `axis` from `start`: ticks go to `aside`, a direction on the page. Where that is left
+// or right the name rises, beside the numbers that it passes: the axis may lean.
 static void draw_axis(const Page *page, const SpacePage *space, const Block *block, int32_t axis,
                       const double start[3], Point aside)
 {

@@ -13,7 +13,7 @@ typedef struct FilmMoment {
 } FilmMoment;
 
 FilmMoment film_moment(const ResultView *view, double t);
-// Then, of values [rows * width], column k.
+// Value at that moment of column k of values [rows * width].
 double film_value(const FilmMoment *moment, const double *values, int32_t width, int32_t k);
 int64_t film_nearest_row(const FilmMoment *moment);
 

@@ -229,7 +229,7 @@ bool map_triangles_find(const MapGrid *grid, const Point *place, int32_t count,
     if (grid->columns == 0)
         return triangulate(place, count, triangles, err) && drop_long(place, count, triangles, err);
 
-    // In a grid two in the middle of any four cells that meet and hold points.
+    // A grid has two in the middle of any four cells that meet and hold points.
     triangles->points = NEW_ARRAY(int32_t, 6 * (int64_t)grid->columns * grid->rows, err);
     if (!triangles->points) return false;
     for (int32_t row = 0; row + 1 < grid->rows; row++)

@@ -125,7 +125,7 @@ static bool triangles_draw(const MapDrawing *drawing, Error *err)
     return true;
 }
 
-// Between points, pixels.
+// Distance between points, pixels.
 static double point_distance(const MapDrawing *drawing)
 {
     const Box *box = &drawing->axes->box;

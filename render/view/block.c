@@ -140,7 +140,7 @@ void block_destroy(Block *block)
 
 // --- quantities ----------------------------------------------------------------------------------
 
-// Which axes a strain or a stress belongs to, in the order of the arrays.
+// Axes that a strain or a stress belongs to, in the order of the arrays.
 static const uint8_t strain_axes[2][6][2] = {{{0, 0}, {1, 1}, {0, 1}},
                                              {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
 

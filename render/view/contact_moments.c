@@ -109,7 +109,7 @@ bool contact_moments_find(const ResultView *view, const double *rates, const cha
     }
     if (!take_event(view, at, moments, err)) return false;
 
-    // When each node was first rapid in the event, from when the first of them was.
+    // Time when each node was first rapid in the event, counted from the first of them.
     double rapid_rate = RAPID * fabs(view->number[NUMBER_ROD_VELOCITY]);
     double *arrival = moments->arrival = NEW_ARRAY(double, nodes, err);
     if (!arrival) return false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Which part of U the zoomed pictures show: the last precursors before a sliding, of the first
-// loading all of them. From the table of events where there is one, else from the falls of mu.
+// loading all of them. The table of events tells it where there is one, else the falls of mu.
 #include "render/view/zoom.h"
 
 #include <math.h>

@@ -316,7 +316,7 @@ void dense_apply_transposed(DenseView a, const double *x, double factor, double 
                 y, 1);
 }
 
-// In BLAS's order of summation: the same bits on one machine, not on every one.
+// Sums in BLAS's order: the bits are the same on one machine, not on every one.
 double dense_dot(const double *x, const double *y, int32_t n)
 {
     return cblas_ddot(n, x, 1, y, 1);

@@ -25,7 +25,7 @@ bool dense_lu(double *a, int32_t n, int32_t *pivots);
 // The sign of the determinant of a factored matrix: 1, -1 or 0.
 int dense_lu_sign(const double *lu, int32_t n, const int32_t *pivots);
 void dense_lu_solve(const double *lu, int32_t n, const int32_t *pivots, double *b);
-// In single precision, in half the time: some six digits, which are enough for steps whose
+// Works in single precision, in half the time: some six digits, which are enough for steps whose
 // residual is of double precision. work: [n].
 bool dense_lu_single(float *a, int32_t n, int32_t *pivots);
 void dense_lu_single_solve(const float *lu, int32_t n, const int32_t *pivots, double *b,

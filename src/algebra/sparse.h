@@ -29,7 +29,7 @@ typedef struct PointGroups {
     int32_t points, count;
     int32_t *start, *member;   // not owned
 } PointGroups;
-// That in which all points of a group are neighbours, each of `width` unknowns.
+// The pattern in which all points of a group are neighbours, each of `width` unknowns.
 bool sparse_pattern_of_groups(const PointGroups *groups, int32_t width, SparsePattern *pattern,
                               Error *err);
 

@@ -10,7 +10,7 @@
 
 #define NO_MEMORY "no memory for a sparse matrix of %d unknowns"
 
-// Also of one half built. Factors made from it must have been destroyed.
+// Frees an analysis that is half built, too. Factors made from it must have been destroyed.
 void sparse_analysis_destroy(SparseAnalysis *analysis)
 {
     if (!analysis) return;

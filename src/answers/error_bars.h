@@ -121,9 +121,9 @@ bool levels_may_differ(const Levels *levels);
 // Value from the level's own runs: mean of mu_M, lowest mu_hold; NaN: a run has none.
 double level_value(const Level *level, AnswerKind kind);
 
-// That slip on the last level where slow slip turns fast, by the part of the contact that does on
-// all levels; all of them where slip never turns fast. The fewer they are, the longer is the mesh's
-// part of a bar.
+// Number of cells that slip on the last level where slow slip turns fast, by the part of the
+// contact that does on all levels; all cells where slip never turns fast. The fewer they are, the
+// longer is the mesh's part of a bar.
 double levels_cells(const Levels *levels);
 
 // A run of the last level has no answer, as its run-in was not over.

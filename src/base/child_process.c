@@ -97,9 +97,9 @@ static void be_child(const ChildWork *work, int pipe, pid_t parent)
 
 // --- in the parent ------------------------------------------------------------------------------
 
-// To the end of the pipe. Memory may be short: the rest is then not read, and the child ends. The
-// pipe may be open in a process that the child has started, so its end is not waited for when the
-// time is over.
+// Reads to the end of the pipe. Memory may be short: the rest is then not read, and the child ends.
+// The pipe may be open in a process that the child has started, so its end is not waited for when
+// the time is over.
 static bool take_all(const ChildWork *work, pid_t child, int pipe, ChildReply *reply, Error *err)
 {
     int64_t room = FIRST_BYTES;

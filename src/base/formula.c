@@ -171,7 +171,7 @@ static void read_unit(Reading *reading)
     }
 }
 
-// To the right: 2^3^2 is 2^9; and -2^2 is -4, as in mathematics.
+// Powers are read to the right: 2^3^2 is 2^9; and -2^2 is -4, as in mathematics.
 static void read_power(Reading *reading)
 {
     if (++reading->depth > DEPTH_MAX) {
@@ -200,7 +200,7 @@ static void read_product(Reading *reading)
     }
 }
 
-// To the left: 1-2-3 is -4.
+// Sums are read to the left: 1-2-3 is -4.
 static void read_sum(Reading *reading)
 {
     if (++reading->depth > DEPTH_MAX) refuse(reading, "a formula of fewer brackets");
@@ -311,7 +311,7 @@ typedef struct Entry {
     double value, slope[FORMULA_VARIABLES_MAX];
 } Entry;
 
-// In the place of a. b: NULL: of a function of one argument.
+// The result takes the place of a. b is NULL for a function of one argument.
 static inline void put(Applied applied, int32_t count, Entry *a, const Entry *b)
 {
     bool too = b && b->varies;

@@ -16,7 +16,8 @@ typedef struct Schedule {
     bool repeats;   // from the last point on as from the first
 } Schedule;
 
-// At x >= 0; where it jumps, what came before: a step that ends there knows nothing of the jump.
+// Factor at x >= 0; where it jumps, the one before the jump: a step that ends there knows nothing
+// of the jump.
 double schedule_factor(const Schedule *schedule, double x);
 // The next point beyond x, INFINITY: there is none.
 double schedule_next(const Schedule *schedule, double x);

@@ -20,8 +20,8 @@
 
 // --- processes -----------------------------------------------------------------------------------
 
-// In a child process: the system ends it when its parent ends. Elsewhere nothing: it ends when it
-// next finds the pipe to its parent closed.
+// Is called in a child process: the system ends it when its parent ends. Elsewhere nothing: it ends
+// when it next finds the pipe to its parent closed.
 void system_end_with_parent(void);
 int system_pipe(
     int ends[2]);   // as pipe(), closed in programs that are started; 0, or -1 with errno

@@ -11,7 +11,7 @@
 #include <string.h>
 #include <unistd.h>
 
-// In the order in which `--help` lists them.
+// The commands stand in the order in which `--help` lists them.
 static const Command commands[] = {
     {"run", command_run, "SCENE", "simulates a scene and writes a result folder", "scene",
      "amontons run validation/paper/fig1.yaml", run_txt, NULL},

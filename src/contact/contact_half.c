@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-// Between a node and its image, over the contact's breadth.
+// Largest distance of a node's image from a node, over the contact's breadth.
 static const double APART = 1e-8;
 
 // Largest difference of an entry of S and its image, over the largest entry: what is left out is a

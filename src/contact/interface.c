@@ -26,8 +26,8 @@ static double least_weight(const Mesh *mesh, const double *weight)
     return ROUNDING * largest;
 }
 
-// On a grid the row of nodes nearest to the middle; elsewhere those of a strip around it, as wide
-// as a mean cell is long.
+// The line is on a grid the row of nodes nearest to the middle; elsewhere the nodes of a strip
+// around it, as wide as a mean cell is long.
 bool interface_find_line(Interface *interface, Error *err)
 {
     double area = 0;
@@ -49,7 +49,7 @@ bool interface_find_line(Interface *interface, Error *err)
         if (nearer > rounding) place = interface->y[i];
     }
 
-    // Along x, of nodes side by side that which is nearer to it.
+    // Go along x, and take of nodes side by side the one that is nearer to it.
     interface->line_count = 0;
     for (int32_t i = 0; i < interface->contact_count; i++) {
         int32_t *last = interface->line + interface->line_count - 1;
@@ -205,8 +205,8 @@ static double strip_share(const Mesh *mesh, const Strip *strip, const Face *face
     return covered >= to - from - rounding ? 1 : covered / (to - from);
 }
 
-// Those of the face's nodes that lie in the strip. A node of the contact is left out, as the plane
-// holds it.
+// Lists the nodes of the face that lie in the strip. A node of the contact is left out, as the
+// plane holds it.
 static bool build_rod(const Mesh *mesh, const InterfaceDef *def, Interface *interface, Error *err)
 {
     if (!def->has_rod) return true;
@@ -301,7 +301,8 @@ bool interface_build(const Mesh *mesh, const InterfaceDef *def, Interface *inter
     return true;
 }
 
-// In space as many as the root of its mean cell would go along the contact.
+// In space they are as many as cells with the area of its mean cell, if square, would stand along
+// the contact.
 double interface_nodes_along(const Interface *interface)
 {
     double from[2] = {INFINITY, INFINITY}, to[2] = {-INFINITY, -INFINITY};

@@ -64,7 +64,8 @@ void rod_soften(const Interface *interface, const RodGround ground[2], Rod *rod)
 // U: V t, where V was the same from t = 0 on; and its velocity.
 double rod_displacement(const Rod *rod, double time);
 double rod_velocity(const Rod *rod, double time);
-// When it is first displaced by `way` > 0, from where it is at its last change; INFINITY: never.
+// Time when it is first displaced by `way` > 0, from where it is at its last change; INFINITY:
+// never.
 double rod_arrival(const Rod *rod, double way);
 // It moves with V from `time` on, from where it is then.
 void rod_set_velocity(Rod *rod, double velocity, double time);

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-// Between point k and the next, t after it.
+// Segment between point k and the next; t counts from point k.
 typedef struct Segment {
     double duration;   // INFINITY: beyond the last point
     double velocity;   // v_0 at its beginning
@@ -68,7 +68,7 @@ double rod_course_way(const RodCourse *course, double time)
            way_in(course, &segment, time - from - over->at[k]);
 }
 
-// When the first round has covered `way` from its beginning; INFINITY: it does not.
+// Time when the first round has covered `way` from its beginning; INFINITY: it does not.
 static double arrival_in_round(const RodCourse *course, double way)
 {
     for (int32_t k = 0; k < course->schedule.count; k++) {

@@ -127,7 +127,7 @@ void element_matrices(ElementKind kind, const MeshPlace *position, const Materia
     lump_mass(kind, position, material->density, out);
 }
 
-// Without the modulus against a change of area, or in space of volume.
+// Moduli without the one against a change of area, or in space of volume.
 static Moduli without_areal_part(Moduli moduli, int32_t dim)
 {
     return (Moduli){.deviator = moduli.deviator, .trace = -moduli.deviator / dim};

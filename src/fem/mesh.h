@@ -70,8 +70,8 @@ typedef struct Mesh {
     MeshMove move;
 } Mesh;
 
-// In an array with `dim` numbers a node: the place of number d, 0 along x, dim - 1 along z; back
-// from there to the node, and to d.
+// Place of number d of a node, 0 along x, dim - 1 along z, in an array with `dim` numbers a node;
+// and from there back to the node, and to d.
 static inline int32_t node_dof(int32_t dim, int32_t node, int32_t d)
 {
     return dim * node + d;
@@ -112,7 +112,7 @@ enum { PLACE_TEXT_SIZE = 64 };
 const char *place_text(int32_t dim, const double *at, char text[PLACE_TEXT_SIZE]);
 const char *mesh_place_text(const Mesh *mesh, int32_t node, char text[PLACE_TEXT_SIZE]);
 
-// Between two nodes, length.
+// Distance of two nodes, length.
 double mesh_distance(const Mesh *mesh, int32_t one, int32_t two);
 
 // True if a node, or an element, is part of the base.
@@ -125,7 +125,7 @@ static inline bool mesh_element_in_base(const Mesh *mesh, int32_t e)
     return mesh_in_base(mesh, mesh->element_nodes[mesh->first_node[e]]);
 }
 
-// Which of a list of materials element e is made of.
+// Index of element e's material in a list of materials.
 static inline int32_t mesh_region(const Mesh *mesh, int32_t e)
 {
     return mesh->region ? mesh->region[e] : 0;

@@ -105,7 +105,7 @@ bool friction_states_decay(const FrictionRates *rates, double reach)
 }
 
 // F(i w): its real part, and in *stiffness -w^2 mu_theta (w^2 + G^2)^-1 g_v, which is k/r_n where
-// that is 0. By real numbers: (i w - G)^-1 = -(i w + G) (w^2 + G^2)^-1.
+// that is 0. Real numbers suffice: (i w - G)^-1 = -(i w + G) (w^2 + G^2)^-1.
 static double real_part(const FrictionRates *rates, double w, double *stiffness)
 {
     double square[STATES_MAX * STATES_MAX], q[STATES_MAX], real = rates->mu_speed;

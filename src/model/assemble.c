@@ -112,7 +112,7 @@ static bool add_loads(Model *model, Error *err)
     for (int32_t dof = 0; dof < bulk->dof_count; dof++) bulk->load[dof] *= reference;
 
     // A block that is held needs no load, and a block that flies towards the plane has its
-    // momentum. Whether a support is on the block; a group that is not there is told later.
+    // momentum. Look for a support on the block; a group that is not there is told later.
     for (int32_t k = 0; k < scene->load.support_count && !model->block_is_held; k++) {
         Error ignored = {0};
         bool there =

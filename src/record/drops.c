@@ -61,7 +61,8 @@ void drops_destroy(Drops *drops)
 
 // --- recording ----------------------------------------------------------------------------------
 
-// In the event under way. A block that the rod pulls (mu below 0) holds nothing that could drop.
+// True if mu has fallen enough in the event under way. A block that the rod pulls (mu below 0)
+// holds nothing that could drop.
 static bool has_fallen(const Drops *drops)
 {
     return drops->top > 0 && drops->fall >= LEAST_DROP * drops->top;

@@ -18,8 +18,9 @@
 #include <math.h>
 #include <string.h>
 
-// Against the rod's velocity. Quasi-static slip stays below 1 in parameter set A (bounded events
-// reach 3 to 6, leading ones 90), so 2 and 1 leave room on both sides.
+// Slip rates at which a rapid event starts and stops, over the rod's velocity. Quasi-static slip
+// stays below 1 in parameter set A (bounded events reach 3 to 6, leading ones 90), so 2 and 1 leave
+// room on both sides.
 static const double RATE_START = 2, RATE_STOP = 1;
 // A quarter above the most that an oscillation about V comes to without turning back.
 static const double RATE_COUNTS = 2.5;

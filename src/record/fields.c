@@ -34,7 +34,7 @@ static int32_t vectors_of(const Fields *fields)
 }
 
 // The list is written anew whenever no other time waits: a run that is cut off leaves one that
-// opens. For a Worker.
+// opens. A Worker calls this.
 static bool write_time(void *self, int32_t slot, int32_t waiting, Error *err)
 {
     Fields *fields = self;

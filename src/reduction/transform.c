@@ -141,7 +141,7 @@ static void list_touched(Congruence *work, const TransformBlock *block)
     work->listed_count = end;
 }
 
-// Those listed from `start` on that are in one block: which, and where they end.
+// Finds the block of the row listed at `start`, and where the rows of this block end in the list.
 static const TransformBlock *next_block(const Congruence *work, int32_t start, int32_t *end)
 {
     const Transform *by = work->by;
@@ -188,7 +188,7 @@ static void fill_values(const Congruence *work, const TransformBlock *block, con
                 dense_view(work->image + start * columns, columns, end - start),
                 dense_view(work->moved, count, end - start), product);
 
-        // Into rows and columns of both blocks.
+        // The product goes into rows and columns of both blocks.
         if (other == block) dense_mirror(product, columns);
         for (int32_t i = 0; i < count; i++)
             memcpy(to + sparse_entry(work->to, other->first + i, block->first),

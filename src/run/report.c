@@ -59,7 +59,7 @@ static void write_model(JsonWriter *json, const Simulation *simulation)
     }
 }
 
-// Over how much of a pad slow slip turned fast. A slow event has none.
+// Writes the length of a pad over which slow slip turned fast. A slow event has none.
 static void write_slip(JsonWriter *json, const Event *event, const Pads *pads)
 {
     bool named = event && event->pad >= 0 && event->pad < pads->count &&
@@ -114,8 +114,8 @@ static void write_results(JsonWriter *json, const RunReport *report)
         if (event->kind != EVENT_QUASI_STATIC) {
             write_slip(json, event, &simulation->pads);
 
-            // When the front of a rapid event came to each station, how fast it went in between,
-            // and whether that is faster than the fastest wave anywhere.
+            // Write when the front of a rapid event came to each station, how fast it went in
+            // between, and if that is faster than the fastest wave anywhere.
             double speeds[FRONT_STATIONS - 1];
             bool faster = fabs(event->front_speed) > wave_speed;
             for (int32_t s = 0; s < FRONT_STATIONS - 1; s++) {

@@ -179,7 +179,7 @@ static bool archive_output(Simulation *simulation, Archive *archive, Error *err)
 
 // --- save and restore ---------------------------------------------------------------------------
 
-// In two passes: the first measures. What it allocates itself is not the loop's.
+// Saves in two passes: the first measures. What it allocates itself is not the loop's.
 static bool save(Simulation *simulation, bool output, SavedState *state, Error *err)
 {
     Archive archive = archive_measure();

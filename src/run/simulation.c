@@ -364,7 +364,7 @@ bool amontons_simulation_block(Simulation *simulation, BlockView *view, Error *e
     return true;
 }
 
-// Until the scene ends, or something ends it before.
+// Steps until the scene ends, or something ends it before.
 bool simulation_loop(Simulation *simulation, Error *err)
 {
     Error unseen = {0}, lost = {0};

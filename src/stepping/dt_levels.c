@@ -150,7 +150,7 @@ double dt_levels_reduction_error(const DtLevels *dt_levels)
     return error;
 }
 
-// Those matrices that are there.
+// Lists those matrices that are there.
 static bool archive_contact(DtLevels *dt_levels, int32_t k, const int64_t *last, Archive *archive,
                             Error *err)
 {

@@ -31,7 +31,7 @@ void moving_set_destroy(MovingSet *set)
     *set = (MovingSet){0};
 }
 
-// Without friction, weakening and rod: the caller adds what it has.
+// Adds an unknown without friction, weakening and rod: the caller adds what it has.
 static MovingUnknown *add_unknown(MovingSet *set, int32_t unknown)
 {
     MovingUnknown *moving = &set->list[set->count++];

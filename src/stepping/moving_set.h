@@ -97,7 +97,7 @@ void moving_set_turn_vector(const MovingSet *set, bool back, double *vector);
 // Adds dampers, and springs times `reach` (velocity to displacement, time; 0: none), to the
 // diagonal.
 void moving_set_add_dampers(const MovingSet *set, double reach, double *matrix);
-// That at s = 1/reach, time; 0: at once, whatever is remembered.
+// Subtracts the weakening at s = 1/reach, time; 0: at once, whatever is remembered.
 void moving_set_subtract_weakening(const MovingSet *set, double reach, double *matrix);
 // `factor` times the most that what is remembered weakens, memory Re 1/(s + fading), at any s with
 // |s| >= 1/reach and Re s >= narrow |s|, 0 <= narrow < 1.

@@ -90,13 +90,13 @@ void step_control_settle(StepControl *control);
 // Explicit steps of one length in place of those that step_control_advance chooses; the levels of
 // dt so far are freed. `scheme` is at `now`.
 void step_control_use_explicit(StepControl *control, const ExplicitReference *scheme);
-// To the next whole multiple of `steps`, or less: to where slip is faster than `rate`, looked at
-// as often as implicit steps would resolve waves.
+// Steps to the next whole multiple of `steps`, or less: to where slip is faster than `rate`, looked
+// at as often as implicit steps would resolve waves.
 bool step_control_advance_explicit(StepControl *control, ExplicitReference *scheme, int64_t steps,
                                    double rate, Error *err);
 
-// To be called when the drive has changed between two steps: waves are resolved again, and earlier
-// records of oscillations no longer count.
+// Must be called when the drive has changed between two steps: waves are resolved again, and
+// earlier records of oscillations no longer count.
 void step_control_disturb(StepControl *control);
 
 // Starts counting anew at `now`: time 0, ledger opened, coarse steps to be earned again.

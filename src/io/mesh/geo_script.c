@@ -461,7 +461,8 @@ static bool is_close(const Reading *reading, int32_t k)
            strchr(")]}", reading->raw[reading->tokens[k].at]);
 }
 
-// Behind the bracket that opens at token k and its pair; where it has none, at the end.
+// Index of the token behind the bracket that opens at token k and its pair; where it has none, at
+// the end.
 static int32_t behind_bracket(const Reading *reading, int32_t k)
 {
     int32_t depth = 0;
@@ -482,7 +483,7 @@ static bool is_assignment(const Reading *reading, int32_t k)
            (*at == '-' && at[1] == '-');
 }
 
-// Behind a name and its indices: x, x[0], x(), x~{i}, x.part.
+// Index of the token behind a name and its indices: x, x[0], x(), x~{i}, x.part.
 static int32_t behind_name(const Reading *reading, int32_t k)
 {
     for (k++; k < reading->token_count;) {

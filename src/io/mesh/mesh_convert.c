@@ -86,7 +86,7 @@ static bool group_holds(const RawGroup *group, const RawBlock *block)
     return false;
 }
 
-// In how many groups of its dimension a block's entity is.
+// Number of groups of its dimension in which a block's entity is.
 static int32_t count_groups(const MeshRaw *raw, const RawBlock *block)
 {
     int32_t count = 0;
@@ -216,8 +216,8 @@ static bool mark_nodes(const MeshRaw *raw, const RawElements *body, const char *
 {
     bool *attached = NULL;
 
-    // Those of the body's elements. A tag that no node has is an error: gmsh lets some of those
-    // files pass.
+    // Take the nodes of the body's elements. A tag that no node has is an error: gmsh lets some of
+    // those files pass.
     for (int32_t e = 0; e < body->count; e++)
         for (int32_t a = 0; a < body->items[e].count; a++) {
             Node *node = table_find(table, body->items[e].nodes[a]);
@@ -227,10 +227,10 @@ static bool mark_nodes(const MeshRaw *raw, const RawElements *body, const char *
             node->index = 0;
         }
 
-    // Those on a surface or curve that are on no element of any kind, which fem/mesh_build refuses;
-    // and those of the boundary groups: on no element of the body they are refused likewise. Nodes
-    // of points, and of curves and surfaces outside the physical groups, only help to draw the
-    // geometry (centres of arcs) and are left out.
+    // Take the nodes on a surface or curve that are on no element of any kind, which fem/mesh_build
+    // refuses, and those of the boundary groups: where they are on no element of the body they are
+    // refused likewise. Nodes of points, and of curves and surfaces outside the physical groups,
+    // only help to draw the geometry (centres of arcs) and are left out.
     TRY(attached = NEW_ARRAY(bool, table->count, err));
     for (int32_t k = 0; k < raw->block_count; k++) {
         const RawBlock *block = &raw->blocks[k];

@@ -132,7 +132,7 @@ static inline int32_t element_corner_count(ElementKind kind)
 {
     return ELEMENTS[kind].corner_count;
 }
-// Which of its nodes VTK has in place k.
+// Number of the element's node that VTK has in place k.
 int32_t element_vtk_node(ElementKind kind, int32_t k);
 
 #endif

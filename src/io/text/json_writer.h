@@ -36,8 +36,8 @@ typedef struct JsonNumber {
 void json_numbers(JsonWriter *json, const JsonNumber *numbers, int32_t count);
 void json_number_list(JsonWriter *json, const char *key, const double *values, int32_t count);
 bool json_finish(JsonWriter *json, Error *err);   // flush, fsync, rename; frees `json` either way
-// In place of finish: the document in memory (memory_free), NULL on failure. Frees `json` either
-// way.
+// Is called in place of finish: the document in memory (memory_free), NULL on failure. Frees `json`
+// either way.
 char *json_take(JsonWriter *json, Error *err);
 void json_abandon(JsonWriter *json);   // removes what was written; NULL is fine
 

@@ -93,7 +93,7 @@ typedef struct Chain {
 // points: nodes, at least 3. The chain must not be moved afterwards.
 bool chain_build(const Model1d *model, int32_t points, Chain *chain, Error *err);
 void chain_destroy(Chain *chain);
-// At rest in u_0, the rod at U = 0.
+// Puts the state at rest in u_0, the rod at U = 0.
 void chain_rest(const Model1d *model, const Chain *chain, State *state);
 
 // --- simulation (steps.c) ------------------------------------------------------------------------

@@ -58,7 +58,7 @@ char *designs_text(const Designs *designs, const Design *list, int32_t count, Er
 void design_words(const Study *study, const Design *design, char words[OPTIMISE_WORDS_SIZE]);
 
 DesignPoint *designs_points(const Designs *designs, int32_t design);   // [aims]
-// Which result an aim is of, and whether its least is best.
+// Result that an aim is of, and if its least value is best.
 StudyAim designs_aim(const Designs *designs, int32_t aim);
 // value and bar of a design from its points, by `over`; NaN where a point has none.
 void designs_judge(Designs *designs, int32_t design);

@@ -37,7 +37,7 @@ typedef struct Placed {
     int32_t design;
 } Placed;
 
-// Those on the front by their first value; *front: [count], owned by the caller.
+// Lists those on the front by their first value; *front: [count], owned by the caller.
 static bool list_front(const Designs *designs, Placed **front, int32_t *count, Error *err)
 {
     *count = 0;

@@ -36,7 +36,7 @@ void stability_explain(const StabilityPath *path, StabilitySummary *summary)
     size_t used = 0;
     if (path->options->at_end) return;
 
-    // Which pad runs away, and at which mu.
+    // Say which pad runs away, and at which mu.
     if (path->grows && summary->pad_count == 1 && interface->dim > 2)
         say(summary,
             "Slip runs away when %.2f of the contact slips, its front at %.3f L along the middle, "
