@@ -173,7 +173,7 @@ static void append(Dissection *all, const int32_t *points, int32_t count)
 // Appends the set sorted[.][begin .. begin + count): its first half, its second, their separator.
 static void dissect(Dissection *all, int32_t begin, int32_t count)
 {
-    Plane plane;
+    Plane plane = {0};   // gcc 12 does not see that choose_plane sets it
     if (!choose_plane(all, begin, count, &plane)) {
         append(all, all->sorted[0] + begin, count);
         return;
