@@ -119,7 +119,7 @@ bool events_table_write(const char *path, ResultView *view, Error *err)
         int64_t first = 0, last = 0;   // the step before, and that of its end
         result_view_event_rows(view, event->U_start, event->U_stop, &first, &last);
 
-        // How much slipped from the trailing end on at one moment, at most.
+        // Find the largest length that slipped from the trailing end on at one moment.
         double longest = 0;
         for (int64_t row = first + 1; row <= last && row < view->rows; ++row)
             longest = fmax(longest, view->front[row] - result_view_trailing_end(view));

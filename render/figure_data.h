@@ -11,7 +11,7 @@
 bool figure_data_write(const char *folder, const Figure *figure, ResultView *view,
                        const FieldChoice *field, const char *compare, Error *err);
 
-// Whether the figure shows what the file has measured.
+// Finds if the figure shows what the file has measured.
 bool figure_data_measured(const Figure *figure, const char *compare, ResultView *view, bool *shows,
                           Error *err);
 

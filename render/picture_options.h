@@ -8,7 +8,7 @@
 #include "amontons_pictures.h"
 #include "base/error.h"
 
-// As amontons_picture_option.
+// Sets an option as amontons_picture_option does.
 bool picture_option_set(PictureStyle *style, const char *name, const char *value, Error *err);
 
 // An option that none of the `figures` [count] takes is refused: it would be given for nothing.

@@ -190,7 +190,12 @@ const char *amontons_libraries(void);   // what it was built with: "gmsh 4.8.0, 
 // Where it is not NULL, start your process with OPENBLAS_CORETYPE set to it: products are up to 5
 // times as fast then, and rounded as those of the program are.
 const char *amontons_kernels(const char **possible);
-// For a signal handler that ends the process: no lock file stays in a result folder or the cache.
+// true: files that may be damaged or a stranger's are read in child processes (fork) from now on,
+// as the program does; call it before there are other threads. false, as at the start: in this
+// process. Where the user has set the variable AMONTONS_APART that decides: empty means false.
+void amontons_use_child_processes(bool use);
+// A signal handler that ends the process calls this: no lock file stays in a result folder or the
+// cache.
 void amontons_let_go(void);
 // The folder of the meshes and example scenes that come with the library; false: not found.
 bool amontons_data_folder(char folder[AMONTONS_PATH_SIZE]);

@@ -52,7 +52,7 @@ typedef struct AmontonsFrictionRates {
     double rate_state[AMONTONS_FRICTION_STATES_MAX][AMONTONS_FRICTION_STATES_MAX];
 } AmontonsFrictionRates;
 
-// How many states a contact node has, 1 to AMONTONS_FRICTION_STATES_MAX.
+// Number of states of a contact node, 1 to AMONTONS_FRICTION_STATES_MAX.
 int amontons_friction_states(const AmontonsFriction *given);
 
 // The states when the rod begins to move: those of steady slip at `speed`, or, where rest > 0, of

@@ -32,7 +32,7 @@ extern "C" {
 // What takes an option of pictures beside figures: nothing, films, or films and pages of a report.
 enum { TAKEN_BY_FIGURES = 0, TAKEN_BY_FILMS = 1, TAKEN_BY_PAGES = 2 };
 
-// How a picture is drawn, in ONE table: the options of `amontons render`, `film` and `report`, the
+// The options by which a picture is drawn, in ONE table: those of `amontons render`, `film` and `report`, the
 // keys of `page` in a plot file, what Python's functions take, and the members of PictureStyle.
 // X(name, kind, least, most, figures that take it ("": all; "plot": a plot file), what else takes
 // it, words that are allowed, argument, meaning)
@@ -95,7 +95,7 @@ typedef struct PictureStyle {
     bool overwrite;   // what is there goes; else it is refused, if no list has it
     double height;   // mm; 0: as the figure asks
     double depth;   // how far below its floor a base is drawn, length; 0: all of it
-    // As PICTURE_OPTIONS has them; NULL: the default.
+    // The options of PICTURE_OPTIONS; NULL: the default.
     const char *style, *title, *inset, *legend, *limits, *from, *to, *cycle, *pixels, *line,
         *compare, *warnings;
 } PictureStyle;

@@ -31,7 +31,7 @@ bool amontons_simulation_set_rod_velocity(Simulation *simulation, double velocit
 // Where load.pressure is the only load, and on the full mesh (reduction.use: never).
 bool amontons_simulation_set_pressure(Simulation *simulation, double pressure, Error *err);
 
-// How large a run of the scene would be. Nothing but the mesh is made. Of a scene with accuracy.mu:
+// Size of a run of the scene. Nothing but the mesh is made. Of a scene with accuracy.mu:
 // one run on its first mesh.
 typedef struct RunForecast {
     int32_t elements, contact_nodes, unknowns;   // of the mesh

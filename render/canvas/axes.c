@@ -91,7 +91,7 @@ Ticks axis_ticks(const Axis *axis, int32_t wanted)
     return axis->whole ? ticks_whole(&ticks, axis->low, axis->high) : ticks;
 }
 
-// As many ticks as leave room between their numbers.
+// Chooses as many ticks as leave room between their numbers.
 static Ticks ticks_along_x(const Page *page, const Axes *axes)
 {
     double room = axes->box.right - axes->box.left;
@@ -129,7 +129,7 @@ static double left_width(const Page *page, const Axes *axes)
     return widest;
 }
 
-// In points; the same sums as in draw_left, from the frame to the picture's edge.
+// The margin is in points; the same sums as in draw_left, from the frame to the picture's edge.
 double axes_left_margin(const Page *page, const Axes *axes)
 {
     double numbers = left_width(page, axes) / page->point;
@@ -224,7 +224,7 @@ static void minor_marks(const Page *page, const Axes *axes, const Ticks *ticks, 
     const Axis *axis = below ? &axes->x : &axes->y;
     if (ticks->count == 0) return;
     for (int32_t k = -ticks->minor; k <= ticks->count * ticks->minor; ++k) {
-        // At equal distances, or at 1 to 9 times a power of ten.
+        // Minor ticks stand at equal distances, or at 1 to 9 times a power of ten.
         double even = ((double)ticks->first + (double)k / ticks->minor) * ticks->step;
         double value = (ticks->is_log ? ticks_minor_log(ticks, k) : even) / axis->factor;
         double part = axis_part(axis, value);
@@ -235,8 +235,8 @@ static void minor_marks(const Page *page, const Axes *axes, const Ticks *ticks, 
     }
 }
 
-// With the frame, last: its line covers where ticks and data meet it. A power of ten stands above
-// the frame.
+// Is drawn with the frame, last: its line covers where ticks and data meet it. A power of ten
+// stands above the frame.
 void axes_draw_left(const Page *page, const Axes *axes)
 {
     Stroke stroke = {.color = frame_color(axes), .width = FRAME_WIDTH * page->point};
@@ -274,8 +274,8 @@ void axes_draw_left(const Page *page, const Axes *axes)
     draw_outline(page->canvas, &stroke, &axes->box);
 }
 
-// From the frame downwards: ticks, numbers, then the name in the middle with the power of ten at
-// its right.
+// Draws from the frame downwards: ticks, numbers, then the name in the middle with the power of ten
+// at its right.
 void axes_draw(const Page *page, const Axes *axes)
 {
     Ticks ticks = ticks_along_x(page, axes);

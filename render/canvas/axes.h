@@ -35,7 +35,7 @@ void axis_set_unit(Axis *axis, const char *name, const char *unit);
 // About `wanted` ticks, in the numbers shown.
 Ticks axis_ticks(const Axis *axis, int32_t wanted);
 
-// Where (x, y) of the data lies on the picture.
+// Place of (x, y) of the data on the picture.
 Point axes_place(const Axes *axes, double x, double y);
 
 double axes_number_size(const Axes *axes);   // points: of numbers at ticks

@@ -159,7 +159,7 @@ void canvas_set_below(Canvas *canvas, Color below)
                                  (uint8_t)lroundf(255 * below.blue));
 }
 
-// Where in a PNG the pixels of `box` begin, if they are whole ones and all are drawn.
+// First pixel of `box` in a PNG, if its pixels are whole ones and all are drawn; else NULL.
 static uint32_t *pixels_of_box(Canvas *canvas, const Box *box, GlImageDef *def)
 {
     double left, top, right, bottom, width = box->right - box->left,
@@ -246,7 +246,7 @@ cleanup:
     cairo_surface_destroy(image);
 }
 
-// Not interpolated: what is seen is a number that was computed, never a mixture.
+// Nothing is interpolated: a colour shows a number that was computed, never a mixture.
 void canvas_heat(Canvas *canvas, const Box *box, const HeatMap *map)
 {
     draw_pixels(canvas, box,
@@ -273,8 +273,8 @@ bool canvas_is_vector(const Canvas *canvas)
     return canvas->def.format != CANVAS_PNG;
 }
 
-// In a PDF or SVG a little larger than asked: viewers leave a hair of paper between shapes that
-// only touch.
+// A cell is drawn in a PDF or SVG a little larger than asked: viewers leave a hair of paper between
+// shapes that only touch.
 void canvas_heat_cell(Canvas *canvas, const Box *box, float value)
 {
     static const double over = 0.04;   // points

@@ -51,7 +51,7 @@ const char *canvas_ending(CanvasFormat format);   // "png", ...
 // Cairo context that drawing and text use, with this colour set.
 cairo_t *canvas_ink(Canvas *canvas, Color color);
 
-// From here on only what lies in `box` is drawn; NULL: everywhere.
+// Clips all that is drawn later to `box`; NULL: nothing is clipped.
 void canvas_clip(Canvas *canvas, const Box *box);
 
 // The colour for HEAT_BELOW; all other values have those of the colour map (color.h). On dark paper

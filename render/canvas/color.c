@@ -22,7 +22,7 @@ typedef struct Station {
 static const Station STATION[STATIONS] = {{96, 20, 97}, {80, 56, 76},  {63, 72, 51},
                                           {46, 66, 24}, {29, 52, 352}, {14, 36, 310}};
 
-// From lightness, chroma, hue to Cartesian CIELAB.
+// Turns lightness, chroma and hue into Cartesian CIELAB.
 static Lab station_place(int32_t k)
 {
     double hue = STATION[k].hue * 3.14159265358979323846 / 180;

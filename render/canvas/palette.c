@@ -64,7 +64,7 @@ bool palette_make(const PalettePixels *picture, Palette *palette, Error *err)
         }
     }
 
-    // Those that hold pixels, `used` of them, are moved to the front and sorted.
+    // Bins that hold pixels, `used` of them, are moved to the front and sorted.
     used = 0;
     for (int32_t k = 0; k < BINS; ++k) {
         if (bins[k].count == 0) continue;

@@ -28,7 +28,7 @@ struct Text {
     cairo_font_options_t *options;   // owned
 };
 
-// Where a run of letters is: changed by the marks, kept on a stack.
+// State of the pen for a run of letters: marks change it, and a stack keeps it.
 typedef struct Pen {
     double size, baseline;   // pixels; baseline: upwards from the text's
     bool slanted, raised;
@@ -98,7 +98,8 @@ Text *text_create(Canvas *canvas, Error *err)
     }
     library = NULL;   // the font's
 
-    // Not hinted: letters keep their shape at print size, and are as wide in a PDF as in a PNG.
+    // Letters are not hinted: they keep their shape at print size, and are as wide in a PDF as in a
+    // PNG.
     text->options = cairo_font_options_create();
     cairo_font_options_set_hint_style(text->options, CAIRO_HINT_STYLE_NONE);
     cairo_font_options_set_hint_metrics(text->options, CAIRO_HINT_METRICS_OFF);
@@ -187,7 +188,7 @@ static void line_begin(Text *text, Line *line, Color color)
     cairo_set_font_options(line->cairo, text->options);
 }
 
-// In the pixels of `size`, marks not counted.
+// Width in the pixels of `size`, marks not counted.
 double text_width(Text *text, double size, const char *words)
 {
     Line line = {0};

@@ -27,7 +27,7 @@ void text_destroy(Text *text);   // NULL is fine
 // Pixels along the line. A bad font is reported by canvas_write.
 double text_width(Text *text, double size, const char *words);
 void text_draw(Text *text, const TextStyle *style, Point place, const char *words);
-// As much smaller as it must be to be no wider than `room`, pixels.
+// Draws words as much smaller as they must be to be no wider than `room`, pixels.
 void text_draw_within(Text *text, const TextStyle *style, Point place, double room,
                       const char *words);
 

@@ -30,7 +30,7 @@ Ticks ticks_whole(const Ticks *ticks, double low, double high);
 // Ticks at powers of ten from low to high, both > 0; every second or third where they are many.
 // Minor ticks: 2 to 9 times each, where every power has a tick.
 Ticks ticks_choose_log(double low, double high, int32_t wanted);
-// For a logarithmic axis too short for two powers of ten: ticks at 1, 2 and 5 times a power of ten.
+// Ticks of a logarithmic axis too short for two powers of ten: at 1, 2 and 5 times a power of ten.
 Ticks ticks_choose_thirds(double low, double high);
 // Minor tick k of a logarithmic axis: 1 to `minor` times a power of ten, from the one of the first
 // tick on, or before it (k < 0).

@@ -28,7 +28,7 @@ static Point node_place(const Block *block, const Axes *axes, int32_t node)
     return axes_place(axes, block->place[node][0], block->place[node][1]);
 }
 
-// Along each side as many parts as its length asks for, whichever element it belongs to: elements
+// Each side has as many parts as its length asks for, whichever element it belongs to: elements
 // side by side leave no crack. Inside as many as along the side that has most. A T3 stays whole:
 // beside a quadrilateral that is cut a pixel may be missed.
 typedef struct Parts {

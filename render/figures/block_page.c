@@ -28,7 +28,8 @@ static const Color CONTOUR = {0.08f, 0.08f, 0.10f, 0.55f};
 static const Color LOAD_COLOR = {0.10f, 0.32f, 0.66f, 1};
 static const char PRESSURE_IN_SPACE[] =
     "pressure \u2212(~{\u03c3}_{xx} + ~{\u03c3}_{yy} + ~{\u03c3}_{zz})/3";
-// By the history's status: open, sticks, slips where friction weakens, slips where it does not.
+// Colour and name by the history's status: open, sticks, slips where friction weakens, slips where
+// it does not.
 static const struct {
     Color color;
     const char *name;
@@ -143,9 +144,9 @@ static SpacePage space_of(const Page *page, const BlockPage *map, const Axes *ax
     return space;
 }
 
-// Below the floor's line, a colour for each contact node, where it is drawn on the deformed block:
-// at its node of the block, the lowest one there of the elements above the floor's line, which
-// those of a base are not. Without memory the nodes are drawn where they were.
+// Draws below the floor's line a colour for each contact node, where it is drawn on the deformed
+// block: at its node of the block, the lowest one there of the elements above the floor's line,
+// which those of a base are not. Without memory the nodes are drawn where they were.
 static void draw_contact(const Page *page, const BlockPage *map, const Block *block, int64_t row,
                          const Axes *axes)
 {
@@ -236,7 +237,7 @@ static void draw_load(const Page *page, const BlockPage *map, const Block *block
     }
 }
 
-// Where a height of the trailing face is drawn: between the nodes of it below and above.
+// Drawn place of a height of the trailing face: between the nodes of it below and above.
 static double drawn_height(const Block *block, double height, double face, double slack)
 {
     const FieldFrame *frame = &block->frame;
@@ -265,7 +266,7 @@ bool block_page_draw(const Page *page, const BlockPage *map, const Block *block,
         return false;
     if (map->edges) block_edges_draw(page, block, axes, &edge);
 
-    // At the numbers of the bar.
+    // Contours lie at the numbers of the bar.
     Stroke stroke = {.color = CONTOUR, .width = CONTOUR_WIDTH * unit};
     Ticks ticks = colorbar_ticks(&map->bar);
     for (int32_t k = 0; k < ticks.count; ++k) {

@@ -17,7 +17,7 @@ typedef struct BlockPage {
     Colorbar bar;   // block_page_fit sets it
 } BlockPage;
 
-// As space_cut_read. ERROR_INPUT also where the block is in the plane.
+// Reads as space_cut_read does. ERROR_INPUT also where the block is in the plane.
 bool block_cut_read(const ResultView *view, const char *words, SpaceCut *cut, Error *err);
 
 // Deforms all of [count] blocks by *magnification, by the least that suits any of them where it is

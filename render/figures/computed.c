@@ -34,8 +34,8 @@ void computed_choose_cycle(ResultView *view, int32_t cycle)
 
 // --- length over load ----------------------------------------------------------------------------
 
-// From the trailing end to the farthest point that slip has come to since the sliding before, be it
-// slow or in a precursor, against the largest F_T/F_N since then.
+// Finds the length from the trailing end to the farthest point that slip, slow or in a precursor,
+// has come to since the sliding before, against the largest F_T/F_N since then.
 static bool find_lengths(ResultView *view, Error *err)
 {
     int64_t first = 0, end = view->rows;
@@ -106,7 +106,7 @@ bool computed_events(const ResultView *view, ViewEventKind kind, ViewCurve *even
 
 // --- speed over place ----------------------------------------------------------------------------
 
-// Between two stations, length.
+// Distance between two stations, length.
 static double station_step(const ResultView *view)
 {
     return (view->x[view->nodes - 1] - view->x[0]) / (STATIONS - 1);
@@ -124,9 +124,9 @@ static double arrival_at(const ResultView *view, const double *times, double x)
     return NAN;
 }
 
-// Between stations a twentieth of the block apart, by the times at which slip there first gets
-// faster than twice the rod, as in record/front_path. Where slip was slow before the front is one
-// of speeding up, and may run faster than any wave.
+// Finds speeds between stations a twentieth of the block apart, by the times at which slip there
+// first gets faster than twice the rod, as in record/front_path. Where slip was slow before the
+// front is one of speeding up, and may run faster than any wave.
 static bool find_speeds(ResultView *view, double start, double stop, ViewCurve *curve, Error *err)
 {
     double *times = NULL, V = fabs(view->number[NUMBER_ROD_VELOCITY]);
@@ -136,7 +136,7 @@ static bool find_speeds(ResultView *view, double start, double stop, ViewCurve *
     TRY(curve_make(curve, STATIONS, err));
     result_view_event_rows(view, start, stop, &first, &last);
 
-    // When each node first slipped so fast, between steps by its slip rates; NaN: it did not.
+    // Find when each node first slipped so fast, between steps by its slip rates; NaN: it did not.
     for (int32_t i = 0; i < view->nodes; ++i) {
         int64_t row = first;
         const double *rate = view->slip_rate + i;

@@ -39,7 +39,7 @@ bool computed_events(const ResultView *view, ViewEventKind kind, ViewCurve *even
 // the trailing end. The arrays are the caller's, also after a failure; there may be no points.
 bool computed_front_speed(ResultView *view, const ViewEvent *event, ViewCurve *curve, Error *err);
 
-// Whether points k and k + 1 of such a curve are neighbours, and the front ran the same way in
+// True if points k and k + 1 of such a curve are neighbours, and the front ran the same way in
 // both.
 bool computed_speeds_join(const ResultView *view, const ViewCurve *curve, int64_t k);
 // Size of the speed at x: linear between points that join, else that of the point whose interval it

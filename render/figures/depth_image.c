@@ -24,7 +24,8 @@ void depth_image_destroy(DepthImage *image)
     *image = (DepthImage){0};
 }
 
-// From `low` to `high` of three numbers, within 0 and `end`, as middles of pixels.
+// Finds the pixels whose middles lie between the least and the largest of three numbers, within 0
+// and `end`.
 static void pixel_range(double a, double b, double c, int32_t end, int32_t range[2])
 {
     range[0] = (int32_t)fmax(0, ceil(fmin(a, fmin(b, c)) - 0.5));
@@ -58,7 +59,8 @@ void depth_image_add(DepthImage *image, const DepthPoint corner[3])
         }
 }
 
-// Against the farthest of the pixels around: a line on an edge has the face behind it beside it.
+// Compares with the farthest of the pixels around: a line on an edge has the face behind it beside
+// it.
 static bool shows(const DepthImage *image, Point at, double depth)
 {
     double farthest = -INFINITY;

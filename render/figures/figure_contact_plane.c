@@ -105,7 +105,8 @@ typedef struct Maps {
     double scale, width, height;   // points a length; of a map, points
 } Maps;
 
-// By name, a state's own included, which the view then stands for; CONTACT_QUANTITY_COUNT: none.
+// Finds a quantity by name, a state's own name included, which the view then stands for;
+// CONTACT_QUANTITY_COUNT: none has it.
 static ContactQuantity quantity_of(ResultView *view, const char *name)
 {
     int32_t k = 0;
@@ -267,8 +268,8 @@ static bool draw_page(Page *page, const FigureInput *input, Maps *maps, Error *e
         left = axes_left_margin(page, &axes);
         double room = width - left - BAR_GAP - colorbar_width(page, &maps->bar);
 
-        // As many maps in a line as make all of them nearest to a square, but not so that they
-        // would be higher than SHAPE_MOST.
+        // A line has as many maps as make all of them nearest to a square, unless they would be
+        // higher than SHAPE_MOST.
         double best = INFINITY;
         for (int32_t columns = 1; columns <= COLUMNS_MAX && columns <= maps->count; ++columns) {
             int32_t lines = (maps->count + columns - 1) / columns;

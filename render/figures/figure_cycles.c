@@ -271,9 +271,9 @@ static bool fronts_draw(const Page *page, const Axes *axes, ResultView *view, Fr
     return error_is_clean(err);
 }
 
-// How fast fronts of the precursors and the sliding of a cycle run, over x, beside the speeds of
-// waves. A front of speeding up may be faster than any wave, and where viscosity damps every wave
-// their speeds bound nothing: the key says both.
+// Draws how fast fronts of the precursors and the sliding of a cycle run, over x, beside the speeds
+// of waves. A front of speeding up may be faster than any wave, and where viscosity damps every
+// wave their speeds bound nothing: the key says both.
 bool figure_front_speed(const Page *whole, ResultView *view, Error *err)
 {
     Page page = *whole;
@@ -340,7 +340,7 @@ bool figure_front_speed(const Page *whole, ResultView *view, Error *err)
     TRY(computed_curve(view, MEASURED_SPEED, &curve, err));
     TRY(computed_curve(view, MEASURED_FRONT, &front, err));
     if (curve.count > 0) {
-        // How far slow slip had come before: a line upright.
+        // An upright line shows how far slow slip had come before.
         Stroke upright = dashed_stroke(&page, INK, CURVE_WIDTH);
         double x = curve_value(&front, zoom.U_slide);
         draw_segment(page.canvas, &upright, axes_place(&axes, x, axes.y.low),

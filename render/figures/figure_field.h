@@ -11,8 +11,8 @@ typedef struct FieldPage {
     double scale, width, height;   // of the frame, points; set by field_page_lay_out
 } FieldPage;
 
-// To scale on a page so many points wide, or less where it would be too high. The page's height
-// over its width.
+// Lays it out to scale on a page so many points wide, or less where it would be too high. The
+// page's height over its width.
 double field_page_lay_out(FieldPage *field, double page_width);
 
 // map: fitted; block: deformed.

@@ -143,7 +143,7 @@ static int32_t slidings_draw(const Page *page, const ResultView *view, const Axe
     return count;
 }
 
-// Where the zoom lies in what is shown, and the style does not forbid it.
+// True if the zoom lies in what is shown, and the style does not forbid it.
 static bool has_inset(const ResultView *view, const PictureStyle *style, const ViewRange *shown)
 {
     Zoom zoom = zoom_choose(view);

@@ -307,7 +307,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// How far slip has come, against U.
+// Writes how far slip has come, against U.
 bool figure_slip_map_table(const char *path, ResultView *view, const FieldChoice *field, Error *err)
 {
     ViewCurve front;

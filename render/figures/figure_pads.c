@@ -177,7 +177,8 @@ bool figure_pads(Page *page, const FigureInput *input, Error *err)
     key_draw(&whole, entries, count);
     axes_fit(&whole, &whole.room, RIGHT_MARGIN, &axes);
 
-    // From where some of a pad slips to where all of it has let go, or else to the frame's end.
+    // A line goes from where some of a pad slips to where all of it has let go, or else to the
+    // frame's end.
     double point = whole.point;
     Stroke stroke = {.color = FIGURE_CURVE, .width = LINE_WIDTH * point};
     TextStyle style = {.size = SMALL_SIZE * point, .color = INK, .up = 0.5};

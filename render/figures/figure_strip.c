@@ -70,8 +70,8 @@ static bool read_strip(const FigureInput *input, Strip *strip, BlockQuantity qua
         int32_t best = from;
         double least = INFINITY, wanted = (double)k / (FRAMES_MAX - 1);
         for (int32_t at = from; at <= to; ++at) {
-            // How much of the slip of an event is done at a step: the mean over the contact nodes,
-            // 0 to 1.
+            // Share of the slip of an event that is done at a step: the mean over the contact
+            // nodes, 0 to 1.
             double sum = 0;
             for (int32_t i = 0; i < view->nodes; ++i) {
                 double start = view->slip[row[from] * view->nodes + i];

@@ -31,7 +31,7 @@ typedef bool (*WholeFigureFunction)(Page *page, const FigureInput *input, Error 
 
 // One field of the block at one time.
 bool figure_field(Page *page, const FigureInput *input, Error *err);
-// Whether fields are stored, and have that; NULL: anything.
+// True if fields are stored, and have that quantity; NULL: any quantity will do.
 bool figure_field_shows(const char *folder, const char *quantity);
 // The same, the velocity where none is named, in up to six frames of one sliding.
 bool figure_strip(Page *page, const FigureInput *input, Error *err);
@@ -44,14 +44,14 @@ bool figure_contact_plane_shows(ResultView *view, const char *quantity);
 // Readings of the probes, strains where nothing is named, against U.
 bool figure_probes(Page *page, const FigureInput *input, Error *err);
 bool figure_probes_show(const char *quantity);   // whether it knows that
-// Which pad lets go first.
+// Draws which pad lets go first.
 bool figure_pads(Page *page, const FigureInput *input, Error *err);
 // The contact along x at moments, those around the last sliding where none are asked for.
 bool figure_profile(Page *page, const FigureInput *input, Error *err);
 
 // F_T/F_N against U with its peaks, mu_S, mu_M, mu_K, and above it an inset of the precursors.
 bool figure_force(const Page *page, ResultView *view, Error *err);
-// Whether it has that inset, for which it is higher.
+// True if it has that inset, for which it is higher.
 bool figure_force_enlarges(const ResultView *view, const PictureStyle *style);
 // Slip rate over V, logarithmic, against U and x.
 bool figure_slip_map(const Page *page, ResultView *view, Error *err);
@@ -62,9 +62,9 @@ bool figure_contact_density(const Page *page, ResultView *view, Error *err);
 // Area of the real contacts over that at rest, likewise, in colours of what the precursors leave.
 bool figure_contact_area(const Page *page, ResultView *view, Error *err);
 
-// How long slip was when the load ratio first came so far, in the cycle that is enlarged.
+// Draws how long slip was when the load ratio first came so far, in the cycle that is enlarged.
 bool figure_precursors(const Page *page, ResultView *view, Error *err);
-// How fast the front of the sliding that is enlarged ran, over x.
+// Draws how fast the front of the sliding that is enlarged ran, over x.
 bool figure_front_speed(const Page *page, ResultView *view, Error *err);
 
 // Writes the numbers that a figure shows to a csv file. field: the moments of profile.
@@ -73,7 +73,7 @@ FigureTable figure_force_table, figure_slip_map_table, figure_state_map_table,
     figure_contact_area_table, figure_precursors_table, figure_front_speed_table,
     figure_probes_table, figure_pads_table, figure_profile_table;
 
-// Whether a result has what a figure shows.
+// True if a result has what a figure shows.
 typedef bool FigureThere(const ResultView *view);
 FigureThere figure_state_map_is_there, figure_contact_area_is_there, figure_contact_plane_is_there,
     figure_probes_are_there, figure_pads_are_there;

@@ -37,7 +37,8 @@ typedef struct Column {
 
 static const Column NONE = {-1, -1, 1};
 
-// How many of the result's units one is. Normalised results have none: L_0, t_0, L_0/t_0 are 1.
+// Finds how many of the result's units one such unit is. Normalised results have none: L_0, t_0,
+// L_0/t_0 are 1.
 static bool unit_factor(const CsvTable *table, const ResultView *view, CsvUnit unit,
                         const char *dimension, Column *column, Error *err)
 {
@@ -165,7 +166,7 @@ static bool find_probe(const CsvTable *table, const ResultView *view, ProbeQuant
     return unit.length == 0 || csv_to_si(table, column->index, unit, "1", &column->factor, err);
 }
 
-// Which columns `kind` has: over what, and the value. false: the file does not have it.
+// Chooses the columns that `kind` has: over what, and the value. false: the file does not have it.
 static bool choose(const Columns *found, MeasuredKind kind, Column *at, Column *value)
 {
     const Column moment = found->U.index >= 0 ? found->U : found->t;
@@ -332,9 +333,9 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Beside each measured length that of the precursor whose load is nearest, whose load becomes `x`;
-// no farther from it than neighbouring precursors are apart. What slipped over the whole contact is
-// a sliding, and stands beside one. Without precursors nothing is done.
+// Sets beside each measured length that of the precursor whose load is nearest, whose load becomes
+// `x`; no farther from it than neighbouring precursors are apart. What slipped over the whole
+// contact is a sliding, and stands beside one. Without precursors nothing is done.
 static bool match_events(Measured *measured, ResultView *view, Error *err)
 {
     ViewCurve precursors = {0}, slidings = {0};

@@ -53,7 +53,7 @@ typedef struct Measured {
 bool measured_read(const char *path, MeasuredKind kind, ResultView *view, Measured *measured,
                    Error *err);
 void measured_destroy(Measured *measured);   // zeroed is fine
-// Whether the file has `kind`.
+// Finds if the file has `kind`.
 bool measured_has(const char *path, MeasuredKind kind, const ResultView *view, bool *has,
                   Error *err);
 

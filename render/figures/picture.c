@@ -127,7 +127,7 @@ bool picture_add(Picture *picture, const Figure *figure, Error *err)
     return true;
 }
 
-// Whether a panel shows another U than the others: contact-density enlarges a part.
+// True if a panel shows another U than the others: contact-density enlarges a part.
 static bool enlarges(const Picture *picture, int32_t k)
 {
     return picture->panels[k].figure->id == FIGURE_CONTACT_DENSITY;

@@ -32,7 +32,7 @@ const Figure *figure_get(FigureId id);
 // The figure called `name`, or ERROR_INPUT with the names there are.
 bool figure_find(const char *name, const Figure **figure, Error *err);
 
-// Whether a result has what the figure shows.
+// True if a result has what the figure shows.
 bool figure_is_there(const Figure *figure, const ResultView *view);
 
 // One of the panels of a page.

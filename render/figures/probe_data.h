@@ -30,7 +30,7 @@ ProbeWords probe_words(ProbeQuantity quantity);
 // The quantity called `name`, NULL the first; ERROR_INPUT names those there are.
 bool probe_quantity_find(const char *name, ProbeQuantity *quantity, Error *err);
 
-// How many components it has, and how component c is called: "xx", "z".
+// Number of its components, and the name of component c: "xx", "z".
 int32_t probe_components(const ResultView *view, ProbeQuantity quantity);
 const char *probe_component(const ResultView *view, ProbeQuantity quantity, int32_t c);
 

@@ -13,7 +13,7 @@ typedef struct RodMark {
     double low, high;   // the strip's z; NaN: nothing is drawn
     double share;   // of the usual size: 1
 } RodMark;
-// Whether a node at height z is of the body that a rod pushes between these heights: a base lies
+// True if a node at height z is of the body that a rod pushes between these heights: a base lies
 // below z = 0.
 static inline bool rod_mark_pushes(double low, double high, double z)
 {

@@ -82,7 +82,7 @@ static void draw_parts(const Page *page, const SpacePage *space, const Block *bl
 
 // --- marks ---------------------------------------------------------------------------------------
 
-// How far above or below the strip a node of the trailing face is; INFINITY: it is beside it.
+// Distance of a node of the trailing face above or below the strip; INFINITY: it is beside it.
 static double off_strip(const Block *block, int64_t node, const double low[2], const double high[2])
 {
     const double *was = block->frame.position + 3 * node;
@@ -103,7 +103,7 @@ static void draw_rod(const Page *page, const SpacePage *space, const Block *bloc
     double high[2] = {block->high[1], number[NUMBER_ROD_HIGH]};
     if (breadth > 0) low[0] = middle - breadth / 2, high[0] = middle + breadth / 2;
 
-    // From which y on the cut leaves the strip.
+    // The cut leaves the strip from this y on.
     double left = cut->count > 0 ? INFINITY : low[0];
     for (int32_t k = 0; k < cut->count; ++k) {
         if (cut->axis[k] == 1) left = fmax(low[0], cut->value[k]);
@@ -185,8 +185,8 @@ void space_page_floor(const Page *page, const SpacePage *space, const Block *blo
 
 // --- axes ----------------------------------------------------------------------------------------
 
-// Along `axis` from `start`: ticks go to `aside`, a direction on the page. Where that is left or
-// right the name rises, beside the numbers that it passes: the axis may lean.
+// Draws along `axis` from `start`: ticks go to `aside`, a direction on the page. Where that is left
+// or right the name rises, beside the numbers that it passes: the axis may lean.
 static void draw_axis(const Page *page, const SpacePage *space, const Block *block, int32_t axis,
                       const double start[3], Point aside)
 {

@@ -17,7 +17,7 @@ typedef struct SpacePage {
     Color status[4];   // of the contact, by its numbers in the history
 } SpacePage;
 
-// Where the camera sees the corners of its floor.
+// Finds where the camera sees the corners of its floor.
 void space_page_floor_corners(const Block *block, double corner[4][2]);
 
 bool space_page_draw(const Page *page, const SpacePage *space, const Block *block, Error *err);

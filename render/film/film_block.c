@@ -17,7 +17,8 @@ static const double BAR_MARGIN = 4;   // points: above and below the bar, at lea
 
 // --- fields --------------------------------------------------------------------------------------
 
-// For each frame the field stored nearest to it in time; none where all are outside of the film.
+// Finds for each frame the field stored nearest to it in time; none where all are outside of the
+// film.
 bool film_block_open(FilmBlock *film, Error *err)
 {
     const FilmClock *clock = film->clock;

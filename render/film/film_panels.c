@@ -70,7 +70,7 @@ void film_force_draw(const Page *page, const FilmForce *force)
 
 enum { STEPS_AT_ONCE = 64 };
 
-// In pieces of some steps; of the last one film_force_now draws the rest.
+// Draws in pieces of some steps; of the last one film_force_now draws the rest.
 void film_force_pass(const Page *page, FilmForce *force, const FilmMoment *now)
 {
     Stroke stroke = {.color = PAST, .width = PAST_WIDTH * page->point};

@@ -42,7 +42,7 @@ typedef struct FilmPlane {
     float *level;   // [all_nodes] work
 } FilmPlane;
 
-// To scale in `cell`, pixels. Reads what it needs.
+// Draws to scale in `cell`, pixels. Reads what it needs.
 bool film_plane_create(const Page *page, const Box *cell, FilmPlane *plane, Error *err);
 void film_plane_destroy(FilmPlane *plane);   // zeroed is fine
 void film_plane_draw(const Page *page, const FilmPlane *plane);   // what stands

@@ -48,8 +48,8 @@ struct FilmSink {
 
 // --- names ---------------------------------------------------------------------------------------
 
-// Where in the name of a file, without its folder, a number is to stand; NULL: nowhere. A folder
-// may be called `50% load`, and so may a film.
+// Place in the name of a file, without its folder, where a number is to stand; NULL: there is none.
+// A folder may be called `50% load`, and so may a film.
 static const char *find_mark(const char *path)
 {
     const char *slash = strrchr(path, '/');

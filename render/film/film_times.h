@@ -13,12 +13,13 @@ typedef struct FilmMoment {
 } FilmMoment;
 
 FilmMoment film_moment(const ResultView *view, double t);
-// Then, of values [rows * width], column k.
+// Value at that moment of column k of values [rows * width].
 double film_value(const FilmMoment *moment, const double *values, int32_t width, int32_t k);
 int64_t film_nearest_row(const FilmMoment *moment);
 
-// From and to ("U=0.0117", "t=120"; NULL: start, end), or a cycle ("first", "last", "3"): from the
-// end of a bulk sliding to a little after the next one. ERROR_INPUT where there is no such time.
+// A span has a beginning and an end ("U=0.0117", "t=120"; NULL: those of the run), or is a cycle
+// ("first", "last", "3"): from the end of a bulk sliding to a little after the next one.
+// ERROR_INPUT where there is no such time.
 typedef struct FilmSpan {
     const char *from, *to;
     const char *cycle;   // NULL, "all": no

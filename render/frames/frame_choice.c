@@ -9,7 +9,8 @@ enum { EVENTS_SHARE = 2 };   // of the frames one in so many may be taken for ev
 
 static const double SLACK = 1e-9;   // of U: a time at the border of an event belongs to it
 
-// How far U and mu have come from row `from` to row `to`; what is not finite stands still.
+// Sums of the changes of U and mu between neighbouring rows from `from` to `to`; changes that are
+// not finite count as 0.
 typedef struct Way {
     double U, mu;
 } Way;

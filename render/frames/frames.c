@@ -212,7 +212,7 @@ static void write_chart(const Frames *frames, int32_t k, HtmlWriter *html)
                 "%.6g'><use href='#common-axes'/>",
                 WIDTH, HEIGHT, view->U[row]);
 
-    // Above the strips, a colour for each part of the contact that is of one status.
+    // Draw above the strips a colour for each part of the contact that is of one status.
     const uint8_t *status = frames->status + (int64_t)k * view->nodes;
     const Axes *axes = &frames->strip[0];
     SpaceTime contact = {.nodes = view->nodes, .x = view->x, .pad = view->pad};

@@ -172,7 +172,7 @@ bool legend_is_below(const Page *page, const Plot *plot, const Axes *frame)
     return legend_hides(panel, frame, &size, &box) > 0;
 }
 
-// From the room's top down, line by line. Returns the height of all.
+// Goes from the room's top down, line by line. Returns the height of all.
 static double below_walk(const Page *page, const PlotPanel *panel, const Box *room, bool draws)
 {
     double font = NUMBER_SIZE * page->point, pitch = LEGEND_PITCH * font;

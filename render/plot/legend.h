@@ -16,7 +16,7 @@ typedef struct LegendSize {
 // The legend's place in a corner of the frame, or for CORNER_OUTSIDE right of it at its top.
 Box legend_box(const Axes *axes, const LegendSize *size, PlotCorner corner);
 
-// How much of the data a legend at `box` would hide: the length of the lines and error bars below
+// Amount of data that a legend at `box` would hide: the length of the lines and error bars below
 // it, and the width of the marks, pixels. By the length of drawn line a finely sampled curve weighs
 // no more than a coarse one.
 double legend_hides(const PlotPanel *panel, const Axes *axes, const LegendSize *size,
@@ -36,7 +36,7 @@ Box legend_settle(const Page *page, const PlotPanel *panel, double share, const 
 void legend_draw(const Page *page, const Axes *axes, const PlotPanel *panel, const Box *box,
                  double share);
 
-// Whether the legend stands in lines below all: the file says so, the plot has maps or panels, or
+// True if the legend stands in lines below all: the file says so, the plot has maps or panels, or
 // beside or in `frame` it would take too much room.
 bool legend_is_below(const Page *page, const Plot *plot, const Axes *frame);
 // Pixels that these lines take over the room's width.

@@ -86,7 +86,7 @@ bool map_grid_find(const PlotMap *map, bool x_is_log, bool y_is_log, MapGrid *gr
         return true;
     }
 
-    // From [count] lines to [count + 1] edges in the same array.
+    // Turn [count] lines into [count + 1] edges in the same array.
     for (int32_t d = 0; d < 2; d++) {
         double *lines = d ? grid->y : grid->x, half = LONE_WIDTH / 2;
         int32_t count = d ? rows : columns;
@@ -164,7 +164,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// By Qhull (Barber, Dobkin and Huhdanpaa, ACM Trans. Math. Softw. 22, 1996). Joins points; those
+// Joins points by Qhull (Barber, Dobkin and Huhdanpaa, ACM Trans. Math. Softw. 22, 1996). Those
 // that are not finite are in no triangle, and where all lie on one line there is none.
 static bool triangulate(const Point *points, int32_t count, MapTriangles *triangles, Error *err)
 {
@@ -229,7 +229,7 @@ bool map_triangles_find(const MapGrid *grid, const Point *place, int32_t count,
     if (grid->columns == 0)
         return triangulate(place, count, triangles, err) && drop_long(place, count, triangles, err);
 
-    // In a grid two in the middle of any four cells that meet and hold points.
+    // A grid has two in the middle of any four cells that meet and hold points.
     triangles->points = NEW_ARRAY(int32_t, 6 * (int64_t)grid->columns * grid->rows, err);
     if (!triangles->points) return false;
     for (int32_t row = 0; row + 1 < grid->rows; row++)

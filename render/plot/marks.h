@@ -7,8 +7,8 @@
 
 static const double MARKER_RADIUS = 1.9;   // points
 
-// Where the error bar of point k begins and ends on the picture: upright, or lying where the y axis
-// has names. false: it has none, or one that the axes cannot show.
+// Finds where the error bar of point k begins and ends on the picture: upright, or lying where the
+// y axis has names. false: it has none, or one that the axes cannot show.
 bool plot_bar_ends(const Axes *axes, const PlotSeries *series, int32_t k, Point end[2]);
 
 // share: of the usual size and width, less in an inset.

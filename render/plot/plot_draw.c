@@ -157,7 +157,7 @@ static Axes frame_axes(const Page *page, const Plot *plot, const MapScale *scale
     return axes;
 }
 
-// From parts of the frame to pixels.
+// Turns parts of the frame into pixels.
 static Box inset_place(const Plot *plot, const Box *frame)
 {
     double width = frame->right - frame->left, height = frame->bottom - frame->top;

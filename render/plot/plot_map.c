@@ -125,7 +125,7 @@ static bool triangles_draw(const MapDrawing *drawing, Error *err)
     return true;
 }
 
-// Between points, pixels.
+// Distance between points, pixels.
 static double point_distance(const MapDrawing *drawing)
 {
     const Box *box = &drawing->axes->box;
@@ -219,7 +219,7 @@ static bool contours_draw(const MapDrawing *drawing, Error *err)
         int64_t count = 0;
         if (level < range->low + slack || level > range->high - slack) continue;
 
-        // Where the level crosses a triangle, at two of its sides.
+        // The level crosses a triangle at two of its sides.
         for (int64_t k = 0; k < triangles->count; k++) {
             const int32_t *corner = triangles->points + 3 * k;
             Point *crossing = pieces + count;

@@ -140,7 +140,7 @@ void block_destroy(Block *block)
 
 // --- quantities ----------------------------------------------------------------------------------
 
-// Which axes a strain or a stress belongs to, in the order of the arrays.
+// Axes that a strain or a stress belongs to, in the order of the arrays.
 static const uint8_t strain_axes[2][6][2] = {{{0, 0}, {1, 1}, {0, 1}},
                                              {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
 
@@ -283,7 +283,7 @@ static double size_at(const FieldFrame *frame, int32_t e, const ShapeValues *sha
     return shape_jacobian(kind, shape, (const MeshPlace *)place);
 }
 
-// Whether an element drawn so would be thinner than FOLDED of what it is at a corner, or folded.
+// True if an element drawn so would be thinner than FOLDED of what it is at a corner, or folded.
 static bool deformation_folds(const FieldFrame *frame, double magnification)
 {
     ShapeValues shape[ELEMENT_NODES_MAX];
@@ -326,7 +326,7 @@ double block_magnification(const Block *block)
     return wanted;
 }
 
-// Where the camera sees what was moved.
+// Finds where the camera sees a node that was moved.
 static void see_node(Block *block, int64_t i)
 {
     double seen[3];

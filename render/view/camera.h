@@ -16,7 +16,8 @@ Camera camera_before(const double low[3], const double high[3]);
 // seen: across, up, and how far away; lengths.
 void camera_see(const Camera *camera, const double place[3], double seen[3]);
 
-// How far below the box its floor must be drawn, so that the box hides nothing of it, length.
+// Distance below the box at which its floor must be drawn, so that the box hides nothing of it,
+// length.
 double camera_drop(const double low[3], const double high[3]);
 
 #endif

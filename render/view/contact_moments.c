@@ -54,7 +54,7 @@ static bool take_event(const ResultView *view, const char *at, ContactMoments *m
     return true;
 }
 
-// How much of the contact rapid slip had come to at a step.
+// Area of the contact that rapid slip had come to at a step.
 static double area_reached(const ResultView *view, const ContactPlane *plane,
                            const ContactMoments *moments, int64_t row)
 {
@@ -71,7 +71,7 @@ static void add_row(ContactMoments *moments, int64_t row)
         moments->row[moments->count++] = row;
 }
 
-// How much of the contact slips at a step.
+// Area of the contact that slips at a step.
 static double area_slipping(const ResultView *view, const ContactPlane *plane, const double *rates,
                             int64_t row)
 {
@@ -109,7 +109,7 @@ bool contact_moments_find(const ResultView *view, const double *rates, const cha
     }
     if (!take_event(view, at, moments, err)) return false;
 
-    // When each node was first rapid in the event, from when the first of them was.
+    // Time when each node was first rapid in the event, counted from the first of them.
     double rapid_rate = RAPID * fabs(view->number[NUMBER_ROD_VELOCITY]);
     double *arrival = moments->arrival = NEW_ARRAY(double, nodes, err);
     if (!arrival) return false;

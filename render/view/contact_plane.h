@@ -13,7 +13,7 @@ typedef struct ContactPatch {
     double corner[PATCH_CORNERS][2];   // x, y, length
 } ContactPatch;
 
-// From corner to corner over the node between them, or the middle.
+// A side goes from corner to corner over the node between them, or the middle.
 typedef struct ContactSide {
     double point[3][2];
 } ContactSide;

@@ -18,7 +18,8 @@ typedef struct OuterFace {
     int32_t element, side;
 } OuterFace;
 
-// Those of one element alone: [*count], to be freed with memory_free, after a failure, too.
+// Lists the faces of one element alone: [*count], to be freed with memory_free, after a failure,
+// too.
 bool outer_faces(const ElementList *elements, OuterFace **faces, int32_t *count, Error *err);
 // Its nodes, in the order of its kind; returns how many.
 int32_t outer_face_nodes(const ElementList *elements, const OuterFace *face, ElementKind *kind,

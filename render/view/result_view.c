@@ -167,7 +167,8 @@ bool result_view_read(ResultView *view, ResultSeries series, bool whole, double 
              result_series_name(series), width, nodes);
     if (rows < view->rows) view->rows = rows;   // a killed run may have flushed some series only
 
-    // In place, of several states one; of a vector its size, of slip its component along the drive.
+    // One of several states stays, in place; of a vector its size, of slip its component along the
+    // drive.
     for (int64_t k = 0; components > 1 && k < rows * nodes; ++k) {
         const double *all = *values + components * k;
         (*values)[k] = series == SERIES_STATE  ? all[view->state]

@@ -6,7 +6,7 @@
 
 #include "render/view/contact_plane.h"
 
-// As io/hdf5 has them: record/events.
+// Kinds of events as io/hdf5 stores them (record/events).
 typedef enum ViewEventKind {
     VIEW_QUASI_STATIC,
     VIEW_BOUNDED,

@@ -43,7 +43,7 @@ bool space_cut_read(const char *words, SpaceCut *cut, Error *err)
     return true;
 }
 
-// By the shape functions of an element, or of a face, whose nodes these are.
+// Interpolates by the shape functions of an element, or of a face, whose nodes these are.
 static SurfacePoint point_at(const Block *block, ElementKind kind, const int32_t *nodes,
                              const double *at)
 {
@@ -71,7 +71,7 @@ static bool add(SurfaceParts *parts, const SurfacePoint *points, int32_t each, E
 
 // --- half spaces ---------------------------------------------------------------------------------
 
-// How far a point lies on the side that plane k takes away: the camera is at low x, low y, high z.
+// Distance of a point on the side that plane k takes away: the camera is at low x, low y, high z.
 static double taken_by(const SpaceCut *cut, int32_t k, const SurfacePoint *point)
 {
     double ahead = point->was[cut->axis[k]] - cut->value[k];
@@ -116,7 +116,7 @@ static bool add_polygon(const SurfacePoint *points, int32_t count, Surface *surf
     return true;
 }
 
-// Where plane k goes through a triangle, as far as it is an edge of what is left.
+// Adds the line in which plane k cuts a triangle, as far as it is an edge of the part that is left.
 static bool add_cut_line(const SurfacePoint corner[3], const SpaceCut *cut, int32_t k,
                          int32_t other, Surface *surface, Error *err)
 {
@@ -151,7 +151,7 @@ static bool add_outside(const SurfacePoint corner[3], const SpaceCut *cut, Surfa
 
 // --- the section ---------------------------------------------------------------------------------
 
-// From a unit cube to the reference element.
+// Maps the unit cube to the reference element.
 static void reference_place(ElementKind kind, const double cube[3], double at[3])
 {
     memcpy(at, cube, 3 * sizeof *at);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Which part of U the zoomed pictures show: the last precursors before a sliding, of the first
-// loading all of them. From the table of events where there is one, else from the falls of mu.
+// loading all of them. The table of events tells it where there is one, else the falls of mu.
 #include "render/view/zoom.h"
 
 #include <math.h>
@@ -27,7 +27,7 @@ int32_t zoom_slidings(const ResultView *view)
     return count;
 }
 
-// From the end of one sliding to the start of the next.
+// A cycle lasts from the end of one sliding to the start of the next.
 typedef struct Cycle {
     int32_t number;   // from 1
     double U_start, U_slide, U_stop;   // length
@@ -136,8 +136,8 @@ static bool cycle_from_mu(const ResultView *view, Cycle *cycle)
     return found;
 }
 
-// From the first precursor to be shown to a little beyond the sliding; never less than SPAN_MIN of
-// the cycle, and never beyond the history.
+// The zoom goes from the first precursor to be shown to a little beyond the sliding. It is never
+// less than SPAN_MIN of the cycle, and never beyond the history.
 Zoom zoom_choose(const ResultView *view)
 {
     Cycle cycle = {0};

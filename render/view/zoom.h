@@ -28,7 +28,7 @@ typedef struct Zoom {
 // Without tables (a run that did not end) the last large drop of mu.
 Zoom zoom_choose(const ResultView *view);
 
-// Whether an event that began when the rod was at U belongs to the cycle, its sliding included; all
+// True if an event that began when the rod was at U belongs to the cycle, its sliding included; all
 // do where no sliding bounds it.
 bool zoom_covers(const Zoom *zoom, double U);
 

@@ -264,12 +264,6 @@ bool dense_eigen_general(double *a, int32_t n, double *re, double *im, double *v
     return info == 0;
 }
 
-// c := keep c, where there is nothing to add: BLAS takes no matrix without rows.
-static void scale_by(double keep, int64_t count, double *c)
-{
-    for (int64_t k = 0; k < count; k++) c[k] = keep == 0 ? 0 : keep * c[k];
-}
-
 void dense_multiply_by_transposed(DenseView a, DenseView b, double *c)
 {
     if (a.columns == 0 || a.rows == 0 || b.rows == 0) return;
@@ -313,16 +307,16 @@ void dense_apply_each(DenseView a, int32_t count, const double *const *x, double
 
 void dense_apply_transposed(DenseView a, const double *x, double factor, double keep, double *y)
 {
-    if (a.columns == 0) return;
-    if (a.rows == 0) {
-        scale_by(keep, a.columns, y);
+    if (a.rows == 0) {   // nothing to add: BLAS takes no matrix without rows
+        for (int32_t k = 0; k < a.columns; k++) y[k] = keep == 0 ? 0 : keep * y[k];
         return;
     }
+    if (a.columns == 0) return;
     cblas_dgemv(CblasColMajor, CblasTrans, a.rows, a.columns, factor, a.values, a.rows, x, 1, keep,
                 y, 1);
 }
 
-// In BLAS's order of summation: the same bits on one machine, not on every one.
+// Sums in BLAS's order: the bits are the same on one machine, not on every one.
 double dense_dot(const double *x, const double *y, int32_t n)
 {
     return cblas_ddot(n, x, 1, y, 1);
@@ -348,4 +342,33 @@ double dense_max_abs(const double *x, int32_t n)
     for (int32_t k = 1; k < LANES; k++)
         largest[0] = largest[k] > largest[0] ? largest[k] : largest[0];
     return largest[0];
+}
+
+// --- transposes ---------------------------------------------------------------------------------
+
+// Rows become columns in tiles that stay in the cache: column by column each number of a large
+// matrix would come from another page.
+enum { TILE = 32 };
+
+static int64_t tile_end(int64_t from, int64_t size)
+{
+    return from + TILE < size ? from + TILE : size;
+}
+
+void dense_transpose(DenseView a, double *out, int64_t stride)
+{
+    for (int64_t left = 0; left < a.columns; left += TILE)
+        for (int64_t top = 0; top < a.rows; top += TILE)
+            for (int64_t i = top; i < tile_end(top, a.rows); i++)
+                for (int64_t j = left; j < tile_end(left, a.columns); j++)
+                    out[i * stride + j] = a.values[j * a.rows + i];
+}
+
+void dense_mirror(double *a, int64_t n)
+{
+    for (int64_t left = 0; left < n; left += TILE)
+        for (int64_t top = left; top < n; top += TILE)
+            for (int64_t i = top; i < tile_end(top, n); i++)
+                for (int64_t j = left; j < tile_end(left, n) && j < i; j++)
+                    a[i * n + j] = a[j * n + i];
 }

@@ -25,7 +25,7 @@ bool dense_lu(double *a, int32_t n, int32_t *pivots);
 // The sign of the determinant of a factored matrix: 1, -1 or 0.
 int dense_lu_sign(const double *lu, int32_t n, const int32_t *pivots);
 void dense_lu_solve(const double *lu, int32_t n, const int32_t *pivots, double *b);
-// In single precision, in half the time: some six digits, which are enough for steps whose
+// Works in single precision, in half the time: some six digits, which are enough for steps whose
 // residual is of double precision. work: [n].
 bool dense_lu_single(float *a, int32_t n, int32_t *pivots);
 void dense_lu_single_solve(const float *lu, int32_t n, const int32_t *pivots, double *b,
@@ -71,8 +71,8 @@ void dense_divide_both_sides(const double *lower, int32_t n, double *a);
 // n]. values: [n]; work: [DENSE_EIGEN_WORK(n)], here and below.
 bool dense_eigen(double *a, int32_t n, double *values, double *work);
 
-// Likewise, where vectors are wanted of eigenvalues above `least` alone: as the last columns of
-// `a`. What stands before them is of no use.
+// The same, with the vectors of eigenvalues above `least` alone, which are the last columns of `a`.
+// The columns before them hold nothing of use.
 bool dense_eigen_above(double *a, int32_t n, double least, double *values, double *work);
 
 // Values, and vectors (columns) in the place of `a`, of a y = value b y, y'b y = 1, a and b
@@ -100,8 +100,8 @@ void dense_multiply_transposed(DenseView a, DenseView b, double factor, double k
 void dense_multiply(DenseView a, DenseView b, double factor, double keep, double *c);
 // c += a b'
 void dense_multiply_by_transposed(DenseView a, DenseView b, double *c);
-// Where c or b are rows of a larger matrix, whose columns are `stride` apart: c = factor
-// a' b + keep c, and c += factor a b, b [a.columns * columns].
+// c or b may be rows of a larger matrix, whose columns are `stride` apart: c = factor a' b + keep
+// c, and c += factor a b, b [a.columns * columns].
 void dense_multiply_transposed_rows(DenseView a, DenseView b, double factor, double keep, double *c,
                                     int64_t stride);
 void dense_multiply_rows(DenseView a, const double *b, int64_t stride, int64_t columns,

@@ -16,7 +16,7 @@ typedef double Lane __attribute__((vector_size(LANE * sizeof(double)), aligned(s
 #define FOR_EACH_PROCESSOR
 #endif
 
-// Before a loop of at most four rounds: what it works on stays in registers.
+// Stands before a loop of at most four rounds: what it works on stays in registers.
 #define UNROLLED _Pragma("GCC unroll 4")
 
 // Marks a function that is called with constants and compiled once for each of them.

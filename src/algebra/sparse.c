@@ -11,7 +11,8 @@ void sparse_pattern_destroy(SparsePattern *pattern)
     *pattern = (SparsePattern){0};
 }
 
-// From points to unknowns: each neighbour gives `width` columns, and the rows of a point are alike.
+// Turns a pattern of points into one of unknowns: each neighbour gives `width` columns, and the
+// rows of a point are alike.
 static bool couple_unknowns(const cholmod_sparse *pairs, int32_t width, SparsePattern *pattern,
                             Error *err)
 {
@@ -68,7 +69,7 @@ int32_t sparse_entry(const SparsePattern *pattern, int32_t row, int32_t column)
     return low;
 }
 
-// By rows, as both triangles are stored: one pass over the values without scattered writes.
+// Goes by rows, as both triangles are stored: one pass over the values without scattered writes.
 void sparse_apply(const SparsePattern *pattern, const double *values, const double *x, double *y)
 {
     const int32_t *start = pattern->start, *index = pattern->index;
@@ -89,7 +90,7 @@ static cholmod_dense columns_view(double *x, size_t rows, int64_t columns)
                            .xtype = CHOLMOD_REAL};
 }
 
-// By columns of the transpose: four of x share a pass over the values.
+// Goes by columns of the transpose: four columns of x share a pass over the values.
 void sparse_apply_many(const SparsePattern *pattern, const double *values, const double *x,
                        int64_t columns, double *y)
 {

@@ -29,12 +29,12 @@ typedef struct PointGroups {
     int32_t points, count;
     int32_t *start, *member;   // not owned
 } PointGroups;
-// That in which all points of a group are neighbours, each of `width` unknowns.
+// The pattern in which all points of a group are neighbours, each of `width` unknowns.
 bool sparse_pattern_of_groups(const PointGroups *groups, int32_t width, SparsePattern *pattern,
                               Error *err);
 
-// Where (row, column) stands among the values; where the pattern has no such entry, the place of
-// another one of the row, which must have one.
+// Index of the entry (row, column) among the values. Where the pattern has no such entry it is that
+// of another entry of the row, which must have one.
 int32_t sparse_entry(const SparsePattern *pattern, int32_t row, int32_t column);
 
 // y = A x; values: [start[size]].

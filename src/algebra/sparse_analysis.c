@@ -10,7 +10,7 @@
 
 #define NO_MEMORY "no memory for a sparse matrix of %d unknowns"
 
-// Also of one half built. Factors made from it must have been destroyed.
+// Frees an analysis that is half built, too. Factors made from it must have been destroyed.
 void sparse_analysis_destroy(SparseAnalysis *analysis)
 {
     if (!analysis) return;
@@ -45,7 +45,7 @@ static cholmod_sparse pattern_view(const SparsePattern *pattern)
                             .packed = 1};
 }
 
-// Whether the analysis left the border last, in the caller's order.
+// True if the analysis left the border last, in the caller's order.
 static bool border_is_last(const SparseAnalysis *analysis, const int32_t *border)
 {
     int64_t count = analysis->border_count, first = analysis->size - count;

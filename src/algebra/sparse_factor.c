@@ -36,7 +36,7 @@ static void read_border_factor(const cholmod_factor *factor, int32_t count, doub
     }
 }
 
-// In this thread alone. CHOLMOD 5 asks for a team of four for every supernode, whatever
+// Factorises in this thread alone. CHOLMOD 5 asks for a team of four for every supernode, whatever
 // OMP_NUM_THREADS says, and waking them takes longer than the work they share: a factor of 80 x 80
 // cells took twice as long with them, one of 2000 unknowns four times.
 static bool factorise_alone(cholmod_sparse *matrix, cholmod_factor *numeric, cholmod_common *common)
@@ -49,7 +49,7 @@ static bool factorise_alone(cholmod_sparse *matrix, cholmod_factor *numeric, cho
     return done;
 }
 
-// Not positive definite: a user's mesh or material can cause it.
+// The matrix may not be positive definite: a user's mesh or material can cause it.
 SparseFactor *sparse_factorise(SparseAnalysis *analysis, const double *values, Error *err)
 {
     cholmod_common *common = &analysis->common;

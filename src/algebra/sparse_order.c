@@ -122,7 +122,7 @@ typedef struct Plane {
     Side half;
 } Plane;
 
-// Whether a point of a set has a neighbour in it on the other side of the plane.
+// True if a point of a set has a neighbour in it on the other side of the plane.
 static bool reaches_over(const Dissection *all, int32_t point, int axis, int32_t plane_rank)
 {
     const SparsePattern *pattern = all->pattern;
@@ -173,7 +173,7 @@ static void append(Dissection *all, const int32_t *points, int32_t count)
 // Appends the set sorted[.][begin .. begin + count): its first half, its second, their separator.
 static void dissect(Dissection *all, int32_t begin, int32_t count)
 {
-    Plane plane;
+    Plane plane = {0};   // gcc 12 does not see that choose_plane sets it
     if (!choose_plane(all, begin, count, &plane)) {
         append(all, all->sorted[0] + begin, count);
         return;

@@ -35,8 +35,8 @@ typedef struct Answers {
     Estimate mu_hold;   // error: half the range of the lowest branch, or twice the standard error
     Estimate mu_drops;   // mean of the load drops; error: twice the standard error
     double mu_max, mu_max_jump;   // how far it is above both of its neighbours in time
-    // How far other meshes and runs usually are from these: the bar, where one is known; else what
-    // nine of ten meshes are off by (answers/error_bars). NaN: cells are too long for slip.
+    // Usual distance of other meshes and runs from these: the bar, where one is known; else the
+    // error that nine of ten meshes keep (answers/error_bars). NaN: cells are too long for slip.
     double mu_M_known_to, mu_hold_known_to, mu_max_known_to;
     double critical_length;   // mean l_c of the peaks that count, length; NaN: none
     double critical_part;   // mean A_c/A of them; NaN: none

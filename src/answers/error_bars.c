@@ -308,7 +308,7 @@ const ErrorBar *levels_answer(const Levels *levels, AnswerKind kind)
     return levels->count > 0 ? &levels_last(levels)->answer[kind] : NULL;
 }
 
-// Over the value. NaN: cells are too long for slip.
+// Usual error of one mesh, over the value. NaN: cells are too long for slip.
 static double usual_of_one(const Level *level)
 {
     double usual = level->space ? ONE_MESH_IN_SPACE : ONE_MESH;

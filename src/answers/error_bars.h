@@ -43,7 +43,7 @@ typedef struct LevelRun {
     int64_t steps;
 } LevelRun;
 
-// By all levels so far. parts.mesh is NaN where it is not known, and the bar with it.
+// An answer by all levels so far. parts.mesh is NaN where it is not known, and the bar with it.
 typedef struct ErrorBar {
     double value, bar;
     ErrorParts parts;
@@ -112,7 +112,7 @@ int32_t levels_known(const Levels *levels, AnswerKind kind);
 // bar needs at least this span: neighbours agree by chance, and coarse meshes alone agree on a
 // value that only they have.
 double levels_span_left(const Levels *levels, AnswerKind kind);   // 1: none is left
-// Likewise to one that is four times as fine as the first, which confirms a bar.
+// The same ratio to a level that is four times as fine as the first, which confirms a bar.
 double levels_confirm_left(const Levels *levels);   // 1: none is left
 // Coarse levels may all have other drops than fine ones: on several pads, and where levels differ
 // in it. There a bar wants to be confirmed whatever that costs.
@@ -121,15 +121,16 @@ bool levels_may_differ(const Levels *levels);
 // Value from the level's own runs: mean of mu_M, lowest mu_hold; NaN: a run has none.
 double level_value(const Level *level, AnswerKind kind);
 
-// That slip on the last level where slow slip turns fast, by the part of the contact that does on
-// all levels; all of them where slip never turns fast. The fewer they are, the longer is the mesh's
-// part of a bar.
+// Number of cells that slip on the last level where slow slip turns fast, by the part of the
+// contact that does on all levels; all cells where slip never turns fast. The fewer they are, the
+// longer is the mesh's part of a bar.
 double levels_cells(const Levels *levels);
 
 // A run of the last level has no answer, as its run-in was not over.
 bool levels_run_in(const Levels *levels);
 
-// How far the answer of all levels is known: the bar, or what the last mesh alone usually leaves.
+// Error within which the answer of all levels is known: the bar, or what the last mesh alone
+// usually leaves.
 double levels_known_to(const Levels *levels, AnswerKind kind);
 
 // Sets how far the answers are known: the error that one mesh alone usually leaves, together with

@@ -4,8 +4,9 @@
 #include <math.h>
 #include <stddef.h>
 
-// How much slipped when slip turned fast, over how long the front from the trailing end was: above
-// it most of that slipped elsewhere, and the front says nothing of when the block slides.
+// Length that slipped when slip turned fast, over the length of the front from the trailing end.
+// Above this ratio most of it slipped elsewhere, and the front says nothing of when the block
+// slides.
 static const double ELSEWHERE = 2;
 
 // Number of the first sliding of the whole block from event number `from` on; without one the
@@ -17,7 +18,7 @@ static int32_t next_sliding(const Events *events, int32_t from)
     return k;
 }
 
-// How far from the trailing end of the block a rapid event came, length.
+// Distance from the trailing end of the block to which a rapid event came, length.
 static double precursor_length(const Events *events, const Event *event)
 {
     return event->reach - events->trailing;

@@ -47,8 +47,8 @@ static bool lags(const Drops *drops, const SeriesItem *items, int32_t count, boo
     return false;
 }
 
-// How many load drops more until what lies ahead is less than the tolerance, or until mu can rise
-// no more.
+// Number of load drops until the change that lies ahead is below the tolerance, or mu can rise no
+// more.
 static double drops_left(const Drops *drops, double mu, double fading, const Regime *regime)
 {
     double left = NAN, rises = regime->drift * mu;

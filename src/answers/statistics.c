@@ -109,9 +109,9 @@ static Estimate block_mean(const Sample *sample, int32_t blocks, int32_t length)
     return (Estimate){mean, blocks > 1 ? sqrt(square / (blocks - 1) / blocks) : (double)NAN};
 }
 
-// How many times as large an error is as that of `count` independent values: by the correlation of
-// neighbours, 0 at least, with what few of them leave it too small by. product, square: sums of
-// deviations times the one before, and of their squares.
+// Ratio of an error to that of `count` independent values. It follows from the correlation of
+// neighbours, which is taken as 0 at least and corrected where few values leave it too small.
+// product, square: sums of deviations times the one before, and of their squares.
 static double lengthening(int32_t count, double product, double square)
 {
     if (count < CORRELATED || square == 0) return 1;

@@ -27,9 +27,9 @@ enum { SERIES_PERIOD_LIMIT = 8 };
 // their parts within twice of it.
 SeriesRegime series_regime(const SeriesItem *items, int32_t count, double tolerance, int32_t parts);
 
-// How values rise from item to item, by least squares about the mean of each place in the round:
-// the trend of all places together, or the steeper one of a single place that stands out, as the
-// two values of an alternation that grows go opposite ways. Where values do not repeat (`round` 0)
+// Rise of values from item to item, by least squares about the mean of each place in the round: the
+// trend of all places together, or the steeper one of a single place that stands out, as the two
+// values of an alternation that grows go opposite ways. Where values do not repeat (`round` 0)
 // their error is lengthened by the correlation of neighbours, and a scatter about their mean that
 // grows is a trend, too.
 typedef struct SeriesTrend {
@@ -37,7 +37,7 @@ typedef struct SeriesTrend {
     int32_t freedoms;   // of the error; below 1: there is none
 } SeriesTrend;
 SeriesTrend series_trend(const SeriesItem *items, int32_t count, int32_t round);
-// From its scatter, by Student's 95 %.
+// True if the trend differs from 0 by more than its scatter allows, by Student's 95 %.
 bool series_trend_stands_out(const SeriesTrend *trend);
 
 // Means are taken over three successive groups of `third` items. Returns the last difference of two
@@ -53,8 +53,8 @@ double student(int32_t freedoms);
 Estimate series_mean(const SeriesItem *items, int32_t count, int32_t round);
 Estimate series_lowest_decile(const SeriesItem *items, int32_t count);
 
-// By kind, then by value. The items from `from` on that make a branch, and the index of the next
-// one's first.
+// Sorts by kind, then by value. series_branch finds the items from `from` on that make a branch,
+// and returns the index at which the next one begins.
 void series_sort(SeriesItem *items, int32_t count);
 int32_t series_branch(const SeriesItem *sorted, int32_t count, int32_t from, double tolerance,
                       SeriesBranch *branch);

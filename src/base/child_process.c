@@ -14,6 +14,7 @@
 #include <limits.h>
 #include <poll.h>
 #include <signal.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
@@ -23,10 +24,17 @@
 enum { FIRST_BYTES = 1 << 16, WAKE_MS = 100 };
 enum { LOADER_FAILED = 127 };   // exit status where a library lacks a function that is called
 
+static atomic_bool by_children;   // of the whole process: whether it may fork is a matter of that
+
+void child_use(bool use)
+{
+    by_children = use;
+}
+
 bool child_is_wanted(void)
 {
-    const char *wanted = getenv("AMONTONS_APART");
-    return wanted && *wanted;
+    const char *users = getenv("AMONTONS_APART");
+    return users ? *users : by_children;
 }
 
 // --- in the child -------------------------------------------------------------------------------
@@ -89,9 +97,9 @@ static void be_child(const ChildWork *work, int pipe, pid_t parent)
 
 // --- in the parent ------------------------------------------------------------------------------
 
-// To the end of the pipe. Memory may be short: the rest is then not read, and the child ends. The
-// pipe may be open in a process that the child has started, so its end is not waited for when the
-// time is over.
+// Reads to the end of the pipe. Memory may be short: the rest is then not read, and the child ends.
+// The pipe may be open in a process that the child has started, so its end is not waited for when
+// the time is over.
 static bool take_all(const ChildWork *work, pid_t child, int pipe, ChildReply *reply, Error *err)
 {
     int64_t room = FIRST_BYTES;

@@ -5,8 +5,8 @@
 // run/info/info_result, and whatever draws: run/result/pictures, page/report,
 // study/sweep/showing/render_sweep.
 //
-// Only where the variable AMONTONS_APART is set, as the program does: a library does not fork in a
-// process that it does not know.
+// Only where whoever owns the process has said so (amontons_use_child_processes, or the user by the
+// variable AMONTONS_APART): a library does not fork in a process that it does not know.
 #ifndef AMONTONS_BASE_CHILD_PROCESS_H
 #define AMONTONS_BASE_CHILD_PROCESS_H
 
@@ -45,6 +45,7 @@ typedef struct ChildReply {
     int64_t size;
 } ChildReply;
 
+void child_use(bool use);   // amontons_use_child_processes
 bool child_is_wanted(void);
 
 // In the other process: so many seconds in all from now on.

@@ -8,10 +8,12 @@
 
 #include "base/hash.h"
 
-// To go on with, or to write as a word. Answers with other kernels of linear algebra agree within
-// their bars (docs/reliability.md): rows and states may be gone on with on another processor.
+// A hash to go on with, or to write as a word. Answers with other kernels of linear algebra agree
+// within their bars (docs/reliability.md): rows and states may be gone on with on another
+// processor.
 Hash computation_hash(void);
-// And which kernels: of caches, as the same scene gives the same bits with and without them.
+// The same with the kernels, for caches, as the same scene gives the same bits with and without
+// them.
 Hash computation_hash_bits(void);
 
 #endif

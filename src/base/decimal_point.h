@@ -18,7 +18,7 @@ void decimal_point_end(DecimalPoint *point);
 // false: memory is short, numbers would be misread.
 bool decimal_point_is_set(void);
 
-// From here to the end of the enclosing block.
+// The point holds to the end of the enclosing block.
 #define NUMBERS_HAVE_A_POINT                                                                       \
     __attribute__((cleanup(decimal_point_end), unused))                                            \
     DecimalPoint decimal_point_here = decimal_point_begin()

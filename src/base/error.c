@@ -41,7 +41,7 @@ void error_clear(Error *err)
     *err = (Error){0};
 }
 
-// From the table of codes in the header; 1 for a number that is no code.
+// The table of codes in the header has it; a number that is no code gives 1.
 int amontons_error_exit_status(ErrorCode code)
 {
     switch (code) {

@@ -34,7 +34,7 @@ static inline bool error_is_clean(const Error *err)
     return err->code == ERROR_NONE;
 }
 
-// For clang's analyzer alone, which sees one file at a time: whoever failed has set the error.
+// Clang's analyzer needs this, as it sees one file at a time: whoever failed has set the error.
 #ifdef __clang_analyzer__
 #define ERROR_IS_SET(err)                                                                          \
     do {                                                                                           \
@@ -49,9 +49,9 @@ static inline bool error_is_clean(const Error *err)
 #define FAULT(err, code, ...) (error_set((err), (code), __FILE__, __LINE__, __VA_ARGS__), false)
 #define REFUSE(err, ...) FAULT((err), ERROR_INPUT, __VA_ARGS__)
 
-// For functions that take `const char **key`, which gets the key of the scene that an error is
-// about and stays as it is without an error. REFUSE_AT sets both; ERROR_AT gives the error of a
-// call that knows nothing of keys its key. Both return false, ERROR_AT true where the call does.
+// Functions that take `const char **key` set it to the key of the scene that an error is about, and
+// leave it as it is without an error. REFUSE_AT sets both; ERROR_AT gives the error of a call that
+// knows nothing of keys its key. Both return false, ERROR_AT true where the call does.
 #define REFUSE_AT(err, key, name, ...) (*(key) = (name), REFUSE((err), __VA_ARGS__))
 #define ERROR_AT(key, name, call) ((call) || (*(key) = (name), false))
 

@@ -171,7 +171,7 @@ static void read_unit(Reading *reading)
     }
 }
 
-// To the right: 2^3^2 is 2^9; and -2^2 is -4, as in mathematics.
+// Powers are read to the right: 2^3^2 is 2^9; and -2^2 is -4, as in mathematics.
 static void read_power(Reading *reading)
 {
     if (++reading->depth > DEPTH_MAX) {
@@ -200,7 +200,7 @@ static void read_product(Reading *reading)
     }
 }
 
-// To the left: 1-2-3 is -4.
+// Sums are read to the left: 1-2-3 is -4.
 static void read_sum(Reading *reading)
 {
     if (++reading->depth > DEPTH_MAX) refuse(reading, "a formula of fewer brackets");
@@ -311,7 +311,7 @@ typedef struct Entry {
     double value, slope[FORMULA_VARIABLES_MAX];
 } Entry;
 
-// In the place of a. b: NULL: of a function of one argument.
+// The result takes the place of a. b is NULL for a function of one argument.
 static inline void put(Applied applied, int32_t count, Entry *a, const Entry *b)
 {
     bool too = b && b->varies;
@@ -457,7 +457,7 @@ static Range points_range(Range x, const Range *point, int32_t count)
         const double value[2] = {before[1].low, next[1].low};
         if (!(place[0] <= place[1])) return ANYTHING;
         if (k > 0 && k < count) {
-            // From a to b on a line through two points, which may be a jump.
+            // Integrate from a to b along a line through two points, which may be a jump.
             double a = fmax(x.low, place[0]), b = fmin(x.high, place[1]);
             double width = place[1] - place[0], rise = value[1] - value[0];
             if (a > b) continue;

@@ -37,7 +37,7 @@ typedef struct FormulaStep {
         // variable, which it is
 } FormulaStep;
 
-// As a list of steps on a stack: nothing is owned, and copies are as good.
+// A formula is a list of steps on a stack: nothing is owned, and copies are as good.
 typedef struct Formula {
     int32_t count;
     FormulaStep step[FORMULA_STEPS_MAX];
@@ -62,9 +62,8 @@ double formula_partials(const Formula *formula, const int32_t part[2], const dou
 // is 0.
 double formula_at(const Formula *formula, double x, double *slope);
 
-// Between which values it stays while the variable is between x[0] and x[1], rounding aside, or
-// wider bounds than that: infinite where a part may have no value. The narrower x, the better they
-// are.
+// Bounds of the formula's values while the variable is between x[0] and x[1], rounding aside, or
+// wider ones: infinite where a part may have no value. The narrower x, the better they are.
 void formula_bounds(const Formula *formula, const double x[2], double bounds[2]);
 
 // The value of a formula without a variable. ERROR_INPUT as above, or that it is not finite.

@@ -7,12 +7,13 @@
 #include <stddef.h>
 #include <strings.h>
 
-// By the widest instructions that they use.
+// Kernels by the widest instructions that they use.
 typedef enum KernelLevel { LEVEL_SSE, LEVEL_AVX, LEVEL_AVX2, LEVEL_AVX512 } KernelLevel;
 static const char *const best_of[] = {
     [LEVEL_AVX] = "Sandybridge", [LEVEL_AVX2] = "Haswell", [LEVEL_AVX512] = "SkylakeX"};
 
-// Those below the highest level; what is not here is of the highest, or of a later OpenBLAS.
+// Kernels below the highest level; a kernel that is not here is of the highest, or of a later
+// OpenBLAS.
 static const struct {
     const char *name;
     KernelLevel level;

@@ -108,7 +108,7 @@ char *memory_text(const char *text, Error *err)
     return copy;
 }
 
-// Only for what this file gave out: tests find leaks by the counter of live arrays.
+// Frees only what this file gave out: tests find leaks by the counter of live arrays.
 void memory_free(void *array)
 {
     if (!array) return;

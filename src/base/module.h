@@ -17,7 +17,7 @@ typedef void (*ModuleFunction)(void);
 // library that it needs cannot be loaded (says what the loader said).
 ModuleFunction module_function(const char *name, const char *symbol, Error *err);
 
-// Whether the build has that module, without opening it: for what long work needs at its end.
+// Checks that the build has that module, without opening it, where long work needs it at its end.
 bool module_check(const char *name, Error *err);
 
 #endif

@@ -7,7 +7,7 @@
 static const double REACHED = 1e-12;
 
 // nearly: x up to rounding, on the side that is asked for.
-static int32_t find_stretch(const Schedule *schedule, double nearly, double *from)
+static int32_t find_segment(const Schedule *schedule, double nearly, double *from)
 {
     double period = schedule->at[schedule->count - 1];
     *from = schedule->repeats ? period * floor(nearly / period) : 0;
@@ -16,16 +16,16 @@ static int32_t find_stretch(const Schedule *schedule, double nearly, double *fro
     return k;
 }
 
-int32_t schedule_stretch(const Schedule *schedule, double x, double *from)
+int32_t schedule_segment(const Schedule *schedule, double x, double *from)
 {
-    return find_stretch(schedule, x * (1 - REACHED), from);
+    return find_segment(schedule, x * (1 - REACHED), from);
 }
 
 double schedule_factor(const Schedule *schedule, double x)
 {
     double from;
     if (schedule->count == 0) return 1;
-    int32_t k = schedule_stretch(schedule, x, &from);
+    int32_t k = schedule_segment(schedule, x, &from);
     const double *at = schedule->at, *factor = schedule->factor;
     if (k + 1 == schedule->count) return factor[k];
     double part = fmax((x - from - at[k]) / (at[k + 1] - at[k]), 0);
@@ -36,7 +36,7 @@ double schedule_next(const Schedule *schedule, double x)
 {
     double from;
     if (schedule->count == 0) return INFINITY;
-    int32_t k = find_stretch(schedule, x * (1 + REACHED), &from);
+    int32_t k = find_segment(schedule, x * (1 + REACHED), &from);
     return k + 1 < schedule->count ? from + schedule->at[k + 1] : INFINITY;
 }
 

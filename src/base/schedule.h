@@ -16,14 +16,15 @@ typedef struct Schedule {
     bool repeats;   // from the last point on as from the first
 } Schedule;
 
-// At x >= 0; where it jumps, what came before: a step that ends there knows nothing of the jump.
+// Factor at x >= 0; where it jumps, the one before the jump: a step that ends there knows nothing
+// of the jump.
 double schedule_factor(const Schedule *schedule, double x);
 // The next point beyond x, INFINITY: there is none.
 double schedule_next(const Schedule *schedule, double x);
 double schedule_largest(const Schedule *schedule);   // |factor|
 
-// The stretch between two points that x lies or, at a point, ends in, from 0; count - 1 beyond the
+// The segment between two points that x lies or, at a point, ends in, from 0; count - 1 beyond the
 // last. *from: where x is counted from: 0, or the beginning of this repetition.
-int32_t schedule_stretch(const Schedule *schedule, double x, double *from);
+int32_t schedule_segment(const Schedule *schedule, double x, double *from);
 
 #endif

@@ -7,7 +7,7 @@
 
 #include <stdbool.h>
 
-// From now on this process and its threads start no other process or program, open no file for
+// Restricts this process and its threads: they start no other process or program, open no file for
 // writing, make, move and delete none, have no network, and send no signals to others: such a call
 // fails with EPERM. They still read files, and write to what is open already. false: the system
 // cannot do that, and nothing is changed but that no process can be started by an ordinary user.

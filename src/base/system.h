@@ -20,8 +20,8 @@
 
 // --- processes -----------------------------------------------------------------------------------
 
-// In a child process: the system ends it when its parent ends. Elsewhere nothing: it ends when it
-// next finds the pipe to its parent closed.
+// Is called in a child process: the system ends it when its parent ends. Elsewhere nothing: it ends
+// when it next finds the pipe to its parent closed.
 void system_end_with_parent(void);
 int system_pipe(
     int ends[2]);   // as pipe(), closed in programs that are started; 0, or -1 with errno
@@ -46,14 +46,14 @@ typedef int SystemLimit;
 // --- memory --------------------------------------------------------------------------------------
 
 int64_t system_address_space(void);   // bytes that this process has mapped; 0: not known
-// Whether so much more could be mapped (ulimit -v, vm.overcommit_memory).
+// True if so many more bytes could be mapped (ulimit -v, vm.overcommit_memory).
 bool system_has_room(size_t bytes);
 void system_use_large_pages(void *array, size_t bytes);   // where there are some
 void system_give_back_memory(void);   // what is freed, and the C library keeps
 
 // --- files ---------------------------------------------------------------------------------------
 
-// Whether the open or named `path` is a pipe that has no name in a folder (of a shell's `<(...)`):
+// True if the open or named `path` is a pipe that has no name in a folder (of a shell's `<(...)`):
 // its other end is open. `mode`: of stat().
 bool system_is_shell_pipe(const char *path, mode_t mode);
 

@@ -8,8 +8,8 @@
 
 // `at`: where in the file; -1: where it stands.
 
-// How many came: fewer than `size` at the file's end, or after a failure, which errno says (else it
-// is 0).
+// Returns the number of bytes read: fewer than `size` at the file's end, or after a failure, which
+// errno says (else it is 0).
 int64_t transfer_read(int descriptor, void *bytes, int64_t size, int64_t at);
 // 0, or the errno of the failure.
 int transfer_write(int descriptor, const void *bytes, int64_t size, int64_t at);

@@ -13,11 +13,12 @@
 // dimension NULL: any will do. "-" and "1" are units of numbers without a dimension, "%" is 1/100.
 bool unit_to_si(const char *suffix, const char *dimension, double *value);
 
-// How many of the unit `b` one of `a` is. False: they are no units of the same dimension.
+// Finds how many of the unit `b` one of `a` is. Returns false where their dimensions differ.
 bool unit_ratio(const char *a, const char *b, double *ratio);
 
-// By which dimension a number in the unit `suffix` must be divided to become one of `dimension`: of
-// kN, wanted a stress, "area". *times: it must be multiplied by it. NULL: by none that is known.
+// Returns the dimension by which a number in the unit `suffix` must be divided to become one of
+// `dimension`: "area" for kN where a stress is wanted. *times: it must be multiplied by it instead.
+// NULL: none is known.
 const char *unit_quotient(const char *suffix, const char *dimension, bool *times);
 
 // Units that fit, for an error message: "m, mm, um"; "" for a plain number ("1").

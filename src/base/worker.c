@@ -65,7 +65,7 @@ bool worker_create(const WorkerDef *def, Worker **out, Error *err)
     return error_is_clean(err);
 }
 
-// Until the first `jobs` are done.
+// Waits until the first `jobs` are done.
 static bool wait_for(Worker *worker, int64_t jobs, Error *err)
 {
     pthread_mutex_lock(&worker->lock);

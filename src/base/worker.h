@@ -16,10 +16,10 @@ typedef struct Worker Worker;
 
 typedef struct WorkerDef {
     int32_t slots;   // jobs that may be under way; whoever hands over more waits
-    // In the thread. `waiting`: jobs handed over and not done, in the slots from `slot` on; 1: this
-    // is the last. After a failure no job is done any more.
+    // Works in the thread. `waiting`: jobs handed over and not done, in the slots from `slot` on;
+    // 1: this is the last. After a failure no job is done any more.
     bool (*work)(void *context, int32_t slot, int32_t waiting, Error *err);
-    // In the thread, after the last job: frees what jobs made; or NULL.
+    // Is called in the thread after the last job: frees what jobs made; or NULL.
     void (*end)(void *context);
     void *context;   // not owned
 } WorkerDef;

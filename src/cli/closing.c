@@ -13,8 +13,8 @@
 
 static const char INDENT[] = "                  ";
 
-// With the error bar that was asked for, or NaN. Of a run on one mesh alone also what finer meshes
-// change as a rule.
+// Prints a value with the error bar that was asked for, or NaN. Of a run on one mesh alone also
+// what finer meshes change as a rule.
 static void print_estimate(const char *name, double value, double bar, double known_to, bool alone)
 {
     char text[ESTIMATE_SIZE], words[ESTIMATE_SIZE];
@@ -128,7 +128,7 @@ static void print_mu_hold(const RunSummary *summary)
         say("the %s of %d load ratios at which the load dropped\n",
             summary->drop_period > 0 ? "lowest" : "lowest tenth", summary->drops);
 
-    // Whether the load drops behind it repeat.
+    // Say if the load drops behind it repeat.
     if (summary->drop_period > 1)
         say("%swhich repeat after %d\n", INDENT, summary->drop_period);
     else if (summary->drop_period == 0 && summary->drops_enough)
@@ -263,7 +263,8 @@ static void print_files(const RunSummary *summary)
     if (summary->field_files > 0) print_file(summary->folder, "fields.pvd", fields);
 
     if (summary->figures > 0) {
-        // Those in the folder, not those asked for: one that could not be drawn is not named.
+        // The pictures are those in the folder, not those asked for: one that could not be drawn is
+        // not named.
         char figures[AMONTONS_PATH_SIZE + 16];
         struct dirent **entries = NULL;
         snprintf(figures, sizeof figures, "%s/figures", summary->folder);

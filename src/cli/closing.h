@@ -7,7 +7,7 @@
 
 void closing_print(const char *title, const RunSummary *summary);
 
-// Where the time went, a line a phase.
+// Prints where the time went, a line for each phase.
 void closing_print_profile(const RunSummary *summary);
 
 #endif

@@ -30,7 +30,8 @@ int command_report(const Command *command, int argc, char **argv)
     if ((status = option_may_write(file, style.overwrite)) != 0) return status;
 
     if (!file) {
-        // In the result's folder, whose path may end with slashes and has an argument's length.
+        // The page lies in the result's folder, whose path may end with slashes and has an
+        // argument's length.
         const char *folder = results.list[0];
         size_t length = strlen(folder);
         while (length > 1 && folder[length - 1] == '/') length--;

@@ -69,7 +69,7 @@ static void print_answers(const StabilitySummary *summary)
     }
     say("  (the front moves from node to node, %.4f L apart)\n", summary->element);
 
-    // How stable each pad is alone, and which of them slides.
+    // Print how stable each pad is alone, and which of them slides.
     bool several = summary->pad_count > 1;
     if (several)
         say("\n%-16s %10s %9s %9s %9s %9s %10s %10s\n", "pad, at l_c at V", "pressure", "slips",

@@ -11,7 +11,7 @@
 #include <string.h>
 #include <unistd.h>
 
-// In the order in which `--help` lists them.
+// The commands stand in the order in which `--help` lists them.
 static const Command commands[] = {
     {"run", command_run, "SCENE", "simulates a scene and writes a result folder", "scene",
      "amontons run validation/paper/fig1.yaml", run_txt, NULL},
@@ -131,6 +131,7 @@ const char *amontons_better_kernels(void)
 // answer is lost has failed.
 int amontons_command(int argc, char **argv)
 {
+    amontons_use_child_processes(true);
     int status = run_command(argc, argv);
     guard_end(false);
     bool written = fflush(stdout) == 0 && !ferror(stdout);

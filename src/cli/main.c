@@ -135,8 +135,6 @@ int main(int argc, char **argv)
         unsetenv(AGAIN);
         unsetenv(KERNELS);
     }
-    setenv("AMONTONS_APART", "yes",
-           0);   // base/child_process; empty: in this process, for a debugger
     setenv("LP_NUM_THREADS", "0", 0);   // of OSMesa, which hangs where it may start none
     return commands.run(argc, argv);
 }

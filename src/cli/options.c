@@ -220,7 +220,7 @@ void report_warnings(const RunWarnings *warnings)
         tell("amontons: warning: %s\n", warnings->text[k]);
 }
 
-// For the command line alone; what is wrong in a file is an Error of the library.
+// Reports a fault of the command line alone; a fault in a file is an Error of the library.
 int report_misuse(const char *format, ...)
 {
     va_list arguments;

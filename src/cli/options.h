@@ -20,7 +20,7 @@ typedef struct Option {
     char letter;   // 'o': also -o; 0: none
     const char *argument;   // "DIR"; NULL: it has none
     const char *meaning;   // for --help; NULL: not shown there
-    // Where it goes. Flag and word: the argument may be left out.
+    // Place that the option's value goes to. With a flag and a word its argument may be left out.
     bool *flag;
     const char **word;   // the last one given
     OptionWords *words;   // all of them, also `--set a=1 b=2`
@@ -46,7 +46,7 @@ struct Command {
 int options_read(const Command *command, const Option *options, int argc, char **argv,
                  const char **argument);
 
-// From here on, until false, an exit that is not ours ends the program with an error.
+// After true, until false, an exit that is not ours ends the program with an error.
 void guard_end(bool guarded);
 
 // The folder for results where -o gives none, here: "validation/paper/fig1.yaml" and "-result" give

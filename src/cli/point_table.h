@@ -15,7 +15,7 @@ typedef struct PointTable {
 PointTable point_table_begin(bool quiet);
 void point_table_step(const StepView *view, void *table);   // a StepCallback
 
-// Before each line: prints `head` before the first one. False: no line is wanted.
+// Is called before each line: prints `head` before the first one. False: no line is wanted.
 bool point_table_line(PointTable *table, const char *head);
 
 // " 0.25" to the right of `width` columns, with `digits` significant ones; "-" for NaN.

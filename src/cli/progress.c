@@ -32,7 +32,7 @@ static double seconds_between(const struct timespec *from, const struct timespec
     return (double)(to->tv_sec - from->tv_sec) + 1e-9 * (double)(to->tv_nsec - from->tv_nsec);
 }
 
-// Asked each time: windows may be resized during a run.
+// Asked each time: terminals may be resized during a run.
 static int32_t terminal_width(void)
 {
     struct winsize size = {0};
@@ -56,9 +56,9 @@ void progress_format_left(double seconds, char *text, size_t size)
 
 // The part of the way after which slidings repeat: they come at equal distances, each after as much
 // loading as the first one, or less.
-static double cycle_of(const Pace *pace)
+static double cycle_of(const ProgressRate *rate)
 {
-    return pace->begun.fraction < CYCLE_MAX ? pace->begun.fraction : CYCLE_MAX;
+    return rate->begun.fraction < CYCLE_MAX ? rate->begun.fraction : CYCLE_MAX;
 }
 
 // Seconds left; NaN while that is not known. Once so much of the way has been gone again as before
@@ -67,14 +67,14 @@ static double cycle_of(const Pace *pace)
 // or cheaper.
 static double seconds_left(const Progress *progress, double fraction, double elapsed)
 {
-    const Pace *pace = &progress->pace;
-    double gone = fraction - pace->begun.fraction;
-    bool known = pace->uneven ? pace->counts && gone >= cycle_of(pace) : gone >= 1e-3;
+    const ProgressRate *rate = &progress->rate;
+    double gone = fraction - rate->begun.fraction;
+    bool known = rate->uneven ? rate->counts && gone >= cycle_of(rate) : gone >= 1e-3;
     if (!known || elapsed < SECONDS_LEAST) return NAN;
-    return (elapsed - pace->older.elapsed) / (fraction - pace->older.fraction) * (1 - fraction);
+    return (elapsed - rate->older.elapsed) / (fraction - rate->older.fraction) * (1 - fraction);
 }
 
-// In place of the one that stands there; its end is cut off in a narrow window.
+// Writes over the line that stands there; its end is cut off in a narrow terminal.
 static void draw_line(const char *line)
 {
     tell_over(line, terminal_width() - 1);
@@ -114,7 +114,7 @@ static double begin_clock(Progress *progress, const struct timespec *now)
     return seconds_between(&progress->started, now);
 }
 
-// Whether a bar is drawn now, or a line printed.
+// True if a bar is drawn now, or a line printed.
 static bool is_due(const Progress *progress, double part, const struct timespec *now)
 {
     if (progress->style == PROGRESS_LINES) return (int32_t)(10 * part) > progress->tenths;
@@ -131,7 +131,7 @@ static void show(Progress *progress, double part, const char *state, const struc
 
     //     [######............]  33 %  U 0.00198/0.006  mu 0.2034  dt 0.012  3 events  0:12 left
     //
-    // In a narrow window the bar goes first, then the end of the text.
+    // In a narrow terminal the bar goes first, then the end of the text.
     int32_t width = terminal_width() - 1, percent = (int32_t)(100 * part);
     int32_t bar = width - STATE_WIDTH - (int32_t)strlen("[] 100 %  ");
     char line[2 * WIDTH_MAX], marks[BAR_MAX + 3] = "";
@@ -185,22 +185,22 @@ void progress_step(const StepView *view, void *context)
         return;
     }
 
-    // Follows the pace of a run. The clock counts from its first rapid event on, as loading up to
+    // Follows the rate of a run. The clock counts from its first rapid event on, as loading up to
     // that takes next to nothing; while steps are all alike, from the start.
     double elapsed = begin_clock(progress, &now);
-    Pace *pace = &progress->pace;
+    ProgressRate *rate = &progress->rate;
     Mark mark = {elapsed, view->fraction};
-    if (view->step_size > 0 && pace->step == 0) pace->step = view->step_size;
-    if (view->step_size > 0 && view->step_size != pace->step) pace->uneven = true;
-    if (!pace->counts && view->events > 0) {
-        pace->counts = true;
-        pace->begun = pace->older = pace->newer = mark;
+    if (view->step_size > 0 && rate->step == 0) rate->step = view->step_size;
+    if (view->step_size > 0 && view->step_size != rate->step) rate->uneven = true;
+    if (!rate->counts && view->events > 0) {
+        rate->counts = true;
+        rate->begun = rate->older = rate->newer = mark;
     }
-    double doubled = 2 * pace->newer.elapsed - pace->begun.elapsed;
-    if (pace->counts && elapsed >= doubled &&
-        mark.fraction - pace->newer.fraction >= cycle_of(pace)) {
-        pace->older = pace->newer;
-        pace->newer = mark;
+    double doubled = 2 * rate->newer.elapsed - rate->begun.elapsed;
+    if (rate->counts && elapsed >= doubled &&
+        mark.fraction - rate->newer.fraction >= cycle_of(rate)) {
+        rate->older = rate->newer;
+        rate->newer = mark;
     }
     if (!is_due(progress, view->fraction, &now)) return;
 

@@ -15,13 +15,13 @@ typedef struct Mark {
 } Mark;
 
 // Time that a run has taken since its first rapid event, and lately.
-typedef struct Pace {
+typedef struct ProgressRate {
     bool counts;   // there was one
     bool uneven;   // steps were not all alike
     double step;   // the first one's, time
     Mark begun;   // then
     Mark older, newer;   // each when twice as much time was gone as at the one before
-} Pace;
+} ProgressRate;
 
 typedef struct Progress {
     ProgressStyle style;
@@ -29,7 +29,7 @@ typedef struct Progress {
     struct timespec drawn;   // the bar, last
     bool running;   // a step was seen
     bool bar_stands;   // the cursor is in the line of the bar
-    Pace pace;
+    ProgressRate rate;
     int32_t tenths;   // lines: tenths of the run already printed
 } Progress;
 

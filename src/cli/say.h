@@ -7,12 +7,12 @@
 
 #include <stdarg.h>
 
-// To standard output; the length of what was formatted.
+// Prints to standard output; returns the length of what was formatted.
 int say(const char *format, ...) __attribute__((format(printf, 1, 2)));
-// To standard error.
+// Prints to standard error.
 void tell(const char *format, ...) __attribute__((format(printf, 1, 2)));
 void tell_list(const char *format, va_list arguments);
-// On a terminal, in place of the line that stands there; at most `width` bytes of it.
+// Prints on a terminal, in place of the line that stands there; at most `width` bytes of it.
 void tell_over(const char *line, int width);
 
 #endif

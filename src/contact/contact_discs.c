@@ -397,7 +397,7 @@ bool contact_discs_solve(ContactDiscs *discs, double tolerance, const ContactPro
     }
     if (!solved) return false;
 
-    // Which way nodes slip along the drive.
+    // Statuses say which way nodes slip along the drive.
     for (int32_t i = 0; i < interface->contact_count; i++)
         if (status_slips(solution->status[i]))
             solution->status[i] =

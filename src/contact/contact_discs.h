@@ -58,9 +58,9 @@ bool contact_discs_create(const Interface *interface, ContactNewton *newton, Con
                           Error *err);
 void contact_discs_destroy(ContactDiscs *discs);
 
-// From velocities, reactions and statuses in `solution`, which may be of another g: the first
-// step's derivative is theirs. tolerance: of residual forces, relative to the largest force.
-// Allocates nothing. false: unsolved.
+// Solves from the velocities, reactions and statuses in `solution`, which may be those of another
+// g: the first step's derivative is theirs. tolerance: of residual forces, relative to the largest
+// force. Allocates nothing. Returns false where it stays unsolved.
 bool contact_discs_solve(ContactDiscs *discs, double tolerance, const ContactProblem *problem,
                          ContactSolution *solution);
 

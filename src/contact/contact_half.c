@@ -7,15 +7,15 @@
 #include <math.h>
 #include <string.h>
 
-// Between a node and its image, over the contact's breadth.
+// Largest distance of a node's image from a node, over the contact's breadth.
 static const double APART = 1e-8;
 
-// By how much entries of S may differ from their images, over the largest: what is left out is a
+// Largest difference of an entry of S and its image, over the largest entry: what is left out is a
 // billionth.
 static const double ALIKE = 1e-9;
 
-// On the diagonal of what is held, over the largest of S: far above any weakening that S could
-// withstand.
+// Diagonal entry of a node that is held, over the largest entry of S: far above any weakening that
+// S could withstand.
 static const double HELD = 1e9;
 
 // Places in the order of one of their coordinates.

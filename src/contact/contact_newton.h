@@ -72,7 +72,7 @@ void contact_newton_creep(ContactNewton *newton);
 void contact_newton_find_pull(ContactNewton *newton);
 void contact_newton_take(ContactNewton *newton);
 
-// Whether the stored factors may be used again: they are the latest, of this S and of these
+// True if the stored factors may be used again: they are the latest, of this S and of these
 // statuses, and steps with them gain. Factors of another step size would converge too slowly, and
 // where friction creeps each row changes from step to step.
 bool contact_newton_keeps_factors(const ContactNewton *newton);

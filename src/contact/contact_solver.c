@@ -142,7 +142,7 @@ static bool solve_statuses(ContactSolver *solver, const ContactProblem *problem,
     int32_t met = 1, anchored = 1;   // sets of statuses so far; that which solver->anchor holds
 
     for (;;) {
-        // From the limit on, or a cycle, only the worst status is changed.
+        // After the limit, or in a cycle, only the worst status is changed.
         if (iteration == limit && !change_all) return false;
         if (iteration == limit) {
             change_all = false;

@@ -12,7 +12,7 @@
 #include <math.h>
 #include <stdio.h>
 
-// How far outside the strip a rod node may lie, relative to the block's height: rounding only.
+// Largest distance of a rod node from the strip, relative to the block's height: rounding only.
 static const double STRIP_TOLERANCE = 1e-9;
 static const double LINE_ROUNDING =
     1e-6;   // of places along the contact, over the length of a cell
@@ -26,8 +26,8 @@ static double least_weight(const Mesh *mesh, const double *weight)
     return ROUNDING * largest;
 }
 
-// On a grid the row of nodes nearest to the middle; elsewhere those of a strip around it, as wide
-// as a mean cell is long.
+// The line is on a grid the row of nodes nearest to the middle; elsewhere the nodes of a strip
+// around it, as wide as a mean cell is long.
 bool interface_find_line(Interface *interface, Error *err)
 {
     double area = 0;
@@ -49,7 +49,7 @@ bool interface_find_line(Interface *interface, Error *err)
         if (nearer > rounding) place = interface->y[i];
     }
 
-    // Along x, of nodes side by side that which is nearer to it.
+    // Go along x, and take of nodes side by side the one that is nearer to it.
     interface->line_count = 0;
     for (int32_t i = 0; i < interface->contact_count; i++) {
         int32_t *last = interface->line + interface->line_count - 1;
@@ -117,21 +117,21 @@ cleanup:
     return error_is_clean(err);
 }
 
-// The face that the rod touches, by ascending z of its nodes. Each stands for a stretch that
+// The face that the rod touches, by ascending z of its nodes. Each has a tributary part that
 // reaches half way to the nodes beside it on the face, along z and, where the strip has a breadth,
 // along y.
 typedef struct Face {
     int32_t count;
     int32_t *node;   // [count]; owned
-    double *from[2], *to[2];   // [count] of the stretches along z and y, length; owned
+    double *from[2], *to[2];   // [count] bounds of the tributary parts along z and y, length; owned
     double *area;   // [nodes of the mesh] integral of the shape function; owned
     double rounding;   // of a place, length
 } Face;
 
-// Widens the stretch of each node along an axis by those beside it on its faces. place: [nodes of
-// the mesh] in the face's list.
-static void find_stretches(const Mesh *mesh, const MeshBoundary *boundary, int32_t axis,
-                           const int32_t *place, Face *face)
+// Widens the tributary part of each node along an axis by those beside it on its faces. place:
+// [nodes of the mesh] in the face's list.
+static void find_tributary_parts(const Mesh *mesh, const MeshBoundary *boundary, int32_t axis,
+                                 const int32_t *place, Face *face)
 {
     int32_t which = axis == mesh->dim - 1 ? 0 : 1;
     double *from = face->from[which], *to = face->to[which];
@@ -177,21 +177,21 @@ static bool face_build(const Mesh *mesh, const MeshBoundary *boundary, Face *fac
     }
     for (int32_t k = 0; k < face->count; k++) place[face->node[k]] = k;
     for (int32_t axis = 1; axis < mesh->dim; axis++)
-        find_stretches(mesh, boundary, axis, place, face);
+        find_tributary_parts(mesh, boundary, axis, place, face);
     boundary_add_weights(mesh, boundary, false, face->area);
 cleanup:
     memory_free(place);
     return error_is_clean(err);
 }
 
-// Where the strip lies along z and, in space, along y.
+// The rod's strip: its range along z and, in space, along y.
 typedef struct Strip {
     double low[2], high[2];   // length
     bool in_part;
 } Strip;
 
-// How much of the stretch of node k along one of the axes lies in the strip, 0 to 1. Without
-// in_part a node is in or out: 1 or 0.
+// Share of node k's tributary part of the face, along one of the axes, that lies in the strip, 0 to
+// 1. Without in_part a node is in or out: 1 or 0.
 static double strip_share(const Mesh *mesh, const Strip *strip, const Face *face, int32_t k,
                           int32_t which)
 {
@@ -205,8 +205,8 @@ static double strip_share(const Mesh *mesh, const Strip *strip, const Face *face
     return covered >= to - from - rounding ? 1 : covered / (to - from);
 }
 
-// Those of the face's nodes that lie in the strip. A node of the contact is left out, as the plane
-// holds it.
+// Lists the nodes of the face that lie in the strip. A node of the contact is left out, as the
+// plane holds it.
 static bool build_rod(const Mesh *mesh, const InterfaceDef *def, Interface *interface, Error *err)
 {
     if (!def->has_rod) return true;
@@ -301,7 +301,8 @@ bool interface_build(const Mesh *mesh, const InterfaceDef *def, Interface *inter
     return true;
 }
 
-// In space as many as the root of its mean cell would go along the contact.
+// In space they are as many as cells with the area of its mean cell, if square, would stand along
+// the contact.
 double interface_nodes_along(const Interface *interface)
 {
     double from[2] = {INFINITY, INFINITY}, to[2] = {-INFINITY, -INFINITY};

@@ -36,8 +36,8 @@ typedef struct Interface {
     int32_t *rod_node;   // [rod_count] mesh node, ascending z, then y; owned
     double *rod_z;   // [rod_count] height, length; owned
     double *rod_y;   // [rod_count] across the drive, length; NULL in the plane; owned
-    double *rod_share;   // [rod_count] in (0, 1]: how much of the node's stretch of the face, half
-        // way to its neighbours, lies in the strip; owned
+    double *rod_share;   // [rod_count] in (0, 1]: share of the node's tributary part of the face,
+        // half way to its neighbours, that lies in the strip; owned
     double
         *rod_length;   // [rod_count] how long the strip's end is at the node, length; NULL in the
     // plane, where it is the unit width; owned
@@ -54,8 +54,8 @@ typedef struct InterfaceDef {
     bool rod_whole;   // the strip is all of the boundary
     double rod_height, rod_width;   // centre of the strip and its extent along z, length
     double rod_breadth;   // its extent along y around the face's middle, length; 0: all of it
-    bool rod_in_part;   // nodes whose stretch lies in the strip in part belong to it, with a share;
-        // else those inside it, wholly
+    bool rod_in_part;   // nodes whose tributary part lies in the strip in part belong to it, with a
+        // share; else those inside it, wholly
 } InterfaceDef;
 
 // The unknowns of contact node i, and of rod node j, within the interface. component: 0 along the
@@ -91,8 +91,8 @@ static inline double interface_line_x(const Interface *interface, int32_t k)
     return interface->x[interface_line_node(interface, k)];
 }
 
-// How many contact nodes stand along its length: all of them in the plane; in space so many as if
-// cells were as long along the drive as across it.
+// Number of contact nodes along its length: all of them in the plane; in space as many as if cells
+// were as long along the drive as across it.
 double interface_nodes_along(const Interface *interface);
 
 static inline double interface_gap(const Interface *interface, int32_t i)

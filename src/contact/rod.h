@@ -6,9 +6,9 @@
 //
 // The ends of the strip seldom stand half way between two nodes, and a mesh knows no other place
 // for an end: of whole nodes, the strip's width is off by up to a cell, and with it the force at
-// a given U. A node whose stretch of the face lies in the strip with a share w < 1 only is
+// a given U. A node whose tributary part of the face lies in the strip with a share w < 1 only is
 // therefore led through a spring. A frictionless rigid strip on a half-plane goes in by -2 P
-// ln(width)/(pi E*) (Johnson, Contact Mechanics, 1985, ch. 2), so a piece w of a node's stretch
+// ln(width)/(pi E*) (Johnson, Contact Mechanics, 1985, ch. 2), so a piece w of a node's part
 // yields more by a multiple of ln(1/w)/E*:
 //
 //     softness = 4 ln(1/w) / (pi E*),    r = [(U - u) + lag (V - v)] / softness
@@ -64,13 +64,14 @@ void rod_soften(const Interface *interface, const RodGround ground[2], Rod *rod)
 // U: V t, where V was the same from t = 0 on; and its velocity.
 double rod_displacement(const Rod *rod, double time);
 double rod_velocity(const Rod *rod, double time);
-// When it is first displaced by `way` > 0, from where it is at its last change; INFINITY: never.
+// Time when it is first displaced by `way` > 0, from where it is at its last change; INFINITY:
+// never.
 double rod_arrival(const Rod *rod, double way);
 // It moves with V from `time` on, from where it is then.
 void rod_set_velocity(Rod *rod, double velocity, double time);
 
-// Where node j must go: the velocity bound of contact/contact_problem, from where it is without any
-// velocity (`position`), for a stage that ends at `time` and moves by `reach` times its velocity.
+// The velocity bound of node j of contact/contact_problem, from where it is without any velocity
+// (`position`), for a stage that ends at `time` and moves by `reach` times its velocity.
 double rod_bound(const Rod *rod, int32_t j, double position, double time, double reach);
 // The same against a rod on a spring that would be at `way` if it had no velocity.
 double rod_bound_on_spring(const Rod *rod, int32_t j, double position, double way, double reach);
@@ -78,7 +79,7 @@ double rod_bound_on_spring(const Rod *rod, int32_t j, double position, double wa
 // F_T, from the reactions on the interface [interface->count].
 double rod_force(const Interface *interface, const double *reaction);
 
-// How it moves and from where; its springs are the model's.
+// Lists how it moves and from where; its springs are the model's.
 void rod_archive(Rod *rod, Archive *archive);
 
 #endif

@@ -23,7 +23,7 @@ RodCourse rod_course(const Schedule *table, bool by_way, double velocity);
 
 double rod_course_velocity(const RodCourse *course, double time);
 double rod_course_way(const RodCourse *course, double time);   // U, 0 at time 0
-// When U is first `way` > 0; INFINITY: never.
+// Time when U is first `way` > 0; INFINITY: never.
 double rod_course_arrival(const RodCourse *course, double way);
 
 #endif

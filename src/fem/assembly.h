@@ -30,7 +30,7 @@ typedef struct Bulk {
     double area;   // of the block, length^2; in space its volume
 } Bulk;
 
-// Without loads and supports, and without matrices.
+// Creates it without loads and supports, and without matrices.
 bool bulk_create(const Mesh *mesh, Bulk *bulk, Error *err);
 // y = M x; [dof_count]
 void bulk_apply_mass(const Bulk *bulk, const double *x, double *y);

@@ -98,7 +98,7 @@ void element_matrices_clear(int32_t dof_count, ElementMatrices *out)
     out->dof_count = dof_count;
 }
 
-// By the element's own quadrature; in the plane per unit width.
+// Integrates with the element's own quadrature; in the plane per unit width.
 static void integrate(ElementKind kind, const MeshPlace *position,
                       const double elastic[STRAINS_MAX][STRAINS_MAX],
                       const double viscous[STRAINS_MAX][STRAINS_MAX], ElementMatrices *out)
@@ -127,7 +127,7 @@ void element_matrices(ElementKind kind, const MeshPlace *position, const Materia
     lump_mass(kind, position, material->density, out);
 }
 
-// Without the modulus against a change of area, or in space of volume.
+// Moduli without the one against a change of area, or in space of volume.
 static Moduli without_areal_part(Moduli moduli, int32_t dim)
 {
     return (Moduli){.deviator = moduli.deviator, .trace = -moduli.deviator / dim};

@@ -120,7 +120,7 @@ cleanup:
 
 // --- what they are ------------------------------------------------------------------------------
 
-// Where `node` stands among the group's nodes, at the end where it is new.
+// Index of `node` among the group's nodes; a new one is added at the end.
 static int32_t place_of(ElementGroup *group, int32_t node)
 {
     for (int32_t a = 0; a < group->node_count; a++)

@@ -78,7 +78,7 @@ bool material_relax(Material *material)
     return true;
 }
 
-// In plane strain the stress that keeps the faces in place.
+// The stress that keeps the faces in place in plane strain.
 double material_out_of_plane(const Material *material, const double strain[3],
                              const double strain_rate[3])
 {

@@ -51,7 +51,8 @@ typedef struct Moduli {
 Moduli material_elastic(const Material *material);
 Moduli material_viscous(const Material *material);
 
-// Against a strain along one axis alone, against shear, and against that of all axes alike.
+// Moduli against a strain along one axis alone, against shear, and against the same strain along
+// all axes.
 static inline double moduli_axial(Moduli moduli)
 {
     return moduli.deviator + moduli.trace;
@@ -87,8 +88,8 @@ double material_out_of_plane(const Material *material, const double strain[3],
 typedef struct WaveSpeeds {
     double longitudinal, shear, rayleigh;   // velocity, elastic limit
 } WaveSpeeds;
-// Those of the short-time response. Rayleigh's equation is solved to rounding (Achenbach, Wave
-// Propagation in Elastic Solids, 5.11).
+// Wave speeds of the short-time response. Rayleigh's equation is solved to rounding (Achenbach,
+// Wave Propagation in Elastic Solids, 5.11).
 WaveSpeeds material_speeds(const Material *material);
 
 // Damping over critical damping of the least damped wave of `length` (half a wave long): above 1 no
@@ -100,8 +101,8 @@ double material_wave_damping(const Material *material, double length);
 // (tau/G, p/E'), E' that of uniaxial stress in the plane.
 double material_gradient(const Material *material, double pressure, double shear);
 
-// For the time scales of slip: c_L, but at most 2 c_S. (c_L grows without bound towards nu = 1/2 in
-// plane strain, while slip does not get faster.)
+// Speed that sets the time scales of slip: c_L, but at most 2 c_S. (c_L grows without bound towards
+// nu = 1/2 in plane strain, while slip does not get faster.)
 double material_slip_speed(const Material *material);
 
 // Linear elements would lock in it: area resists so much more than shape, in K or in C, that it is

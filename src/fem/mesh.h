@@ -12,7 +12,7 @@
 
 enum { MESH_PATH_SIZE = 1024 };
 
-// From the coordinates of the file to those of the mesh: times `scale`, plus `shift`.
+// Coordinates of the mesh are those of the file times `scale`, plus `shift`.
 typedef struct MeshMove {
     double scale;
     MeshPlace shift;   // length
@@ -70,8 +70,8 @@ typedef struct Mesh {
     MeshMove move;
 } Mesh;
 
-// In an array with `dim` numbers a node: the place of number d, 0 along x, dim - 1 along z; back
-// from there to the node, and to d.
+// Place of number d of a node, 0 along x, dim - 1 along z, in an array with `dim` numbers a node;
+// and from there back to the node, and to d.
 static inline int32_t node_dof(int32_t dim, int32_t node, int32_t d)
 {
     return dim * node + d;
@@ -85,7 +85,7 @@ static inline int32_t dof_axis(int32_t dim, int32_t dof)
     return dof % dim;
 }
 
-// Where a node is: [mesh->dim]; and its z.
+// Coordinates of a node: [mesh->dim].
 static inline const double *mesh_place(const Mesh *mesh, int32_t node)
 {
     return mesh->position + (int64_t)mesh->dim * node;
@@ -95,7 +95,7 @@ static inline double mesh_height(const Mesh *mesh, int32_t node)
     return mesh_place(mesh, node)[mesh->dim - 1];
 }
 
-// Where nodes [count] are: place [count]; offsets: from the first of them.
+// Coordinates of nodes [count]: place [count]. Offsets are those from the first of them.
 void mesh_places(const Mesh *mesh, const int32_t *nodes, int32_t count, MeshPlace *place);
 void mesh_offsets(const Mesh *mesh, const int32_t *nodes, int32_t count, MeshPlace *offset);
 
@@ -112,10 +112,10 @@ enum { PLACE_TEXT_SIZE = 64 };
 const char *place_text(int32_t dim, const double *at, char text[PLACE_TEXT_SIZE]);
 const char *mesh_place_text(const Mesh *mesh, int32_t node, char text[PLACE_TEXT_SIZE]);
 
-// Between two nodes, length.
+// Distance of two nodes, length.
 double mesh_distance(const Mesh *mesh, int32_t one, int32_t two);
 
-// Whether a node, or an element, is of the base.
+// True if a node, or an element, is part of the base.
 static inline bool mesh_in_base(const Mesh *mesh, int32_t node)
 {
     return mesh->is_base && mesh->is_base[node];
@@ -125,7 +125,7 @@ static inline bool mesh_element_in_base(const Mesh *mesh, int32_t e)
     return mesh_in_base(mesh, mesh->element_nodes[mesh->first_node[e]]);
 }
 
-// Which of a list of materials element e is made of.
+// Index of element e's material in a list of materials.
 static inline int32_t mesh_region(const Mesh *mesh, int32_t e)
 {
     return mesh->region ? mesh->region[e] : 0;
@@ -194,14 +194,14 @@ void mesh_move(double scale, const MeshPlace shift, Mesh *mesh);
 bool mesh_stand_on_floor(const char (*names)[GROUP_NAME_SIZE], int32_t name_count, Mesh *mesh,
                          Error *err);
 
-// How it was moved, in words; empty: not at all.
+// Words for how it was moved; empty: not at all.
 enum { MOVE_TEXT_SIZE = 160 };
 const char *mesh_move_text(const Mesh *mesh, char text[MOVE_TEXT_SIZE]);
 
 // z of the floor under a contact node, length; 0 where it is rigid, or not found yet (fem/floor).
 double mesh_floor_height(const Mesh *mesh, int32_t node);
 
-// How high a contact node stands over the floor; exactly 0 where only rounding is left.
+// Height of a contact node over the floor, length; exactly 0 where only rounding is left.
 double mesh_gap(const Mesh *mesh, int32_t node);
 void mesh_contact_destroy(MeshContact *contact);
 

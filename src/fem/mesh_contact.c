@@ -32,7 +32,8 @@ double mesh_gap(const Mesh *mesh, int32_t node)
     return gap > PLACE_TOLERANCE * extent(mesh) ? gap : 0;
 }
 
-// By x first, by z last. `context` comes third, as system_sort passes it: no state outside of it.
+// Compares x first and z last. `context` comes third, as system_sort passes it: no state outside of
+// it.
 static int compare_places(const void *a, const void *b, void *context)
 {
     const Mesh *mesh = context;
@@ -43,7 +44,7 @@ static int compare_places(const void *a, const void *b, void *context)
     return 0;
 }
 
-// By place, so that numbers given out by gmsh do not decide the order of contact nodes.
+// Sorts by place, so that gmsh's numbers do not decide the order of contact nodes.
 void mesh_sort_nodes(const Mesh *mesh, int32_t *nodes, int32_t count)
 {
     Mesh order = *mesh;   // system_sort takes no const
@@ -84,7 +85,7 @@ bool mesh_is_contact_name(const char *name)
     return strcmp(name, "contact") == 0 || strncmp(name, "contact_", strlen("contact_")) == 0;
 }
 
-// By their first node, which is their leftmost.
+// Compares their first nodes, which are their leftmost.
 static int compare_starts(const void *a, const void *b, void *context)
 {
     const MeshBoundary *first = a, *second = b;

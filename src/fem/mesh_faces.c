@@ -45,7 +45,7 @@ FaceNodes mesh_boundary_face(const MeshBoundary *boundary, int32_t face)
     return (FaceNodes){(ElementKind)element_kind_of(boundary->dim - 1, width), nodes};
 }
 
-// In the bucket of the lowest corner; NULL: not there (yet).
+// Searches the bucket of the lowest corner; NULL: not there (yet).
 static MeshFace *find_face(const MeshFaces *table, const FaceKey *key)
 {
     int32_t low = key->corner[0];

@@ -10,8 +10,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-// How far outside, over the size of the face: more than rounding of coordinates, and a slit that is
-// so wide open is no fault.
+// Least distance that counts as outside, over the size of the face: more than rounding of
+// coordinates, and a slit that is so wide open is no fault.
 static const double OUTSIDE = 1e-5;
 
 typedef struct ProbePoint {

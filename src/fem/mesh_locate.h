@@ -8,7 +8,7 @@
 // The box around element e, with room for bent sides: [mesh->dim] each, length.
 void mesh_element_box(const Mesh *mesh, int32_t e, MeshPlace low, MeshPlace high);
 
-// Whether `place` [mesh->dim] lies in element e or on its border; at: its reference coordinates.
+// True if `place` [mesh->dim] lies in element e or on its border; at: its reference coordinates.
 bool mesh_element_holds(const Mesh *mesh, int32_t e, const double *place, MeshPlace at);
 
 // The element that `place` lies in, that of the block before that of the base, of several the

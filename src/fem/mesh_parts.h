@@ -27,9 +27,9 @@ const char *mesh_parts_advice(const Mesh *mesh, const MeshParts *parts, char tex
 // Sets ERROR_INPUT, with the parts and the advice; returns false.
 bool mesh_parts_refuse(const Mesh *mesh, const MeshParts *parts, Error *err);
 
-// As mesh_build_on_base (fem/mesh.h), but several parts are no error: they are in *parts, the
-// caller's to destroy, and where they are no block and base nothing is known of faces between them.
-// floor: NULL: no part is a base.
+// Builds as mesh_build_on_base (fem/mesh.h) does, but several parts are no error: they are in
+// *parts, the caller's to destroy, and where they are no block and base nothing is known of faces
+// between them. floor: NULL: no part is a base.
 bool mesh_build_parts(MeshFile *file, const char *path, const char *floor, Mesh *mesh,
                       MeshParts *parts, Error *err);
 

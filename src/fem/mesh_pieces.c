@@ -18,7 +18,7 @@ bool mesh_pieces_find(const Mesh *mesh, const MeshBoundary *whole, MeshPieces *p
     int32_t width = whole->nodes_per_face;
     *pieces = (MeshPieces){0};
 
-    // Which piece each node of the mesh is on, -1: not on the boundary.
+    // Number of the piece that each node of the mesh is on, -1: not on the boundary.
     int32_t *number = NULL, *parent = NEW_ARRAY(int32_t, mesh->node_count, err);
     if (!parent || !(number = NEW_ARRAY(int32_t, mesh->node_count, err))) goto cleanup;
     for (int32_t i = 0; i < mesh->node_count; i++) parent[i] = i, number[i] = -1;

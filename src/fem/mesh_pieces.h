@@ -19,7 +19,7 @@ typedef struct MeshPieces {
 bool mesh_pieces_find(const Mesh *mesh, const MeshBoundary *whole, MeshPieces *pieces, Error *err);
 void mesh_pieces_destroy(MeshPieces *pieces);   // zeroed and half-built too
 
-// Whether `name` is `group` or a piece of it.
+// True if `name` is `group` or a piece of it.
 bool mesh_piece_is_of(const char *name, const char *group);
 
 #endif

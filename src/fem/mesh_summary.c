@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-// By the element's own quadrature: exact where sides are straight.
+// The element's own quadrature is exact where sides are straight.
 double mesh_element_area(const Mesh *mesh, int32_t e)
 {
     MeshPlace position[ELEMENT_NODES_MAX];

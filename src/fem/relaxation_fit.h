@@ -52,8 +52,8 @@ double relaxation_at(const RelaxationFit *fit, double time);
 bool least_squares_not_negative(const double *A, const double *b, int32_t rows, int32_t columns,
                                 double *x, Error *err);
 
-// How much longer relaxation takes at a temperature than at the reference: a_T of Williams, Landel
-// and Ferry (J. Am. Chem. Soc. 77, 1955), log10 a_T = -c1 (T - T_ref)/(c2 + T - T_ref). NaN: at or
+// Ratio of relaxation times at a temperature to those at the reference: a_T of Williams, Landel and
+// Ferry (J. Am. Chem. Soc. 77, 1955), log10 a_T = -c1 (T - T_ref)/(c2 + T - T_ref). NaN: at or
 // below T_ref - c2.
 double wlf_shift(double c1, double c2, double reference, double temperature);
 

@@ -170,8 +170,8 @@ static void find_rate(const FrictionNode *node, double speed, const double *stat
     }
 }
 
-// Where the clock is another one a function that fills both parts would fill one of them for the
-// wrong speed: it goes into a place of its own.
+// Where the state has a clock of its own a function that fills both parts would fill one of them
+// for the wrong speed: that part goes into a place of its own.
 void friction_rates(const FrictionNode *node, double speed, const double *state,
                     FrictionRates *rates)
 {

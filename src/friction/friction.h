@@ -98,7 +98,7 @@ bool friction_weakens(const FrictionNode *node, double speed);
 // With the states held, a law that is not 0 at rest meets less friction at some faster slip.
 bool friction_weakens_at_once(const FrictionNode *node);
 
-// From about this speed on next to nothing weakens any more, velocity; 0 where nothing weakens.
+// Speed from about which on next to nothing weakens any more, velocity; 0 where nothing weakens.
 double friction_spent_speed(const FrictionNode *node);
 
 // phi = max(0, 1 - |v|/v_c), the density of real contacts that hold (the paper's Figure 1d); from
@@ -141,10 +141,10 @@ bool friction_solve_states(const FrictionRates *rates, double reach, double *x);
 // The part of the states in d mu/d speed over a stage: mu_theta (1 - reach g_theta)^-1 reach g_v.
 double friction_feedback(const FrictionRates *rates, double reach);
 
-// For a law that creeps: the velocity [count] to which a step of Newton's method leads that is
-// taken in friction instead of in v: in asinh(|v|/v_s) v/|v|, v_s that of an asinh with mu and mu_v
-// of the law at its present states, so that friction is nearly linear along it. count: 1, in space
-// 2.
+// Finds, for a law that creeps, the velocity [count] to which a step of Newton's method leads that
+// is taken in friction instead of in v: in asinh(|v|/v_s) v/|v|, v_s that of an asinh with mu and
+// mu_v of the law at its present states, so that friction is nearly linear along it. count: 1, in
+// space 2.
 void friction_follow(const FrictionNode *node, int32_t count, const double *velocity,
                      const double *step, double *next);
 

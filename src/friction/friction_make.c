@@ -187,7 +187,8 @@ static double find_spent(const FrictionLaw *law)
         }
         return 0;
     }
-    // By multiples of v_c, so that it does not depend on the last digits of the law.
+    // The search goes by multiples of v_c, so that it does not depend on the last digits of the
+    // law.
     for (double times = 1; times * law->critical_velocity < law->end;
          times += times < 64 ? 1 : times)
         if (mu_of(law, times * law->critical_velocity) - law->mu_kinetic <= SPENT_PART * drop)

@@ -5,7 +5,7 @@
 
 #include "friction/friction.h"
 
-// Whether a law takes, needs or ignores a key of the map `friction`.
+// Says if a law takes, needs or ignores a key of the map `friction`.
 typedef enum FrictionUse { FRICTION_UNUSED, FRICTION_MAY, FRICTION_MUST } FrictionUse;
 FrictionUse friction_use(const FrictionLaw *law, const char *key);
 

@@ -85,26 +85,27 @@ void friction_own_rates(const FrictionRates *rates, double *re, double *im)
     for (int32_t k = 0; k < n; k++) re[k] = INFINITY;
 }
 
-// By Gershgorin's circles first, which lie about the diagonal.
-bool friction_states_calm(const FrictionRates *rates, double reach)
+// Gershgorin's circles, which lie about the diagonal, are asked first.
+bool friction_states_decay(const FrictionRates *rates, double reach)
 {
     double re[STATES_MAX], im[STATES_MAX] = {0};
-    bool calm = true;
+    bool decays = true;
     for (int32_t k = 0; k < rates->states; k++) {
         double most = rates->rate_state[k][k];
         for (int32_t j = 0; j < rates->states; j++)
             most += j == k ? 0 : fabs(rates->rate_state[k][j]);
-        calm = calm && reach * most < 1;
+        decays = decays && reach * most < 1;
     }
-    if (calm) return true;
+    if (decays) return true;
     friction_own_rates(rates, re, im);
-    calm = true;
-    for (int32_t k = 0; k < rates->states; k++) calm = calm && (im[k] != 0 || reach * re[k] < 1);
-    return calm;
+    decays = true;
+    for (int32_t k = 0; k < rates->states; k++)
+        decays = decays && (im[k] != 0 || reach * re[k] < 1);
+    return decays;
 }
 
 // F(i w): its real part, and in *stiffness -w^2 mu_theta (w^2 + G^2)^-1 g_v, which is k/r_n where
-// that is 0. By real numbers: (i w - G)^-1 = -(i w + G) (w^2 + G^2)^-1.
+// that is 0. Real numbers suffice: (i w - G)^-1 = -(i w + G) (w^2 + G^2)^-1.
 static double real_part(const FrictionRates *rates, double w, double *stiffness)
 {
     double square[STATES_MAX * STATES_MAX], q[STATES_MAX], real = rates->mu_speed;

@@ -26,8 +26,8 @@ double friction_respond(const FrictionRates *rates, double s, double y, const do
 // The states by themselves, at held slip: d theta'/dt = g_theta theta'. The rates of that [states],
 // 1/time; INFINITY where they are not found.
 void friction_own_rates(const FrictionRates *rates, double *re, double *im);
-// None of them is real and 1/reach or more.
-bool friction_states_calm(const FrictionRates *rates, double reach);
+// True if none of these rates is real and 1/reach or more: no state grows as fast as that.
+bool friction_states_decay(const FrictionRates *rates, double reach);
 
 // A massless body on a spring k, pressed by r_n, has the rates s with k + s r_n F(s) = 0: k over
 // r_n, one over a length, above which all of them decay; 0: on any spring. NAN: on none.

@@ -248,8 +248,8 @@ bool friction_start(const FrictionSource *source, FrictionLaw *law, const char *
     memcpy(law->start, node.from, sizeof law->start);
     TRY(look_at(source, &node, source->rod_velocity, &rates, key, err));
 
-    // In the states of the start and in steady slip at all speeds. lost: the most that mu loses in
-    // a unit of slip by its states.
+    // The law is looked at in the states of the start and in steady slip at all speeds. lost: the
+    // most that mu loses in a unit of slip by its states.
     for (int32_t k = 0; k <= LAST; k++) {
         double speed = look_speed(source, k), now = 0;
         memcpy(node.from, law->start, sizeof node.from);

@@ -22,8 +22,8 @@
 // found. *key: of the map `friction`.
 bool friction_start(const FrictionSource *source, FrictionLaw *law, const char **key, Error *err);
 
-// How many states of steady slip are found at this speed from states at the start and far from it:
-// 0, 1, or 2 for several; then states: one of them in two of these.
+// Number of states of steady slip found at this speed from the states at the start and from others
+// far from them: 0, 1, or 2 for several. states: one value of two of these where there are several.
 int32_t friction_count_steady(const FrictionNode *node, double speed, double states[2]);
 
 // node->from becomes the states of steady slip. Returns false where none is found from there, and

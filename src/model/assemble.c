@@ -13,7 +13,7 @@
 #include <math.h>
 #include <stdio.h>
 
-// Where gmsh has to make it, the slowest part of a small run.
+// This is the slowest part of a small run where gmsh has to make the mesh.
 bool model_read_mesh(const ChildWatch *watch, Model *model, Error *err)
 {
     const Scene *scene = model->scene;
@@ -112,7 +112,7 @@ static bool add_loads(Model *model, Error *err)
     for (int32_t dof = 0; dof < bulk->dof_count; dof++) bulk->load[dof] *= reference;
 
     // A block that is held needs no load, and a block that flies towards the plane has its
-    // momentum. Whether a support is on the block; a group that is not there is told later.
+    // momentum. Look for a support on the block; a group that is not there is told later.
     for (int32_t k = 0; k < scene->load.support_count && !model->block_is_held; k++) {
         Error ignored = {0};
         bool there =

@@ -154,8 +154,9 @@ bool model_build_rod(const Model *model, RodKind kind, Rod *rod, Error *err)
 {
     RodGround ground[2];
     for (int k = 0; k < 2; k++) {
-        // Where materials meet within what the strip's end covers: as their pieces yield one after
-        // the other, so that the force changes without a jump as the strip is moved over the joint.
+        // Where materials meet within what the strip's end covers, the ground yields as their
+        // pieces do one after the other, so that the force changes without a jump as the strip is
+        // moved over the joint.
         const RodEnd *end = &model->rod_end[k];
         RodGround below = ground_of(model, end->region[0]);
         RodGround above = ground_of(model, end->region[1]);

@@ -89,8 +89,8 @@ double model_forgets(const Model *model);
 // The slip that a fall of the coefficient by 1 can drive, p H / E, length.
 double model_slip_per_mu(const Model *model);
 
-// How long waves take along the block in its fastest material, or through what it stands on,
-// whichever is longer, time. Friction feeds no faster oscillation on a soft layer: waves of a stiff
+// Time that waves take along the block in its fastest material, or through the base that it stands
+// on, whichever is longer. Friction feeds no faster oscillation on a soft layer: waves of a stiff
 // block above it hardly come through.
 double model_crossing(const Model *model);
 
@@ -98,10 +98,10 @@ double model_crossing(const Model *model);
 // less slip can a drop of friction drive at once.
 double model_stiffening(const Model *model);
 
-// How long the block takes to settle: waves along it, viscosity, the slowest branch; time.
+// Time in which the block settles: waves along it, viscosity, the slowest branch.
 double model_settling_time(const Model *model);
 
-// By how much the machine yields less when the load falls by that drop, length; 0: it is rigid.
+// Length by which the machine springs back when the load falls by that drop; 0: it is rigid.
 double model_machine_yield(const Model *model);
 
 // A rod of this kind at rest, its origin at 0, with the springs of its ends: soft ends get E* of
@@ -112,8 +112,8 @@ bool model_build_rod(const Model *model, RodKind kind, Rod *rod, Error *err);
 // Machine behind the rod, for a BulkOperator of the model's interface.
 Machine model_machine(const Model *model);
 
-// Where the rod touches a block of this height: the centre of its strip over the plane and its
-// extent, length.
+// Finds the strip in which the rod touches a block of this height: its centre over the plane and
+// its extent, length.
 void model_rod_strip(const Scene *scene, double height, double *middle, double *width);
 
 #endif

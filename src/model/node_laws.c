@@ -13,7 +13,7 @@
 
 enum { SAMPLES = 32 };   // of a formula over the part of a node; exact where it is straight
 
-// A stretch of the contact along x, in space a square in it.
+// Part of the contact that a node stands for: a segment along x, in space a square in it.
 typedef struct Part {
     double from, to;   // places, length
     double y[2];   // likewise; not used in the plane
@@ -122,12 +122,12 @@ bool model_lay_laws(Model *model, Error *err)
         double factor = 1, x = interface->x[i], weight = interface->weight[i];
         if (plane) {
             // The part that node i stands for, behind that of the node before it: as long as its
-            // weight, so that parts tile each stretch of the contact and sums of w_i f_i are
-            // integrals. Within an edge they meet where weights do: half way between its nodes, or,
-            // of order 2 with Simpson's weights, at 1/6 and 5/6 of it. So each holds its node, and
-            // is centred at it unless cells differ or end there. The first node of a stretch, which
-            // may belong to several pads, begins its part itself: the part before then ended at its
-            // own node.
+            // weight, so that parts tile each connected piece of the contact and sums of w_i f_i
+            // are integrals. Within an edge they meet where weights do: half way between its nodes,
+            // or, of order 2 with Simpson's weights, at 1/6 and 5/6 of it. So each holds its node,
+            // and is centred at it unless cells differ or end there. The first node of a piece,
+            // which may belong to several pads, begins its part itself: the part before then ended
+            // at its own node.
             bool begins = i == 0 || part.to - interface->x[i - 1] < 1e-6 * weight;
             double from = begins ? x : part.to;
             part = (Part){from, from + weight, {0}};

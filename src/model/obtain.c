@@ -36,7 +36,7 @@ static bool wants_modes(const Scene *scene)
     return scene->output.fields || scene->output.whole_block || scene->output.probes.count > 0;
 }
 
-// As the scene says, else by the accuracy it wants.
+// The scene's own tolerance, else one that follows from the accuracy it wants.
 static double reduction_tolerance(const Scene *scene)
 {
     return scene->reduction.tolerance > 0 ? scene->reduction.tolerance
@@ -156,7 +156,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Whether the bulk is to be reduced. That takes implicit steps, viscosity in every region (else the
+// Decides if the bulk is reduced. That takes implicit steps, viscosity in every region (else the
 // basis would have to answer for a block that nothing holds together, as it does for all that is
 // between elastic and viscous), and states that the interface made: not a load put on at once, nor
 // a velocity that supports stop.
@@ -373,20 +373,20 @@ bool model_obtain(const Scene *scene, const StageNotice *notice, Model *model, E
     // Explicit steps move nodes, one by one: over a base they need matrices that know of no jumps.
     if (model->mesh.is_base && scene->time.scheme == SCHEME_EXPLICIT) {
         Bulk *nodes = &model->bulk_of_nodes;
-        Mesh apart = model->mesh;   // borrows all
-        apart.floor = (Floor){0};
+        Mesh without_floor = model->mesh;   // borrows all
+        without_floor.floor = (Floor){0};
         if (!model->mesh.floor.matches)
             FAIL(err, ERROR_INPUT,
                  "%s: time.scheme: explicit needs a floor whose nodes lie under those of the "
                  "contact, each under one; implicit steps take any",
                  scene->path);
-        TRY(bulk_create(&apart, nodes, err));
+        TRY(bulk_create(&without_floor, nodes, err));
         size_t unknowns = (size_t)nodes->dof_count;
         memcpy(nodes->load, model->bulk.load, unknowns * sizeof *nodes->load);
         floor_scatter(&model->mesh, nodes->load);
         nodes->spectrum = model->bulk.spectrum;
         memcpy(nodes->held, model->bulk.held, unknowns * sizeof *nodes->held);
-        TRY(bulk_assemble(&apart, model->materials.list, nodes, err));
+        TRY(bulk_assemble(&without_floor, model->materials.list, nodes, err));
     }
     TRY(model_lay_laws(model, err));
     TRY(model_lay_gaps(model, err));

@@ -5,7 +5,8 @@
 
 #include "model/model.h"
 
-// Who wants to know what takes its time, and may end it before it begins, or while it goes on.
+// Somebody who wants to know which stage takes its time, and may end it before it begins or while
+// it goes on.
 typedef struct StageNotice {
     // "meshing", "reducing"; static storage
     bool (*tell)(void *self, const char *stage, Error *err);

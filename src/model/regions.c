@@ -133,8 +133,8 @@ static uint8_t *mark_nodes(const Mesh *mesh, const int32_t *nodes, int32_t count
     return on;
 }
 
-// Rod node j, at an end of the strip from low to high, with its stretch of the face half way to the
-// nodes beside it. on: [nodes] of the face.
+// Rod node j, at an end of the strip from low to high, with its tributary part of the face half way
+// to the nodes beside it. on: [nodes] of the face.
 static RodEnd find_end(const Model *model, const MeshBoundary *rod, const uint8_t *on, int32_t j,
                        double low, double high)
 {

@@ -52,7 +52,7 @@ bool scene_mesh_read(const Scene *scene, const ChildWatch *watch, Mesh *mesh, Me
         taken = taken || strcmp(floor, contact->name[k]) == 0;
     TRY(mesh_build_on_base(&file, path, taken ? NULL : floor, mesh, err));
 
-    // In the order in which places are made of those of the file.
+    // The order is that in which places are made of those of the file.
     MeshPlace by = {0};
     if (shift->count > 0 && shift->count != mesh->dim) {
         error_set(err, ERROR_INPUT, __FILE__, __LINE__,

@@ -15,7 +15,7 @@ typedef struct StepSizes {
     double tolerance;   // of the local error over `slip`, where the scene has no time.tolerance
 } StepSizes;
 
-// When the scene ends, by time.until.U or time.until.t, whichever comes first.
+// Time when the scene ends, by time.until.U or time.until.t, whichever comes first.
 double step_rule_end(const Scene *scene);
 
 // Tolerance, longest, shortest and wave-resolving step and watch; relaxing is the caller's.

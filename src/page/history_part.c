@@ -42,7 +42,7 @@ bool figures_write(HtmlWriter *html, PageSource *source, Error *err)
     if (render) render(folder, source->cycle, html, err);
     if (!go_on_without(html, "figures", err)) return false;
 
-    // Where an error bar was asked for: runs over contact nodes.
+    // Draw runs over contact nodes where an error bar was asked for.
     if (!folder_holds(folder, "figures/accuracy.json", path)) return true;
     RenderPlotHtmlFunction plot =
         (RenderPlotHtmlFunction)module_function("render", "amontons_render_plot_html", err);

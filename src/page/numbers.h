@@ -5,10 +5,10 @@
 
 #include "page/sheet.h"
 
-// As text_estimate has it; that nothing is known of its error is said.
+// Writes an estimate as text_estimate has it, and says so where nothing is known of its error.
 void estimate_write(HtmlWriter *html, double value, double bar, double known_to);
-// How far the result at `path` in run.json is known; NaN: not known. *bar: its error bar; NaN: none
-// was asked for.
+// Error within which the result at `path` in run.json is known; NaN: not known. *bar: its error
+// bar; NaN: none was asked for.
 double run_known_to(const RunSource *run, const char *path, double *bar);
 
 // Writes two tables, each with a caption: what was found, and how far the computation can be

@@ -27,10 +27,10 @@ void run_source_close(RunSource *source);   // zeroed is fine
 double run_number(const RunSource *source, const char *path);
 // Its k-th warning; false: there is none.
 bool run_warning(const RunSource *source, int32_t k, char *words, int32_t size);
-// How many events of this kind, "leading rapid".
+// Number of events of this kind, "leading rapid".
 int32_t run_events(const RunSource *source, const char *kind);
 
-// Whether `folder` holds `name`; the path, where one is wanted, has PATH_MAX bytes.
+// True if `folder` holds `name`; the path, where one is wanted, has PATH_MAX bytes.
 bool folder_holds(const char *folder, const char *name, char *path);
 // The last part of a path: "fig1" of "results/fig1/".
 void folder_name(const char *folder, char name[RUN_NAME_SIZE]);

@@ -29,7 +29,7 @@ typedef struct SheetPart {
 
 extern const SheetPart SHEET_CITE;   // that part
 
-// Up to the title, below it `kind` ("A run"), and links to the parts.
+// Writes the page up to the title, below it `kind` ("A run"), and links to the parts.
 void sheet_begin(HtmlWriter *html, const char *title, const char *kind, const SheetPart *parts);
 // All of them, each below its heading.
 bool sheet_parts(HtmlWriter *html, const SheetPart *parts, PageSource *source, Error *err);

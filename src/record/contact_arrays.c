@@ -99,7 +99,7 @@ bool contact_arrays_record(void *self, const Observation *seen, Error *err)
         arrays->gap[i] =
             state->status[i] == CONTACT_OPEN ? moved + interface_gap(seen->interface, i) : 0;
 
-        // As the history has it (docs/results.md), not as the contact solver.
+        // The status is the history's (docs/results.md), not the contact solver's.
         uint8_t status = seen_status(seen, i);
         double speed = slip_size(seen->interface, i, state->slip_rate);
         if (status_slips(status))

@@ -61,7 +61,8 @@ void drops_destroy(Drops *drops)
 
 // --- recording ----------------------------------------------------------------------------------
 
-// In the event under way. A block that the rod pulls (mu below 0) holds nothing that could drop.
+// True if mu has fallen enough in the event under way. A block that the rod pulls (mu below 0)
+// holds nothing that could drop.
 static bool has_fallen(const Drops *drops)
 {
     return drops->top > 0 && drops->fall >= LEAST_DROP * drops->top;
@@ -146,7 +147,7 @@ bool drops_record(void *self, const Observation *seen, Error *err)
     segments_follow(&drops->segments, seen);
     if (drops->settled < 0 && drops->segments.stuck == 0) drops->settled = drops->count;
 
-    // How far mu falls in the event under way.
+    // The fall of mu in the event under way.
     if (in_event) {
         drops->top = fmax(drops->top, seen->mu);
         drops->fall = fmax(drops->fall, drops->top - seen->mu);

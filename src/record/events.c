@@ -18,8 +18,9 @@
 #include <math.h>
 #include <string.h>
 
-// Against the rod's velocity. Quasi-static slip stays below 1 in parameter set A (bounded events
-// reach 3 to 6, leading ones 90), so 2 and 1 leave room on both sides.
+// Slip rates at which a rapid event starts and stops, over the rod's velocity. Quasi-static slip
+// stays below 1 in parameter set A (bounded events reach 3 to 6, leading ones 90), so 2 and 1 leave
+// room on both sides.
 static const double RATE_START = 2, RATE_STOP = 1;
 // A quarter above the most that an oscillation about V comes to without turning back.
 static const double RATE_COUNTS = 2.5;
@@ -294,8 +295,8 @@ static bool follow_step(Events *events, const Observation *seen, Error *err)
         for (int32_t p = 1; p < interface->pad_count; p++)
             if (events->pads[p].fastest > events->pads[event->pad].fastest) event->pad = p;
 
-        // How much slipped in the step before, on the event's pad and in all. A cell in space is as
-        // long as the root of its mean area.
+        // The lengths that slipped in the step before, on the event's pad and in all. A cell in
+        // space is as long as the root of its mean area.
         const PadSum *before = &events->pads_before[event->pad];
         PadSize size = pad_size(interface, event->pad);
         event->slip_length = before->slipping / size.breadth;

@@ -178,7 +178,7 @@ bool field_files_write_line(FieldFiles *files, const double *line, double time, 
     FieldArray arrays[FIELD_LINE_ARRAYS];
     int64_t count = files->line.point_count, nodes = files->contact_count;
     for (int k = 0; k < FIELD_LINE_ARRAYS; k++) {
-        // From columns to an array of points, vectors with three components.
+        // Columns become an array of points; vectors have three components there.
         int32_t components = rows[k].columns > 1 ? 3 : 1;
         double *values = files->line_values + 3 * k * count;
         arrays[k] = (FieldArray){.name = rows[k].name, .components = components, .values = values};

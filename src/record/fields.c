@@ -34,7 +34,7 @@ static int32_t vectors_of(const Fields *fields)
 }
 
 // The list is written anew whenever no other time waits: a run that is cut off leaves one that
-// opens. For a Worker.
+// opens. A Worker calls this.
 static bool write_time(void *self, int32_t slot, int32_t waiting, Error *err)
 {
     Fields *fields = self;
@@ -111,7 +111,7 @@ bool fields_flush(Fields *fields, Error *err)
     return done;
 }
 
-// For one more time. The writer must be idle where there is none.
+// Makes room for one more time. The writer must be idle where there is none.
 static bool make_room(Fields *fields, Error *err)
 {
     if (fields->written < fields->room) return true;

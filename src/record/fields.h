@@ -55,7 +55,8 @@ void fields_destroy(Fields *fields);   // writes what was handed over first
 // A Recorder. What an earlier time failed of (a full disk) is said here, or by fields_flush.
 bool fields_record(void *self, const Observation *seen, Error *err);
 bool fields_flush(Fields *fields, Error *err);   // until every file and the list are on the disk
-// Which times were written and which are due; files of later times are written over as they come.
+// Lists which times were written and which are due; files of later times are written over as they
+// come.
 bool fields_archive(Fields *fields, Archive *archive, Error *err);
 
 #endif

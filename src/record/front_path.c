@@ -9,7 +9,7 @@
 
 #include <math.h>
 
-// So near to a node the next one does not count: the front may have stopped there.
+// Distance so near to a node that the next one does not count: the front may have stopped there.
 static const double AT_NODE = 1e-6;   // of the way to the next
 
 bool front_path_create(const Interface *interface, double threshold, FrontPath *path, Error *err)
@@ -61,7 +61,7 @@ void front_path_follow(FrontPath *path, const Observation *seen)
     for (int32_t i = 0; i < seen->interface->contact_count; i++) {
         double rate = slip_size(seen->interface, i, seen->state->slip_rate);
         if (!(rate > path->threshold) || !isnan(path->arrival[i])) continue;
-        // When the rate passed the threshold on its way from `before` to now.
+        // The time when the rate passed the threshold on its way from `before` to now.
         double before = path->rate_before[i];
         double part = (path->threshold - before) / (rate - before);
         bool at_once = isnan(path->t_before) || before >= path->threshold;

@@ -9,7 +9,7 @@
 #include "record/drops.h"
 #include "record/probes.h"
 
-// By which a saved state knows its history again.
+// A saved state recognises its history by these.
 typedef struct HistoryEnd {
     bool kept;   // there is a history
     int64_t rows;   // steps recorded

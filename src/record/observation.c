@@ -13,8 +13,8 @@
 // displacement divided by the step: less cannot be told from nothing.
 static const double ROUNDINGS_LIMIT = 1e6;
 
-// Where friction is 0 at rest every node slips at all times: what is slower than this part of the
-// rod's velocity hardly moves while the rod drives the block by its own slip.
+// Where friction is 0 at rest every node slips at all times. A node that is slower than this part
+// of the rod's velocity hardly moves while the rod drives the block by its own slip.
 static const double CREEP = 0.1;
 
 Observation observe(const StepControl *control, const ObservationScales *scales)

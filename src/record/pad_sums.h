@@ -19,7 +19,7 @@ typedef struct PadSum {
 // sums: [pad_count], overwritten. Open nodes carry nothing and do not count as slipping.
 void pad_sums(const Observation *seen, PadSum *sums);
 
-// How large the pad is, and how broad: 1 in the plane.
+// Size of a pad.
 typedef struct PadSize {
     int32_t nodes;
     double x_from, x_to;   // length

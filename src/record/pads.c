@@ -49,8 +49,8 @@ void pads_destroy(Pads *pads)
     *pads = (Pads){0};
 }
 
-// How much of pad p slipped before it turned fast, if it is on this pad that a rapid event has
-// begun; NaN where the event of another pad has run over it.
+// Length of pad p that slipped before slip turned fast, if a rapid event has begun on this pad; NaN
+// where the event of another pad has run over it.
 static double slow_length(const Events *events, int32_t p)
 {
     if (!events->began) return NAN;

@@ -10,7 +10,8 @@
 #include "io/text/json_writer.h"
 #include "record/events.h"
 
-// From the end of one sliding to the beginning of the next. NaN, order 0: did not happen.
+// A pad's cycle lasts from the end of one sliding to the beginning of the next. NaN, order 0: did
+// not happen.
 typedef struct PadCycle {
     double normal_force, shear;   // where mu was largest, force/width
     double U_first_slip;   // when some of it slips, length

@@ -11,7 +11,7 @@
 #include "fem/material.h"
 #include "record/observation.h"
 
-// Where a probe is in the mesh.
+// Place of a probe in the mesh.
 typedef struct ProbePlace {
     int32_t element;
     MeshPlace at;   // reference coordinates in it, 1

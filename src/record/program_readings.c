@@ -192,7 +192,7 @@ bool program_readings_record(void *self, const Observation *seen, Error *err)
     readings->slip = moved / weight;
     readings->U = seen->U;
 
-    // Into the piece under way.
+    // The step belongs to the piece under way.
     if (!readings->started) begin_piece(readings, 0);
     readings->started = true;
     double mu = readings->mu, slip = readings->slip - now->slip;

@@ -39,7 +39,7 @@ bool window_record(void *self, const Observation *seen, Error *err);   // a Reco
 // The run ends with the step seen last. `last` begins at `begin`, where the scene's slidings are
 // there; around a sliding that is not over ends with the run.
 void window_close(Window *window, double begin);
-// From here on the run is where it was at an earlier state, `seen`.
+// The run goes on from an earlier state, `seen`.
 bool window_take_back(Window *window, const Observation *seen, Error *err);
 
 void window_archive(Window *window, Archive *archive);

@@ -433,7 +433,7 @@ cleanup:
 bool basis_finish(Basis *basis, bool modes, ReducedPart *part, Error *err)
 {
     int64_t m = basis->interface_count, r = basis->interior_count, all = m + r;
-    // In the place of M and of K (which is done with).
+    // They take the place of M and of K (which is done with).
     double *w = basis->interior[BULK_MASS], *half = basis->interior[BULK_STIFFNESS];
     DenseView turn = dense_view(w, r, r);
     double *work = NEW_ARRAY(double, DENSE_EIGEN_WORK(r), err);

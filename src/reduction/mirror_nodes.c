@@ -12,7 +12,7 @@
 
 static const double SLANT = 0.6180339887498949;   // of the direction: no ratio of small numbers
 
-// Between a node and its image, over the length.
+// Largest distance of a node's image from a node, over the length.
 static const double APART = 3e-9;
 
 typedef struct Place {

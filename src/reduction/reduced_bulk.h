@@ -31,7 +31,7 @@ typedef struct BulkScales {
 
 enum { REDUCTION_LEVELS_MAX = 64 };
 
-// How far S was off on the full mesh: a Galerkin reduction is too stiff, never too soft, and
+// Errors of S, measured on the full mesh: a Galerkin reduction is too stiff, never too soft, and
 //
 //     error = largest eigenvalue of L^-1 (S_reduced - S) L^-T,   S = L L',
 //

@@ -98,8 +98,8 @@ bool reduction_block_create(const Mesh *mesh, const Bulk *bulk, const Materials 
     return true;
 }
 
-// From the rounded positions and viscosities: M, C and K are exactly those of one block, in which a
-// rigid motion has no energy.
+// Assembles with the rounded positions and viscosities: M, C and K are exactly those of one block,
+// in which a rigid motion has no energy.
 bool reduction_block_assemble(const Mesh *mesh, ReductionBlock *block, Error *err)
 {
     Mesh scaled = *mesh;   // borrows all but the positions

@@ -81,8 +81,8 @@ ResponseBlock *responses_next(Responses *responses, ParameterPoint point, int64_
         FAIL(err, ERROR_LIBRARY, "more than %d points to reduce the bulk at", RESPONSE_BLOCKS_MAX);
     *block = (ResponseBlock){.point = point, .first = responses->count, .count = columns};
 
-    // On the shelf of its kind, where that has room. A new one has room for many blocks; memory
-    // that is never written to is never there.
+    // A response is kept on the shelf of its kind, where that has room. A new one has room for many
+    // blocks; memory that is never written to is never there.
     int64_t dofs = responses->full->dof_count, m = responses->full->interface_count;
     int32_t *which = &responses->shelf_of[kind_of(point)];
     ResponseShelf *shelf = &responses->shelves[*which];

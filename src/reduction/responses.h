@@ -15,7 +15,7 @@ enum {
     RESPONSES_TOGETHER = 96   // columns that are multiplied at once: their image stays in the cache
 };
 
-// Those at one point.
+// Responses at one point.
 typedef struct ResponseBlock {
     ParameterPoint point;
     bool formed;   // of a basis, no response: 0 on the interface, all its products are by the mesh

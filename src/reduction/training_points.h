@@ -57,7 +57,7 @@ OperatorTerms parameter_terms(ParameterPoint point, const BulkScales *scales);
 bool inertia_slowest(const BulkOperator *full, const BulkScales *scales, InterfaceOperator *statics,
                      double *slowest, Error *err);
 
-// That at which inertia takes over within one element: the largest K_jj / M_jj of the interface.
+// Inertia from which on it rules within one element: the largest K_jj / M_jj of the interface.
 double inertia_element(const Bulk *bulk, const BulkScales *scales, const int32_t *interface_dofs,
                        int32_t interface_count);
 

@@ -141,7 +141,7 @@ static void list_touched(Congruence *work, const TransformBlock *block)
     work->listed_count = end;
 }
 
-// Those listed from `start` on that are in one block: which, and where they end.
+// Finds the block of the row listed at `start`, and where the rows of this block end in the list.
 static const TransformBlock *next_block(const Congruence *work, int32_t start, int32_t *end)
 {
     const Transform *by = work->by;
@@ -188,7 +188,7 @@ static void fill_values(const Congruence *work, const TransformBlock *block, con
                 dense_view(work->image + start * columns, columns, end - start),
                 dense_view(work->moved, count, end - start), product);
 
-        // Into rows and columns of both blocks.
+        // The product goes into rows and columns of both blocks.
         if (other == block) dense_mirror(product, columns);
         for (int32_t i = 0; i < count; i++)
             memcpy(to + sparse_entry(work->to, other->first + i, block->first),
@@ -211,7 +211,7 @@ static bool transform_matrices(const Bulk *from, const Transform *by, Bulk *to, 
                                   .start = NEW_ARRAY(int32_t, (int64_t)by->count + 1, err)};
     if (!error_is_clean(err)) goto cleanup;
 
-    // How many entries each column has.
+    // Count the entries of each column.
     int64_t entries = 0;
     for (const TransformBlock *block = by->blocks; block < by->blocks + by->block_count; block++) {
         int64_t touched = 0;

@@ -34,7 +34,7 @@ double *transform_append(Transform *by, const int32_t *rows, int32_t size, int32
 // One more column, the sum of signs x over sqrt(count), of an unknown and its images.
 void transform_append_images(Transform *by, const int32_t *rows, int32_t count,
                              const double *signs);
-// Where an unknown's block begins among y, NO_BLOCK: nowhere.
+// Place among y where an unknown's block begins; NO_BLOCK: it has none.
 int32_t transform_column(const Transform *by, int32_t row);
 
 // Three where blocks have one column each, or T is 1.

@@ -7,16 +7,16 @@
 
 #include "run/simulation_state.h"
 
-// After each step. A checkpoint that cannot be written is a warning: the run goes on.
+// Is called after each step. A checkpoint that cannot be written is a warning: the run goes on.
 void checkpoint_when_due(Simulation *simulation);
 bool checkpoint_now(Simulation *simulation, Error *err);
 bool checkpoint_is_kept(const Simulation *simulation);   // this run writes any
 // A finished result that has a history may be gone on with; others need none.
 bool checkpoint_at_end(Simulation *simulation, Error *err);
 
-// That of `folder`. ERROR_INPUT: there is none.
+// Reads the checkpoint of `folder`. ERROR_INPUT: there is none.
 bool checkpoint_read(const char *folder, SavedState *state, Error *err);
-// Whether the history there is that of the checkpoint and can be gone on with (ERROR_INPUT).
+// Checks that the history there is that of the checkpoint and can be continued (else ERROR_INPUT).
 bool checkpoint_try_history(const char *folder, const HistoryEnd *end, Error *err);
 
 #endif

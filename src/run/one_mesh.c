@@ -15,7 +15,7 @@ void one_mesh_read(const Simulation *simulation, Level *level)
     level->pads = simulation->model.interface.pad_count;
     level->space = simulation->model.interface.dim > 2;
 
-    // On most nodes friction weakens faster than viscosity can damp.
+    // A level is undamped where friction weakens faster than viscosity can damp on most nodes.
     double worst = 0;
     int32_t undamped =
         undamped_nodes(&simulation->control.certificate, simulation->model.scales.load, &worst);

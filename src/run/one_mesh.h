@@ -9,7 +9,7 @@
 
 // Contact nodes, and whether cells are too long for slip.
 void one_mesh_read(const Simulation *simulation, Level *level);
-// How far the answers of this run alone are known.
+// Sets how far the answers of this run alone are known.
 void one_mesh_answer(const Simulation *simulation, Answers *answers);
 
 // Increase of mu by the last nodes of the contact. Slow slip grows from the trailing end; where its

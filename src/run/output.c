@@ -211,7 +211,7 @@ void output_warn_of_window(Simulation *simulation)
                      simulation->seen.U, simulation->seen.t);
 }
 
-// By the module `render`, loaded here and only here.
+// The module `render` draws; it is loaded here and only here.
 bool output_draw_figures(Simulation *simulation, Error *err)
 {
     const SceneNames *wanted = &simulation->scene.output.figures;

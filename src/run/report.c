@@ -59,7 +59,7 @@ static void write_model(JsonWriter *json, const Simulation *simulation)
     }
 }
 
-// Over how much of a pad slow slip turned fast. A slow event has none.
+// Writes the length of a pad over which slow slip turned fast. A slow event has none.
 static void write_slip(JsonWriter *json, const Event *event, const Pads *pads)
 {
     bool named = event && event->pad >= 0 && event->pad < pads->count &&
@@ -87,8 +87,8 @@ static void write_results(JsonWriter *json, const RunReport *report)
     steady_write_json(&simulation->steady, answers, json);
     write_slip(json, report->least_resolved, &simulation->pads);
     pads_write_json(&simulation->pads, json);
-    if (simulation->turning.contact && model->interface.dim > 2)
-        turning_write_json(&simulation->turning, json);
+    if (simulation->rotation.contact && model->interface.dim > 2)
+        rotation_write_json(&simulation->rotation, json);
     if (simulation->readings.course) program_results_json(&simulation->readings, json);
 
     // Events in order of time, slow ones too; only rapid ones have a front to follow.
@@ -114,8 +114,8 @@ static void write_results(JsonWriter *json, const RunReport *report)
         if (event->kind != EVENT_QUASI_STATIC) {
             write_slip(json, event, &simulation->pads);
 
-            // When the front of a rapid event came to each station, how fast it went in between,
-            // and whether that is faster than the fastest wave anywhere.
+            // Write when the front of a rapid event came to each station, how fast it went in
+            // between, and if that is faster than the fastest wave anywhere.
             double speeds[FRONT_STATIONS - 1];
             bool faster = fabs(event->front_speed) > wave_speed;
             for (int32_t s = 0; s < FRONT_STATIONS - 1; s++) {
@@ -132,8 +132,8 @@ static void write_results(JsonWriter *json, const RunReport *report)
     json_end(json);
 }
 
-// Where the work since the rod's start went, per width in the plane; nothing of a run that failed
-// before there was a block to step.
+// Writes where the work since the rod's start went, per width in the plane. A run that failed
+// before there was a block to step has none.
 static void write_energy(JsonWriter *json, const Simulation *simulation)
 {
     const EnergyLedger *ledger = &simulation->control.ledger;

@@ -51,7 +51,7 @@ static void pass_word(Archive *archive, const char *word, char found[WORD_SIZE +
     archive_text(archive, found, WORD_SIZE + 1);
 }
 
-// By the sources that compute, too: what a state means is theirs.
+// A state is known by the sources that compute, too: they say what it means.
 static bool archive_head(Simulation *simulation, Archive *archive, SavedHead *head, Error *err)
 {
     char format[WORD_SIZE + 1], sources[WORD_SIZE + 1], identity[WORD_SIZE + 1];
@@ -114,7 +114,7 @@ static void archive_report(Simulation *simulation, int64_t in_loop, Archive *arc
     simulation->allocations_before = simulation_allocations(simulation) - in_loop;
 }
 
-// Where the computation stands.
+// Lists where the computation stands.
 static bool archive_parts(Simulation *simulation, Archive *archive, Error *err)
 {
     const Interface *interface = &simulation->model.interface;
@@ -151,7 +151,7 @@ static bool archive_parts(Simulation *simulation, Archive *archive, Error *err)
     steady_archive(&simulation->steady, archive);
     pads_archive(&simulation->pads, archive);
     contact_arrays_archive(&simulation->contact, archive);
-    turning_archive(&simulation->turning, archive);
+    rotation_archive(&simulation->rotation, archive);
     program_readings_archive(&simulation->readings, archive);
 
     RunErrors *errors = &simulation->errors;
@@ -179,7 +179,7 @@ static bool archive_output(Simulation *simulation, Archive *archive, Error *err)
 
 // --- save and restore ---------------------------------------------------------------------------
 
-// In two passes: the first measures. What it allocates itself is not the loop's.
+// Saves in two passes: the first measures. What it allocates itself is not the loop's.
 static bool save(Simulation *simulation, bool output, SavedState *state, Error *err)
 {
     Archive archive = archive_measure();

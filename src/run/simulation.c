@@ -52,7 +52,7 @@ static bool open_recorders(Simulation *simulation, Error *err)
                                   {&simulation->pads, pads_record},
                                   {&simulation->contact, contact_arrays_record},
                                   {&simulation->readings, program_readings_record},
-                                  {&simulation->turning, turning_record}};
+                                  {&simulation->rotation, rotation_record}};
     Events *events = &simulation->events;
     if (!events_create(&model->interface, model->scales.slip_velocity, events, err) ||
         !drops_create(&model->interface, events, simulation->scene.time.periodic_tolerance,
@@ -66,7 +66,7 @@ static bool open_recorders(Simulation *simulation, Error *err)
                                    model->scales.slip_velocity / model_forgets(model));
     if (program_jumps(&simulation->rod_course))
         simulation->readings.course = &simulation->rod_course;
-    simulation->turning.contact = &simulation->contact;
+    simulation->rotation.contact = &simulation->contact;
     for (size_t k = 0; k < sizeof recorders / sizeof *recorders; k++)
         recorders_add(&simulation->recorders, recorders[k].self, recorders[k].record);
     if (result_folder_is_ours(&simulation->folder) && !output_open(simulation, err)) return false;
@@ -84,7 +84,7 @@ static bool record_step(Simulation *simulation, Error *err)
     Observation seen = observe(control, &simulation->model.scales);
     simulation->seen = seen;
 
-    // For time.until.mu_below.
+    // time.until.mu_below asks whether mu has fallen.
     double limit = simulation->scene.time.until_mu_below, mu = simulation->seen.mu;
     simulation->mu_fell = limit > 0 && simulation->mu_above && mu < limit;
     simulation->mu_above = simulation->mu_above || mu >= limit;
@@ -124,7 +124,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// For a StageNotice.
+// This is a StageNotice.
 static bool tell_stage(void *self, const char *stage, Error *err)
 {
     const Simulation *simulation = self;
@@ -139,7 +139,7 @@ static bool goes_on_reducing(void *self, Error *err)
     return simulation_may_go_on(self, err);
 }
 
-// From a checkpoint, which is known to be this scene's before the result is touched.
+// Continues from a checkpoint, which is known to be this scene's before the result is touched.
 static bool go_on(Simulation *simulation, const SavedState *state, Error *err)
 {
     SavedHead head;
@@ -238,7 +238,7 @@ bool simulation_create_by(const Scene *scene, const RunOptions *options, double 
     if (options->resume)
         TRY(go_on(simulation, &state, err));
     else {
-        // From the scene: the block relaxes, an earlier result is set aside, t = 0 is recorded.
+        // A new run: the block relaxes, an earlier result is set aside, t = 0 is recorded.
         double begun = clock_processor_seconds();
         TRY(tell_stage(simulation, "relaxing", err));
         TRY(start_relax(simulation, err));
@@ -364,7 +364,7 @@ bool amontons_simulation_block(Simulation *simulation, BlockView *view, Error *e
     return true;
 }
 
-// Until the scene ends, or something ends it before.
+// Steps until the scene ends, or something ends it before.
 bool simulation_loop(Simulation *simulation, Error *err)
 {
     Error unseen = {0}, lost = {0};
@@ -425,7 +425,7 @@ bool simulation_finish(Simulation *simulation, const Error *failure, RunSummary 
     warnings_of_strain(&simulation->model, answers.mu_max, &simulation->warnings);
     warnings_of_base(base_slip(&simulation->model, &simulation->control.now),
                      &simulation->warnings);
-    warnings_of_turning(&simulation->scene, &simulation->turning, &simulation->warnings);
+    warnings_of_rotation(&simulation->scene, &simulation->rotation, &simulation->warnings);
     RunCounters counters = summary_count(simulation);
     if (simulation->history.file && !simulation->folder.aside &&
         !(output_store_warnings(simulation, err) &&

@@ -16,7 +16,7 @@
 #include "record/pads.h"
 #include "record/program_readings.h"
 #include "record/steady.h"
-#include "record/turning.h"
+#include "record/rotation.h"
 #include "run/kept_states.h"
 #include "run/result/result_folder.h"
 #include "stepping/explicit_reference.h"
@@ -55,7 +55,7 @@ struct Simulation {
     Steady steady;
     Pads pads;
     ContactArrays contact;
-    Turning turning;
+    Rotation rotation;
     ProgramReadings readings;   // empty where the rod never jumps
     History history;
     Probes probes;   // read by it
@@ -105,9 +105,9 @@ bool simulation_may_go_on(const Simulation *simulation, Error *err);
 bool steering_is_open(const Simulation *simulation, Error *err);   // ERROR_INPUT: finished
 bool simulation_is_finished(const Simulation *simulation);   // the scene's end, or its period
 Answers simulation_answers(const Simulation *simulation);   // of this run so far, at its end
-// When rod or load next come to a point of the scene's programs; INFINITY: never.
+// Time when rod or load next come to a point of the scene's programs; INFINITY: never.
 double steering_next_point(const Simulation *simulation);
-// After a step: where it has reached `point` waves are resolved again.
+// Is called after a step: where it has reached `point` waves are resolved again.
 void steering_pass_point(Simulation *simulation, double point);
 double steering_end(const Simulation *simulation);   // when the scene ends, as the rod moves now
 

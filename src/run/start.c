@@ -64,7 +64,7 @@ void start_programs(Simulation *simulation)
         simulation->control.scheme.course = &simulation->load_course;
 }
 
-// For RelaxationDef.
+// RelaxationDef asks this now and then.
 static bool may_go_on(const void *self, Error *err)
 {
     return simulation_may_go_on(self, err);

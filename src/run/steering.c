@@ -37,7 +37,7 @@ static bool check_implicit(const Simulation *simulation, Error *err)
     return true;
 }
 
-// As step_rule_end has it, from here on.
+// End of the run as step_rule_end has it, seen from now.
 double steering_end(const Simulation *simulation)
 {
     double until_U = simulation->scene.time.until_U, until_t = simulation->scene.time.until_t;

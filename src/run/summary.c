@@ -60,8 +60,8 @@ static void add_phase(RunSummary *summary, const char *name, double seconds, int
     snprintf(phase->note, sizeof phase->note, "%s", note);
 }
 
-// Where the time went, in the order of a run, and for what was skipped the reason.
-// `bulk` is what of relaxing and solving no part accounts for: products and substitutions.
+// Lists where the time went, in the order of a run, and why parts were skipped. `bulk` is the rest
+// of relaxing and solving: products and substitutions.
 static void list_phases(const Simulation *simulation, RunSummary *summary)
 {
     const RunTiming *timing = &simulation->timing;
@@ -232,7 +232,7 @@ void summary_fill(const Simulation *simulation, const RunCounters *counters, con
         summary->run_in = run_in_name(answers->regime.run_in);
     mesh_move_text(&simulation->model.mesh, summary->mesh_moved);
 
-    // Where slow slip had the fewest cells to turn fast on, of the load drops from number `first`
+    // The load drop, from number `first` on, at which slow slip had the fewest cells to turn fast
     // on.
     const Event *least = drops_least_resolved(&simulation->drops, answers->first);
     const Interface *interface = &simulation->model.interface;

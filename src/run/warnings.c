@@ -236,17 +236,17 @@ void warnings_of_base(double slip, RunWarnings *warnings)
 
 // Part of the way along the drive that the block's sides may go ahead or behind, or the block go
 // across the drive, before a warning. A symmetric block keeps within rounding.
-static const double TURNING_SEEN = 0.01;
+static const double ROTATION_SEEN = 0.01;
 
-void warnings_of_turning(const Scene *scene, const Turning *turning, RunWarnings *warnings)
+void warnings_of_rotation(const Scene *scene, const Rotation *rotation, RunWarnings *warnings)
 {
     const char *unit = scene->units == UNITS_SI ? " m" : "";
-    double share = turning_share(turning);
-    if (share <= TURNING_SEEN) return;
+    double share = rotation_share(rotation);
+    if (share <= ROTATION_SEEN) return;
     warnings_add(warnings,
                  "the block does not go straight: it turned about z by %.2g rad and went %.2g%s "
                  "across the drive, on a way of %.2g%s: %.2g %% of it at its sides",
-                 turning->angle, turning->drift, unit, turning->way, unit, 100 * share);
+                 rotation->angle, rotation->drift, unit, rotation->way, unit, 100 * share);
 }
 
 static bool gives_parameter(const Scene *scene, const char *name)
@@ -256,7 +256,7 @@ static bool gives_parameter(const Scene *scene, const char *name)
     return false;
 }
 
-// How to get a mesh with contact cells of half the size, from the parameters that the scene gives.
+// Advice for a mesh with contact cells of half the size, by the parameters that the scene gives.
 static const char *finer_mesh(const Scene *scene)
 {
     static const struct {
@@ -388,7 +388,7 @@ typedef struct Slope {
     double at[2];   // x and y, half way between the nodes
 } Slope;
 
-// From contact node a to b, if one of them has a gap that may close.
+// Notes the slope from contact node a to b, if one of them has a gap that may close.
 static void note_slope(const Interface *interface, double reach, int32_t a, int32_t b, Slope *slope)
 {
     const double *gap = interface->gap, *x = interface->x, *y = interface->y;

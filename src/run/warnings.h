@@ -12,7 +12,7 @@
 #include "answers/error_bars.h"
 #include "model/model.h"
 #include "record/events.h"
-#include "record/turning.h"
+#include "record/rotation.h"
 #include "scene/scene.h"
 #include "stepping/certificate.h"
 
@@ -29,7 +29,8 @@ bool warnings_of_viscosity(const Scene *scene, const Model *model, RunWarnings *
 // that do not relax in the run.
 void warnings_of_branches(const Model *model, RunWarnings *warnings);
 
-// In an SI scene: a viscosity that damps every wave of the block, and what would know better.
+// Warns in an SI scene of a viscosity that damps every wave of the block, and what would know
+// better.
 void warnings_of_damping(const Model *model, RunWarnings *warnings);
 
 // Undamped nodes. Returns whether there are some.
@@ -42,7 +43,8 @@ void warnings_of_memory(const Model *model, double load, RunWarnings *warnings);
 // A block that is taller than long though only its length was given: one that a mesh file made so
 // by a height of its own.
 void warnings_of_shape(const Scene *scene, double length, double height, RunWarnings *warnings);
-// In an SI scene: a block, or a speed of sound, of a size that a unit left out would explain.
+// Warns in an SI scene of a block, or a speed of sound, of a size that a unit left out would
+// explain.
 void warnings_of_units(const Model *model, RunWarnings *warnings);
 // A gap under the contact as large as the block, or so steep where the block may touch that nodes
 // which come down along z do not describe it.
@@ -64,7 +66,7 @@ double base_slip(const Model *model, const State *state);
 void warnings_of_base(double slip, RunWarnings *warnings);
 
 // The block turned about z, or went across the drive, by a part of its way that can be seen.
-void warnings_of_turning(const Scene *scene, const Turning *turning, RunWarnings *warnings);
+void warnings_of_rotation(const Scene *scene, const Rotation *rotation, RunWarnings *warnings);
 
 // least: the event with the fewest cells (record/drops); NULL: none, and nothing is said.
 void warnings_of_slip(const Scene *scene, const Interface *interface, const Event *least,

@@ -248,7 +248,7 @@ static bool check_block(const Check *check)
     return true;
 }
 
-// As many factors as points, of time or of U, which ascend from 0.
+// Wants as many factors as points of time or of U, which ascend from 0.
 static bool check_points(const Check *check, const char *map, const SceneProgram *program)
 {
     char t[40], U[40], factor[40];
@@ -282,7 +282,7 @@ static double least_factor(const SceneProgram *program)
     return least;
 }
 
-// How rod and load go, and when the run ends.
+// Checks how rod and load move, and when the run ends.
 static bool check_course(const Check *check)
 {
     const Scene *scene = check->scene;
@@ -335,7 +335,7 @@ static bool check_course(const Check *check)
     return true;
 }
 
-// How the window begins, how it ends, and what is written in it; then the pictures.
+// Checks how the window begins and ends, and what is written in it; then the pictures.
 static bool check_output(const Check *check)
 {
     const Scene *scene = check->scene;

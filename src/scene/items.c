@@ -117,7 +117,7 @@ static bool set_word(const SceneKey *key, int32_t k, const SceneValue *value, Sc
     const ScenePart *part = is_group ? &group : find_part(items, word);
     path_of(key, item, path);
     if (!part) {
-        // Which words are allowed; one that is a key of the whole block is told so.
+        // The words that are allowed; one that is a key of the whole block is told so.
         char allowed[ALLOWED_SIZE] = "", whole[PATH_SIZE];
         const char *given = value->part ? value->part : word;
         for (const ScenePart *one = items->parts; one->word; one++) {

@@ -11,7 +11,7 @@
 // "pads.young"), the one item or word that it names. ERROR_INPUT shows the place.
 bool scene_items_set(const SceneKey *key, const SceneValue *value, Scene *scene, Error *err);
 
-// How many there are, and item number k, which begins with its name.
+// Number of items, and item number k, which begins with its name.
 int32_t scene_items_count(const SceneItems *items, const Scene *scene);
 const char *scene_item(const SceneItems *items, const Scene *scene, int32_t k);
 

@@ -71,7 +71,7 @@ bool material_data_read(const char *path, SceneUnits units, const double *wlf, d
     *data = (MaterialData){0};
     TRY(csv_read(path, &table.csv, err));
 
-    // Which columns there are, and which of them are used.
+    // Find the columns, and those of them that are used.
     const CsvTable *csv = &table.csv;
     const int32_t *has = table.column;
     CsvUnit unit[COLUMNS];

@@ -31,8 +31,8 @@ static const char HEADS[] =
     "[mm], gap [um]`, `x/mm, gap/um`, `x_mm, gap_um`, `mm, um` (a gap is how far the surface lies "
     "below its highest point: of heights z it is their largest less z)";
 
-// Which of NAMES a column is, with the unit behind it; the unit alone ("mm"): *name -1. false: it
-// is none of these.
+// Finds which of NAMES a column is, with the unit behind it; the unit alone ("mm"): *name -1.
+// false: it is none of these.
 static bool read_head(const CsvTable *csv, int32_t k, int32_t *name, CsvUnit *unit)
 {
     const char *head = csv_name(csv, k);
@@ -196,7 +196,7 @@ void scene_profile_destroy(SceneProfile *profile)
     *profile = (SceneProfile){0};
 }
 
-// How far from place k to the next `at` lies, from 0 to 1.
+// Position of `at` between place k and the next, from 0 to 1.
 static double part_between(const double *places, int32_t k, double at)
 {
     double part = (at - places[k]) / (places[k + 1] - places[k]);

@@ -23,8 +23,8 @@ typedef struct SceneProfile {
 bool scene_profile_read(const Scene *scene, SceneProfile *profile, Error *err);
 void scene_profile_destroy(SceneProfile *profile);   // zeroed is fine
 
-// On the straight line between two points, of a map between the four around (bilinear); beyond the
-// ends as there. y: not read with one row.
+// Value on the straight line between two points, of a map between the four around (bilinear);
+// beyond the ends as there. y: not read with one row.
 double scene_profile_at(const SceneProfile *profile, double x, double y);
 
 #endif

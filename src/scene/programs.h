@@ -15,7 +15,7 @@ static inline bool scene_has_program(const SceneProgram *program)
 // The table of a program; without one its factor is 1.
 Schedule scene_schedule(const SceneProgram *program);
 
-// How the rod is driven.
+// The rod's drive as the scene has it.
 RodCourse scene_rod_course(const Scene *scene);
 
 #endif

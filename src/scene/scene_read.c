@@ -392,7 +392,7 @@ static bool begin_reading(Reader *reader, const char *path, Scene *scene, Error 
     return gather_children(reader, "", &root, err);
 }
 
-// When everything is stored.
+// Is called when everything is stored.
 static bool finish_reading(Reader *reader, const char *path, Scene *scene, Error *err)
 {
     char key[SCENE_KEY_SIZE];

@@ -7,7 +7,8 @@
 #include "io/text/yaml_document.h"
 #include "scene/keys.h"
 
-// Where a value stands. `part`: the parameter's name when one of mesh.set is set alone, else NULL.
+// Place of a value in the file. `part`: the parameter's name when one of mesh.set is set alone,
+// else NULL.
 typedef struct SceneValue {
     const YamlDocument *document;
     YamlNode node;

@@ -202,7 +202,7 @@ static bool is_resolved(Certificate *certificate, const State *state, ContactMat
 {
     const double *closed = close_matrix(certificate, state, level);
     int32_t *pivots = certificate->pivots, count = certificate->moving.count;
-    if (!closed || !moving_set_is_calm(&certificate->moving, reach)) return false;
+    if (!closed || !moving_set_decays(&certificate->moving, reach)) return false;
     certificate->checks++;
     if (is_positive(certificate, closed, reach)) return true;
     fill_coupled(certificate, closed);
@@ -244,11 +244,11 @@ double certificate_ratio(Certificate *certificate, const State *state, ContactMa
     const double *closed = close_matrix(certificate, state, level);
     if (closed) {
         moving_set_find(&certificate->moving, state, false);
-        bool calm = moving_set_is_calm(&certificate->moving, reach);
+        bool decays = moving_set_decays(&certificate->moving, reach);
         moving_set_settle(&certificate->moving, reach);
         fill_coupled(certificate, closed);
         certificate->checks++;
-        if (calm && dense_lu(certificate->matrix, certificate->moving.count, pivots))
+        if (decays && dense_lu(certificate->matrix, certificate->moving.count, pivots))
             ratio = weakening_ratio(&certificate->moving, certificate->matrix, pivots, SETTLED,
                                     certificate->vector);
     }

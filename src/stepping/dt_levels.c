@@ -139,7 +139,7 @@ ContactMatrix *dt_level_contact(DtLevels *dt_levels, int32_t k, ContactPart part
     return made_contact(dt_levels, k, part);
 }
 
-// By the errors that were measured when the basis was made; the full mesh is not asked again.
+// Uses the errors that were measured when the basis was made; the full mesh is not asked again.
 double dt_levels_reduction_error(const DtLevels *dt_levels)
 {
     double error = 0;
@@ -150,7 +150,7 @@ double dt_levels_reduction_error(const DtLevels *dt_levels)
     return error;
 }
 
-// Those matrices that are there.
+// Lists those matrices that are there.
 static bool archive_contact(DtLevels *dt_levels, int32_t k, const int64_t *last, Archive *archive,
                             Error *err)
 {

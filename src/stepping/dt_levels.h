@@ -52,9 +52,9 @@ ContactMatrix *dt_level_contact(DtLevels *dt_levels, int32_t k, ContactPart part
 // The largest error that the reduction of the bulk left in a level that steps were accepted on.
 double dt_levels_reduction_error(const DtLevels *dt_levels);
 
-// Which levels are built, how often each was used, and what their contact matrices keep. Reading
-// builds those and no others: which are built decides how a run ends. last, last_halved: the
-// contact solver's last factorisation, and that of one side. Levels of other steps are a fault.
+// Lists which levels are built, how often each was used, and what their contact matrices keep.
+// Reading builds those and no others: which are built decides how a run ends. last, last_halved:
+// the contact solver's last factorisation, and that of one side. Levels of other steps are a fault.
 bool dt_levels_archive(DtLevels *dt_levels, int64_t last, int64_t last_halved, Archive *archive,
                        Error *err);
 

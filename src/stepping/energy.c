@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-// From the products that a state keeps.
+// Computes the energies from the products that a state keeps.
 void energy_store(const State *state, EnergyLedger *ledger)
 {
     ledger->kinetic = 0.5 * dense_dot(state->velocity, state->momentum, state->dof_count);

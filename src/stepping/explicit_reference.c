@@ -61,7 +61,7 @@ static int32_t node_under(const ExplicitReference *scheme, int32_t node)
     return row < floor_end(floor, node) ? floor->node[row] : -1;
 }
 
-// By how much velocity a unit force in a step changes component d of a floor node; 0: it is held.
+// Change of component d of a floor node's velocity by a unit force in a step; 0: it is held.
 static double kick_under(const ExplicitReference *scheme, int32_t under, int32_t d)
 {
     const Bulk *bulk = scheme->def.bulk;
@@ -296,7 +296,7 @@ static bool rod_holds(const Rod *rod, double velocity, double bound)
     return rod->kind == ROD_IS_BONDED || (rod->kind == ROD_PUSHES && velocity < bound);
 }
 
-// By how much node j yields to the rod: velocity per force/width.
+// Compliance of node j to the rod: velocity per force/width.
 static double rod_yields(const ExplicitReference *scheme, int32_t j)
 {
     const Rod *rod = scheme->def.rod;

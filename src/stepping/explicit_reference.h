@@ -77,7 +77,7 @@ void explicit_reference_start(ExplicitReference *scheme, State *state);
 bool explicit_reference_advance(ExplicitReference *scheme, int64_t steps, State *state,
                                 EnergyLedger *ledger, Error *err);
 
-// Where it is; `next` and all else follow.
+// Lists where the scheme is; `next` and all else follow.
 void explicit_reference_archive(ExplicitReference *scheme, Archive *archive);
 
 #endif

@@ -81,7 +81,7 @@ static void begin_forces(ExplicitSweep *sweep)
             sweep->force[explicit_place(sweep, i) + d] = sweep->pull[node_dof(dim, i, d)];
 }
 
-// In the plane.
+// The sweep of a block in the plane.
 static double sweep_plane(ExplicitSweep *sweep, double factor)
 {
     const Pair *restrict blocks = (const Pair *)sweep->blocks;

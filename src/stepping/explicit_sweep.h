@@ -34,7 +34,7 @@ static inline int64_t explicit_field_size(const ExplicitSweep *sweep)
     return 2 * (int64_t)explicit_room(sweep) * sweep->node_count;
 }
 
-// Where u of a node stands in it, and v.
+// Index of the first component of a node's u in the array that it shares with v.
 static inline int64_t explicit_place(const ExplicitSweep *sweep, int32_t node)
 {
     return 2 * (int64_t)explicit_room(sweep) * node;

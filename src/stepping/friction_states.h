@@ -31,7 +31,8 @@ void friction_states_destroy(FrictionStates *states);
 // Puts the states at the moment when the rod begins to move into `state`; the laws are those of it.
 void friction_states_reset(FrictionStates *states, State *state);
 
-// In the order in which they are called in a step. Stage 0 begins with friction_states_begin.
+// The functions stand in the order in which they are called in a step. Stage 0 begins with
+// friction_states_begin.
 void friction_states_begin(FrictionStates *states, const State *from);
 void friction_states_start_stage(FrictionStates *states, const Tableau *tableau, double step,
                                  int32_t stage, const State *from);

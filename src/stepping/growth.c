@@ -65,8 +65,8 @@ static int64_t state_size(const Growth *growth)
            (int64_t)growth->spectrum->count * growth->system->dof_count;
 }
 
-// From the slowest oscillation of the block, a quarter wave over its length, to about c over the
-// distance of two nodes: length/contact_count.
+// The range begins at the slowest oscillation of the block, a quarter wave over its length, and
+// ends at about c over the distance of two nodes: length/contact_count.
 GrowthDef growth_def(double length, double speed, int32_t contact_count)
 {
     return (GrowthDef){.slowest = speed / (4 * length), .fastest = speed * contact_count / length};

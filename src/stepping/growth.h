@@ -31,7 +31,8 @@ typedef struct GrowthDef {
     double slowest, fastest;   // rates looked for: the scan's s go up from one to the other by 2,
         // 1/time. What grows yet faster, far beyond l_c, may be missed.
 } GrowthDef;
-// For a block of this length with so many contact nodes, and c_L: c/(4 L) to some c/dx.
+// Range of rates for a block of this length with so many contact nodes, and c_L: c/(4 L) to some
+// c/dx.
 GrowthDef growth_def(double length, double speed, int32_t contact_count);
 
 typedef struct GrowthRate {

@@ -48,7 +48,7 @@ bool half_step_create(const Block *block, const Certificate *whole, HalfStep *ha
 
     // States, solvers and their work.
     TRY(state_create(&(BulkOperator){0}, interface, &half->one_side, err));
-    TRY(state_create(block->system, block->interface, &half->both_sides, err));
+    TRY(state_create(block->system, block->interface, &half->symmetrised, err));
     TRY(contact_solver_create(interface, &half->solver, err));
     TRY(contact_newton_create(interface, &half->newton, err));
     half->nodes = NEW_ARRAY(FrictionNode, block->interface->contact_count, err);
@@ -80,7 +80,7 @@ void half_step_destroy(HalfStep *half)
     contact_solver_destroy(&half->solver);
     contact_half_destroy(&half->contact);
     state_destroy(&half->one_side);
-    state_destroy(&half->both_sides);
+    state_destroy(&half->symmetrised);
     symmetric_part_destroy(&half->bulk);
     memory_free_all(half->rod.softness, half->rod.lag, half->nodes, half->g, half->bound,
                     half->anti_g, half->anti_bound, half->anti_velocity, half->anti_reaction);
@@ -127,7 +127,7 @@ void half_step_symmetrise(HalfStep *half, State *state, double *bound)
 {
     const ContactHalf *contact = &half->contact;
     const int32_t *interface_dofs = half->bulk.exists ? half->bulk.system->interface_dofs : NULL;
-    State *to = &half->both_sides;
+    State *to = &half->symmetrised;
     if (!interface_dofs) return;
     state_copy(state, to);
     symmetric_part_take(&half->bulk, state->displacement, to->displacement);

@@ -24,7 +24,7 @@ typedef struct HalfStep {
     Rod rod;   // of one side: softness and lag
     State one_side;   // of the last state folded: what the contact knows of it, nothing else
     SymmetricPart bulk;   // of both sides
-    State both_sides;   // the symmetric part of a state, work
+    State symmetrised;   // the symmetric part of a state, work
     double *g, *bound;   // [interface.count] work, like the next
     ContactNewton newton;   // of the antisymmetric part, like the next four
     double *anti_g, *anti_bound, *anti_velocity, *anti_reaction;   // [interface.count] work
@@ -79,7 +79,7 @@ typedef enum PartsAsked {
     PARTS_EXCLUDE_RUNAWAY   // certificate_excludes_runaway
 } PartsAsked;
 
-// Whether the whole, or both parts, are so.
+// True if the answer is yes for the whole, or for both parts.
 bool parts_ask(CertifiedParts parts, const State *state, PartsAsked asked, LevelRange range,
                double growth);
 

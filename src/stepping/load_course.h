@@ -13,9 +13,9 @@ typedef struct LoadCourse {
     const Rod *rod;   // whose U it follows; not owned
 } LoadCourse;
 
-// Over the load at t = 0, at `time`. NULL: 1.
+// Load at `time` over that at t = 0. NULL: 1.
 double load_factor(const LoadCourse *course, double time);
-// When its next point comes after `time`; INFINITY: none does.
+// Time of its next point after `time`; INFINITY: none does.
 double load_next(const LoadCourse *course, double time);
 
 #endif

@@ -31,7 +31,7 @@ void moving_set_destroy(MovingSet *set)
     *set = (MovingSet){0};
 }
 
-// Without friction, weakening and rod: the caller adds what it has.
+// Adds an unknown without friction, weakening and rod: the caller adds what it has.
 static MovingUnknown *add_unknown(MovingSet *set, int32_t unknown)
 {
     MovingUnknown *moving = &set->list[set->count++];
@@ -239,11 +239,11 @@ void moving_set_subtract_memory(const MovingSet *set, double reach, double narro
     }
 }
 
-bool moving_set_is_calm(const MovingSet *set, double reach)
+bool moving_set_decays(const MovingSet *set, double reach)
 {
     for (int32_t a = 0; set->remembers && a < set->count; a++) {
         int32_t i = set->list[a].node;
-        if (i >= 0 && !friction_states_calm(&set->rates[i], reach)) return false;
+        if (i >= 0 && !friction_states_decay(&set->rates[i], reach)) return false;
     }
     return true;
 }

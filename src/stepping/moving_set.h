@@ -97,14 +97,15 @@ void moving_set_turn_vector(const MovingSet *set, bool back, double *vector);
 // Adds dampers, and springs times `reach` (velocity to displacement, time; 0: none), to the
 // diagonal.
 void moving_set_add_dampers(const MovingSet *set, double reach, double *matrix);
-// That at s = 1/reach, time; 0: at once, whatever is remembered.
+// Subtracts the weakening at s = 1/reach, time; 0: at once, whatever is remembered.
 void moving_set_subtract_weakening(const MovingSet *set, double reach, double *matrix);
 // `factor` times the most that what is remembered weakens, memory Re 1/(s + fading), at any s with
 // |s| >= 1/reach and Re s >= narrow |s|, 0 <= narrow < 1.
 void moving_set_subtract_memory(const MovingSet *set, double reach, double narrow, double factor,
                                 double *matrix);
-// No state by itself, at held slip, grows at a real rate of 1/reach or more: no pole of W(s).
-bool moving_set_is_calm(const MovingSet *set, double reach);
+// True if no state by itself, at held slip, grows at a real rate of 1/reach or more: W(s) has no
+// pole there.
+bool moving_set_decays(const MovingSet *set, double reach);
 // W(s) at s = 1/reach as weakening or damper, in place of what is remembered.
 void moving_set_settle(MovingSet *set, double reach);
 

@@ -33,9 +33,9 @@ bool oscillation_record_create(const Block *block, double duration, OscillationR
 void oscillation_record_destroy(OscillationRecord *record);
 void oscillation_record_clear(OscillationRecord *record);
 
-// To be called after every accepted step that resolves waves: it ended in `state`. While slip is
-// near v_c, and then until it is certified or was slow for `duration`, nothing is recorded: a
-// sliding block moves all its nodes.
+// Is called after every accepted step that resolves waves: it ended in `state`. While slip is near
+// v_c, and then until it is certified or was slow for `duration`, nothing is recorded: a sliding
+// block moves all its nodes.
 void oscillation_record_add(OscillationRecord *record, const State *state, double step,
                             bool certified);
 

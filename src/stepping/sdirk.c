@@ -95,7 +95,7 @@ static bool solve_stage(Sdirk *scheme, int32_t k, int32_t i, const State *from, 
     double time = from->time + tableau->c[i] * step;
     double factor = load_factor(scheme->course, time);
 
-    // Where the stage starts: u_i* in scheme->predictor, K u_i* in scheme->force, M w_i in
+    // Start of the stage: u_i* goes into scheme->predictor, K u_i* into scheme->force, M w_i into
     // to->inertia.
     memcpy(scheme->predictor, from->displacement, bytes);
     memcpy(scheme->force, from->elastic_force, bytes);

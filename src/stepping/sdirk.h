@@ -67,8 +67,8 @@ bool sdirk_create(const Block *block, TableauKind kind, DtLevels *dt_levels, Sdi
                   Error *err);
 void sdirk_destroy(Sdirk *scheme);
 
-// From `from` with level k of dt to `to`. false: a library failed (err says what); an
-// unsolved contact problem is no error but an outcome.
+// Steps from `from` with level k of dt to `to`. Returns false where a library failed (err says
+// what); an unsolved contact problem is no error but an outcome.
 bool sdirk_step(Sdirk *scheme, int32_t k, const State *from, State *to, StepOutcome *outcome,
                 Error *err);
 

@@ -20,7 +20,7 @@ typedef struct Tridiagonal {
     double diagonal[LANCZOS_STEPS], beside[LANCZOS_STEPS];   // beside[k]: between k and k + 1
 } Tridiagonal;
 
-// By halving from Gershgorin's bound on, to the last bit.
+// Halves the interval that Gershgorin's bound gives, down to the last bit.
 static double largest_eigenvalue(const Tridiagonal *matrix)
 {
     double low = 0, high = 0;

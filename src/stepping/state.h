@@ -39,7 +39,8 @@ typedef struct State {
     uint8_t *rod_touches;   // [rod_count]
 } State;
 
-// At rest and undeformed: u = v = 0, every contact node sticking, every rod node apart.
+// Creates a state at rest and undeformed: u = v = 0, every contact node sticking, every rod node
+// apart.
 bool state_create(const BulkOperator *system, const Interface *interface, State *state, Error *err);
 void state_destroy(State *state);
 double state_branch_energy(const State *state, int32_t k);   // e_k'K_k e_k/2

@@ -75,12 +75,12 @@ void step_control_destroy(StepControl *control);
 // ends where it should). ERROR_COMPUTE when even step_min is not accepted: the message says why.
 bool step_control_advance(StepControl *control, double remaining, Error *err);
 
-// Whether a level that is built is at most `remaining` long: what is less is not worth a new one.
+// True if a level that is built is at most `remaining` long: less time is not worth a new level.
 bool step_control_fits(const StepControl *control, double remaining);
 
-// After each accepted step. ERROR_COMPUTE: at the pace of the last STEPS_LOOKED (of the whole run
-// where these resolved waves, as an event does) the time `end` would take more than 1e8 more: a
-// state lets no step be accepted but very short ones, and does not change.
+// Is called after each accepted step. ERROR_COMPUTE: at the pace of the last STEPS_LOOKED (of the
+// whole run where these resolved waves, as an event does) the time `end` would take more than 1e8
+// more: a state lets no step be accepted but very short ones, and does not change.
 bool step_control_gets_on(StepControl *control, double end, Error *err);
 
 // Until the next restart only the state reached in the end matters: steps may be as long as
@@ -90,13 +90,13 @@ void step_control_settle(StepControl *control);
 // Explicit steps of one length in place of those that step_control_advance chooses; the levels of
 // dt so far are freed. `scheme` is at `now`.
 void step_control_use_explicit(StepControl *control, const ExplicitReference *scheme);
-// To the next whole multiple of `steps`, or less: to where slip is faster than `rate`, looked at
-// as often as implicit steps would resolve waves.
+// Steps to the next whole multiple of `steps`, or less: to where slip is faster than `rate`, looked
+// at as often as implicit steps would resolve waves.
 bool step_control_advance_explicit(StepControl *control, ExplicitReference *scheme, int64_t steps,
                                    double rate, Error *err);
 
-// To be called when the drive has changed between two steps: waves are resolved again, and earlier
-// records of oscillations no longer count.
+// Must be called when the drive has changed between two steps: waves are resolved again, and
+// earlier records of oscillations no longer count.
 void step_control_disturb(StepControl *control);
 
 // Starts counting anew at `now`: time 0, ledger opened, coarse steps to be earned again.

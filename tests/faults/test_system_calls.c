@@ -375,7 +375,7 @@ static void test_slurm(void **state)
 
 FIXTURE(begin)
 {
-    setenv("AMONTONS_APART", "1", 1);   // as the program has it
+    amontons_use_child_processes(true);   // as the program does
     place_make(place);
     snprintf(result, sizeof result, "%s/result", place);
     setenv("AMONTONS_CACHE", place_path(place, "cache"), 1);

@@ -284,7 +284,7 @@ NOT_A_CHOICE = {
                              "types": "VTK's"},
     "record/front_path.h": {"FRONT_STATIONS": "shown"},
     "record/front_path.c": {"AT_NODE": "rounding of coordinates"},
-    "record/turning.c": {"ROUNDING": ROUNDING},
+    "record/rotation.c": {"ROUNDING": ROUNDING},
     "answers/regime.c": {"LAG": "of run-in: above", "TREND_DROPS": "of run-in: above"},
     "answers/regime.h": {"DROPS_ENOUGH": "of run-in: above"},
     "answers/answers.c": {"MEAN_ERROR": "what `time.until.periodic` promises without a period; half and twice changed nothing"},

@@ -120,7 +120,7 @@ double __wrap_load_factor(const LoadCourse *course, double time)
     if (!course || !made(MISTAKE_LOAD_STAIRS)) return __real_load_factor(course, time);
     double x = course->by_way ? rod_displacement(course->rod, time) : time;
     if (course->schedule.count == 0) return 1;
-    return course->schedule.factor[schedule_stretch(&course->schedule, x, &from)];
+    return course->schedule.factor[schedule_segment(&course->schedule, x, &from)];
 }
 
 double __wrap_load_next(const LoadCourse *course, double time)

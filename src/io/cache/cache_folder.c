@@ -21,7 +21,7 @@
 static const int64_t LIMIT_DEFAULT = 2000000000;
 static const double LIMIT_MOST = 1e18;   // bytes: an integer holds them
 
-// Also false where the path would be too long: such a cache is as good as none.
+// Returns false also where the path would be too long: such a cache is as good as none.
 bool cache_folder_path(char path[PATH_MAX])
 {
     const char *given = getenv("AMONTONS_CACHE"), *base = getenv("XDG_CACHE_HOME");

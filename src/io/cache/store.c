@@ -45,7 +45,8 @@ static Head make_head(const CacheItem *item, int64_t size)
     return head;
 }
 
-// In the cache's folder, which is made. false: there is no cache, or nothing to look for.
+// Finds a path in the cache's folder, which is made. false: there is no cache, or nothing to look
+// for.
 static bool find_path(const char *key, const char *ending, char path[PATH_SIZE])
 {
     char folder[PATH_MAX];

@@ -23,7 +23,7 @@ static const struct timespec PAUSE = {.tv_nsec = 10000000};   // between two tri
 enum { HELD_MAX = 8 };
 static _Atomic(FileLock *) held_locks[HELD_MAX];
 
-// From the one to the other, in the first place that fits; NULL: no lock.
+// Replaces the one by the other, in the first place that fits; NULL: no lock.
 static void exchange_held(FileLock *from, FileLock *to)
 {
     for (int32_t k = 0; k < HELD_MAX; k++) {

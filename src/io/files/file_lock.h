@@ -43,7 +43,7 @@ void file_lock_release(FileLock *lock);   // removes the file; fine when not hel
 // call it.
 void file_locks_let_go(void);
 
-// Whether `name` is still the name of the file behind `descriptor`: it may have been removed,
+// True if `name` is still the name of the file behind `descriptor`: it may have been removed,
 // renamed or replaced between opening and locking.
 bool file_is_named(const char *name, int descriptor);
 

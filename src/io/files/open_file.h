@@ -15,7 +15,7 @@
 int open_to_read(const char *path, Error *err);
 FILE *open_stream(const char *path, Error *err);   // the same; NULL and an error
 
-// Whether `path` may be handed to a library that opens it itself; ERROR_INPUT: it is no file.
+// Checks that `path` may be handed to a library that opens it itself; ERROR_INPUT: it is no file.
 bool open_check(const char *path, Error *err);
 
 typedef enum OpenAs {
@@ -29,9 +29,10 @@ enum { OPEN_WHY_SIZE = 400 };
 // words. Links are not followed, and a file with a second name (a hard link) is refused.
 int open_to_write(const char *path, OpenAs as, char why[OPEN_WHY_SIZE]);
 
-// Whether `path` is there, be it a link that leads nowhere.
+// True if `path` is there, be it a link that leads nowhere.
 bool open_is_there(const char *path);
-// The same but for empty files, as mktemp or a kill leaves them: they hold nothing of anybody's.
+// The same question, but no for empty files, as mktemp or a kill leaves them: they hold nothing of
+// anybody's.
 bool open_holds_something(const char *path);
 
 #endif

@@ -16,7 +16,7 @@ enum { PATH_SIZE = PATH_MAX + 32 };
 
 static const char HEAD[] = "# Files that amontons wrote here; --overwrite removes these alone.\n";
 
-// Whether a list may hold this name: see own_list_next.
+// True if a list may hold this name: see own_list_next.
 static bool is_a_name(const char *name)
 {
     int32_t slashes = 0;
@@ -113,8 +113,8 @@ bool own_list_next(FILE *list, char name[OWN_NAME_SIZE])
     return false;
 }
 
-// Window by window, each beginning with the end of the one before: files are written in the loop of
-// steps, which allocates nothing.
+// Reads piece by piece, each beginning with the end of the one before: files are written in the
+// loop of steps, which allocates nothing.
 bool own_list_has(const char *path, bool *has, Error *err)
 {
     char folder[PATH_SIZE], list[PATH_SIZE], line[PATH_SIZE], bytes[2 * PATH_SIZE];

@@ -19,7 +19,7 @@
 
 #define OWN_LIST_NAME "amontons.files"
 
-// Whether `folder` has a list; a link in its place is none.
+// True if `folder` has a list; a link in its place is none.
 bool own_list_is_in(const char *folder);
 
 // ERROR_INPUT: there are files in `folder`, and no list. Nothing is made; names that begin with a

@@ -39,7 +39,7 @@ struct ArrayFile {
     SeriesWriter *series;   // [series_capacity]; owned
 };
 
-// Before a call that changes the file.
+// Is asked before a call that changes the file.
 static bool may_change(ArrayFile *file, Error *err)
 {
     if (!file->writing) return FAULT(err, ERROR_LIBRARY, "%s is open for reading only", file->path);

@@ -22,7 +22,7 @@ typedef struct ArrayPieces {
 // The name of piece `number`, from 1 on.
 void array_piece_name(const ArrayPieces *pieces, int32_t number, char name[PATH_MAX + 24]);
 
-// How many pieces the file `last` says there are before it; ERROR_FILE: nothing that can be.
+// Reads how many pieces come before the file `last`; ERROR_FILE: a number that cannot be.
 bool array_pieces_count(hid_t last, const char *path, int32_t *count, Error *err);
 
 // All rows of an array as doubles: *values [rows * width], the caller's (memory_free).

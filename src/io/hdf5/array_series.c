@@ -127,7 +127,8 @@ int64_t series_first_row(hid_t dataset)
     return first >= 0 && first <= ROWS_MAX ? (int64_t)first : -1;
 }
 
-// With a cache of a chunk, which is CHUNK_BYTES at most, or a row. The id, or a negative number.
+// Opens it with a cache of a chunk, which is CHUNK_BYTES at most, or a row. The id, or a negative
+// number.
 static hid_t open_dataset(hid_t id, const char *name)
 {
     hid_t cache = H5Pcreate(H5P_DATASET_ACCESS);
@@ -236,7 +237,7 @@ static double nearest(double value, double low, double high)
     return value < low ? low : value > high ? high : rint(value);
 }
 
-// In whole chunks: one that is not full would be compressed again with every row.
+// Appends in whole chunks: one that is not full would be compressed again with every row.
 bool series_append(SeriesWriter *writer, const char *path, const double *values, int64_t rows,
                    Error *err)
 {

@@ -27,7 +27,7 @@ void geo_parameters_destroy(GeoParameters *known)
     *known = (GeoParameters){0};
 }
 
-// Behind the comment or string that begins at `at`, or `at` itself.
+// Place behind the comment or string that begins at `at`, or `at` itself.
 static const char *skip_opaque(const char *at)
 {
     if (at[0] == '/' && at[1] == '/') return at + strcspn(at, "\n");

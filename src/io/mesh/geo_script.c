@@ -160,7 +160,7 @@ static bool word_set(const char *words, WordSet *set, Error *err)
     return true;
 }
 
-// For lists that are asked once a statement and not once a word.
+// Searches a list that is asked once a statement and not once a word.
 static bool is_listed(const char *words, const char *text, int32_t length)
 {
     for (const char *at = words; *at;) {
@@ -461,7 +461,8 @@ static bool is_close(const Reading *reading, int32_t k)
            strchr(")]}", reading->raw[reading->tokens[k].at]);
 }
 
-// Behind the bracket that opens at token k and its pair; where it has none, at the end.
+// Index of the token behind the bracket that opens at token k and its pair; where it has none, at
+// the end.
 static int32_t behind_bracket(const Reading *reading, int32_t k)
 {
     int32_t depth = 0;
@@ -482,7 +483,7 @@ static bool is_assignment(const Reading *reading, int32_t k)
            (*at == '-' && at[1] == '-');
 }
 
-// Behind a name and its indices: x, x[0], x(), x~{i}, x.part.
+// Index of the token behind a name and its indices: x, x[0], x(), x~{i}, x.part.
 static int32_t behind_name(const Reading *reading, int32_t k)
 {
     for (k++; k < reading->token_count;) {
@@ -668,7 +669,7 @@ static int32_t left_out(const Reading *reading, int32_t k, Error *err)
         return k;
     if (!for_screen && !is_plugin && !word_is_in(&reading->left_out, text, token->length)) return k;
 
-    // Where a statement may begin.
+    // A statement may begin here.
     bool begins = k == 0;
     if (k > 0) {
         const Token *before = &reading->tokens[k - 1];

@@ -34,7 +34,7 @@ typedef struct GeoScript {
 bool geo_script_read(const char *path, GeoScript *script, Error *err);
 void geo_script_destroy(GeoScript *script);
 
-// Where line `line` of the text comes from; *path is the script's.
+// Finds the file and line that line `line` of the text comes from; *path is the script's.
 void geo_script_place(const GeoScript *script, int32_t line, const char **path, int32_t *file_line);
 
 #endif

@@ -86,7 +86,7 @@ static bool group_holds(const RawGroup *group, const RawBlock *block)
     return false;
 }
 
-// In how many groups of its dimension a block's entity is.
+// Number of groups of its dimension in which a block's entity is.
 static int32_t count_groups(const MeshRaw *raw, const RawBlock *block)
 {
     int32_t count = 0;
@@ -112,7 +112,8 @@ static bool append_block(RawElements *elements, const RawBlock *block, Error *er
     return error_is_clean(err);
 }
 
-// By node tags, so that copies of one element come together; among copies the lowest tag first.
+// Compares node tags, so that copies of one element come together; among copies the lowest tag
+// first.
 static int compare_nodes(const void *a, const void *b)
 {
     const RawElement *first = a, *second = b;
@@ -122,7 +123,7 @@ static int compare_nodes(const void *a, const void *b)
     return order_int64(a, b);
 }
 
-// By tag, as gmsh mostly delivers them.
+// Sorts by tag, as gmsh mostly delivers them.
 static void sort_elements(RawElements *elements, bool may_repeat)
 {
     int32_t kept = 0;
@@ -215,8 +216,8 @@ static bool mark_nodes(const MeshRaw *raw, const RawElements *body, const char *
 {
     bool *attached = NULL;
 
-    // Those of the body's elements. A tag that no node has is an error: gmsh lets some of those
-    // files pass.
+    // Take the nodes of the body's elements. A tag that no node has is an error: gmsh lets some of
+    // those files pass.
     for (int32_t e = 0; e < body->count; e++)
         for (int32_t a = 0; a < body->items[e].count; a++) {
             Node *node = table_find(table, body->items[e].nodes[a]);
@@ -226,10 +227,10 @@ static bool mark_nodes(const MeshRaw *raw, const RawElements *body, const char *
             node->index = 0;
         }
 
-    // Those on a surface or curve that are on no element of any kind, which fem/mesh_build refuses;
-    // and those of the boundary groups: on no element of the body they are refused likewise. Nodes
-    // of points, and of curves and surfaces outside the physical groups, only help to draw the
-    // geometry (centres of arcs) and are left out.
+    // Take the nodes on a surface or curve that are on no element of any kind, which fem/mesh_build
+    // refuses, and those of the boundary groups: where they are on no element of the body they are
+    // refused likewise. Nodes of points, and of curves and surfaces outside the physical groups,
+    // only help to draw the geometry (centres of arcs) and are left out.
     TRY(attached = NEW_ARRAY(bool, table->count, err));
     for (int32_t k = 0; k < raw->block_count; k++) {
         const RawBlock *block = &raw->blocks[k];
@@ -257,7 +258,7 @@ static bool number_nodes(const MeshRaw *raw, const char *path, NodeTable *table,
     if (!(mesh->position = NEW_ARRAY(double, (int64_t)mesh->dim * mesh->node_count, err)))
         return false;
     if (!(mesh->node_number = NEW_ARRAY(int64_t, mesh->node_count, err))) return false;
-    // From the first node: it only scales the plane's tolerance.
+    // The extent is measured from the first node: it only scales the plane's tolerance.
     double extent = 0, deepest = 0;
     int64_t worst = 0;
     for (int32_t k = 0; k < table->count; k++) {
@@ -287,7 +288,7 @@ static bool number_nodes(const MeshRaw *raw, const char *path, NodeTable *table,
 
 // --- groups -------------------------------------------------------------------------------------
 
-// By dimension, then by number: the order promised in io/mesh/mesh_file.h.
+// Compares dimensions, then numbers: the order promised in io/mesh/mesh_file.h.
 static int compare_groups(const void *a, const void *b)
 {
     const MeshGroup *first = a, *second = b;
@@ -355,7 +356,7 @@ static bool convert_group(const MeshRaw *raw, const char *path, const NodeTable 
             const RawBlock *block = &raw->blocks[k];
             if (!group_holds(from, block)) continue;
             for (int64_t i = 0; i < block->count; i++) {
-                // By gmsh's numbers, which ascend; a copy that was dropped is not found.
+                // gmsh's numbers ascend; a copy that was dropped is not found.
                 const int64_t *found = bsearch(&block->number[i], mesh->element_number,
                                                (size_t)mesh->element_count, sizeof *block->number,
                                                order_int64);

@@ -78,7 +78,8 @@ typedef struct MeshFile {
 // .msh4 and .geo_unrolled.
 typedef enum MeshFormat { MESH_NO_FORMAT, MESH_MSH, MESH_SCRIPT } MeshFormat;
 MeshFormat mesh_file_format(const char *path);
-// How another program's file becomes a mesh: the end of a message, empty where nothing is known.
+// Advice how another program's file becomes a mesh: the end of a message, empty where there is
+// none.
 const char *mesh_format_advice(const char *path);
 
 // A value for one name of a .geo: `DefineConstant[ nx = 80 ]` takes what is given here instead.
@@ -131,7 +132,7 @@ static inline int32_t element_corner_count(ElementKind kind)
 {
     return ELEMENTS[kind].corner_count;
 }
-// Which of its nodes VTK has in place k.
+// Number of the element's node that VTK has in place k.
 int32_t element_vtk_node(ElementKind kind, int32_t k);
 
 #endif

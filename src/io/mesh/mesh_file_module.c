@@ -125,7 +125,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Where there is a volume, its mesh is that of the block. Two: a surface.
+// Dimension of the block's mesh: 3 where there is a volume, 2 where there is a surface.
 static int model_dimension(void)
 {
     int status = 0;
@@ -340,8 +340,8 @@ __attribute__((visibility("default"))) bool amontons_gmsh_read(const MeshRawRequ
     pthread_mutex_lock(&session);
     snprintf(locale, sizeof locale, "%s", setlocale(LC_NUMERIC, NULL));
 
-    // Without its configuration files (a user's must not change our mesh), silent, with one thread
-    // (so that the same .geo gives the same mesh), and with a log.
+    // gmsh starts without its configuration files (a user's must not change our mesh), silent, with
+    // one thread (so that the same .geo gives the same mesh), and with a log.
     INITIALIZE(1, argv, 0, &status);
     if (status) FAIL(err, ERROR_LIBRARY, "gmsh does not start (status %d)", status);
     begun = true;

@@ -290,7 +290,7 @@ bool mesh_file_read(const char *path, const MeshParameter *parameters, int32_t p
     request.parameters = given;
     request.parameter_count = count;
 
-    // From the cache, else by gmsh.
+    // The cache has the mesh, or gmsh makes it.
     TRY(mesh_cache_key(path, parameters, parameter_count, key, err));
     TRY(mesh_cache_load(key, mesh, &found, err));
     if (!found) {

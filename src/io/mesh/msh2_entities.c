@@ -154,7 +154,7 @@ static bool read_elements(Msh2File *file, Error *err)
 
 // --- which belong together ----------------------------------------------------------------------
 
-// By dimension, type and nodes, so that the copies of an element come together, then by group.
+// Compares dimension, type and nodes, so that the copies of an element come together, then groups.
 static int compare_copies(const void *a, const void *b, void *context)
 {
     const Msh2File *file = context;
@@ -167,7 +167,7 @@ static int compare_copies(const void *a, const void *b, void *context)
     return (first->group > second->group) - (first->group < second->group);
 }
 
-// By dimension, entity and groups.
+// Compares dimension, entity and groups.
 static int compare_entities(const void *a, const void *b, void *context)
 {
     const Msh2File *file = context;

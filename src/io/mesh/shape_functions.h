@@ -21,7 +21,7 @@ typedef struct ShapeValues {
     MeshPlace slope[ELEMENT_NODES_MAX];   // dN_a/dxi, dN_a/deta, ...
 } ShapeValues;
 
-// At a point [element_dim]; entries beyond the element's nodes are 0.
+// Shape functions at a point [element_dim]; entries beyond the element's nodes are 0.
 ShapeValues shape_at(ElementKind kind, const double *point);
 
 // Reference coordinates of node `a`, [element_dim].

@@ -58,14 +58,14 @@ static bool is_number(const char *cell, size_t length, double *value)
     return text_number(copy, value) == (int32_t)length;
 }
 
-// How many cells a line has; *numbers: each of them is one.
+// Number of cells in a line; *numbers: each of them is a number.
 static int32_t count_cells(const char *line, char separator, bool *numbers)
 {
     int32_t count = 0;
     *numbers = true;
     if (separator == ' ') line += strspn(line, BLANKS);
     for (;;) {
-        // Where the cell ends. Blanks before a bracket separate nothing: x [mm].
+        // Find the end of the cell. Blanks before a bracket separate nothing: x [mm].
         const char *end = line;
         bool quoted = false, has_quotes = line[strspn(line, BLANKS)] == '"';   // else E" is a name
         for (; *end && (quoted || !ends_line(*end)); end++) {
@@ -517,7 +517,7 @@ void csv_split(const CsvTable *table, int32_t column, int32_t *name_length, CsvU
     *unit = csv_unit_of_row(table, column);
 }
 
-// How people write what the keyboard has as `'` and `''`: the primes of E' and E''.
+// Primes of E' and E'' as people write them, and as the keyboard has them.
 static const struct {
     const char *written, *plain;
 } PRIMES[] = {{"\xE2\x80\xB2", "'"},

@@ -66,7 +66,7 @@ bool csv_find(const CsvTable *table, const char *name, int32_t *column, CsvUnit 
 bool csv_find_any(const CsvTable *table, const char *const *names, int32_t *column, CsvUnit *unit,
                   Error *err);
 CsvUnit csv_unit_of_row(const CsvTable *table, int32_t column);   // length 0: there is none
-// Whether what stands behind a name, `rest`, is a unit, and which.
+// Reads the unit that stands behind a name in `rest`. Returns false where it is none.
 bool csv_take_unit(const char *rest, CsvUnit *unit);
 // The name of a column without its unit, and the unit; length 0: it has none.
 void csv_split(const CsvTable *table, int32_t column, int32_t *name_length, CsvUnit *unit);

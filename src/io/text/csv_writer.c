@@ -62,8 +62,8 @@ void csv_number(CsvWriter *csv, double value)
     csv_text(csv, digits);
 }
 
-// As %.9g, but that zeros at the end stay and a tenth power stands where the point would be far.
-// The digits are those of the value times a power of ten, which is off by one in 2^53.
+// Writes as %.9g does, but keeps zeros at the end, and writes a power of ten where the point would
+// be far. The digits are those of the value times a power of ten, which is off by one in 2^53.
 void csv_rounded(CsvWriter *csv, double value)
 {
     char text[24], *end = text + sizeof text, *at = end;

@@ -32,7 +32,8 @@ static bool ends_scalar(char byte)
            byte == '[' || byte == '{' || is_space(byte);
 }
 
-// Behind the string that begins at `at`; NULL: there is none. A backslash escapes one character.
+// Place behind the string that begins at `at`; NULL: there is none. A backslash escapes one
+// character.
 static const char *skip_string(const char *at)
 {
     if (*at != '"') return NULL;
@@ -41,7 +42,7 @@ static const char *skip_string(const char *at)
     return *at == '"' ? at + 1 : NULL;
 }
 
-// At the value of the next item of an object; *key: its key, in quotes, [*length] with them.
+// Place of the value of the next item of an object; *key: its key, in quotes, [*length] with them.
 static const char *enter_item(const char *at, const char **key, int32_t *length)
 {
     *key = skip_space(at);
@@ -52,7 +53,8 @@ static const char *enter_item(const char *at, const char **key, int32_t *length)
     return *end == ':' ? skip_space(end + 1) : NULL;
 }
 
-// Behind a scalar, or behind the brackets of an object or list, whose strings are stepped over.
+// Place behind a scalar, or behind the brackets of an object or list, whose strings are stepped
+// over.
 static const char *skip_value(const char *at)
 {
     int32_t depth = 0;
@@ -77,7 +79,8 @@ static const char *skip_value(const char *at)
     return at;
 }
 
-// Behind a value and its comma, at the next item or the bracket that ends the list; NULL: no JSON.
+// Place behind a value and its comma: of the next item or the bracket that ends the list; NULL: no
+// JSON.
 static const char *next_item(const char *at)
 {
     at = skip_value(at);
@@ -86,7 +89,7 @@ static const char *next_item(const char *at)
     return *at == ',' ? skip_space(at + 1) : at;
 }
 
-// At the child of the object or list at `at` that the first `length` bytes of `name` name.
+// Place of the child of the object or list at `at` that the first `length` bytes of `name` name.
 static const char *enter_child(const char *at, const char *name, size_t length)
 {
     char end = *at == '{' ? '}' : ']';

@@ -13,7 +13,7 @@
 
 // A number, or a boolean as 1 or 0, or null as NaN.
 bool json_find_number(const char *text, const char *path, double *value);
-// Whether such a value can stand at `path`: a list index stands for every item, and an empty list
+// True if such a value can stand at `path`: a list index stands for every item, and an empty list
 // may hold anything.
 bool json_may_hold(const char *text, const char *path);
 // The key of the item number `index` of the object at `path`, cut to `size` bytes.

@@ -13,7 +13,7 @@ typedef struct JsonWriter JsonWriter;
 
 // `key` is NULL inside a list and at the top. The first failure is kept and reported by finish.
 JsonWriter *json_create(const char *path, Error *err);   // path NULL: for json_take
-// As YAML reads it on one line, for json_take: {group: top, x: 0.5}.
+// Writes one line that YAML reads, for json_take: {group: top, x: 0.5}.
 JsonWriter *json_create_flow(Error *err);
 void json_begin_object(JsonWriter *json, const char *key);
 void json_begin_list(JsonWriter *json, const char *key);
@@ -36,8 +36,8 @@ typedef struct JsonNumber {
 void json_numbers(JsonWriter *json, const JsonNumber *numbers, int32_t count);
 void json_number_list(JsonWriter *json, const char *key, const double *values, int32_t count);
 bool json_finish(JsonWriter *json, Error *err);   // flush, fsync, rename; frees `json` either way
-// In place of finish: the document in memory (memory_free), NULL on failure. Frees `json` either
-// way.
+// Is called in place of finish: the document in memory (memory_free), NULL on failure. Frees `json`
+// either way.
 char *json_take(JsonWriter *json, Error *err);
 void json_abandon(JsonWriter *json);   // removes what was written; NULL is fine
 

@@ -38,7 +38,7 @@ struct YamlDocument {
 
 enum { SHOWN_WIDTH = 88 };   // of a source line in an error, characters
 
-// Where a byte of the text stands.
+// Place of a byte of the text.
 typedef struct YamlPlace {
     int32_t line, column;   // from 1; column in characters
     int32_t line_start, line_end;   // bytes
@@ -68,7 +68,7 @@ static YamlPlace find_place(const YamlDocument *document, int32_t position)
     return place;
 }
 
-// As yaml_error, at a byte of the text.
+// The error of yaml_error, at a byte of the text.
 static bool error_at(const YamlDocument *document, int32_t position, Error *err,
                      const char *message)
 {
@@ -105,7 +105,8 @@ bool yaml_error(const YamlDocument *document, YamlNode node, Error *err, const c
     return error_at(document, document->nodes[node].position, err, message);
 }
 
-// At the key rather than at its value: for keys that are not known, or stand where they must not.
+// The error is placed at the key rather than at its value: for keys that are not known, or stand
+// where they must not.
 bool yaml_key_error(const YamlDocument *document, YamlNode node, Error *err, const char *format,
                     ...)
 {
@@ -495,7 +496,7 @@ bool yaml_read(const char *path, YamlDocument **document, Error *err)
            parse_bytes(path, bytes, size, 0, document, err);
 }
 
-// Also of one half built.
+// Frees a document that is half built, too.
 void yaml_destroy(YamlDocument *document)
 {
     if (!document) return;

@@ -25,7 +25,7 @@ typedef struct VideoDef {
 
 typedef struct VideoFile VideoFile;   // begins with a pointer to its module's table
 
-// Whether the name ends as one of the three.
+// True if the name ends as one of the three.
 bool video_file_is_known(const char *path);
 bool video_file_is_gif(const char *path);
 

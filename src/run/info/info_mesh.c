@@ -53,7 +53,7 @@ void info_write_mesh(const Mesh *mesh, FILE *out)
         } else if (dimension == mesh->dim - 1 && mesh->dim > 2) {
             fprintf(out, "%6d faces %6d nodes", group->face_count, group->node_count);
         } else if (dimension == mesh->dim - 1) {
-            // Between end nodes: the arc of a curved edge is not followed.
+            // Lengths are taken between end nodes: the arc of a curved edge is not followed.
             for (int32_t k = 0; k < group->face_count; k++) {
                 const int32_t *nodes = group->face_nodes + (int64_t)k * group->nodes_per_face;
                 double edge = mesh_distance(mesh, nodes[0], nodes[1]);
@@ -106,7 +106,7 @@ bool info_mesh(const char *path, const InfoOptions *options, FILE *out, Error *e
         TRY(mesh_stand_on_floor(NULL, 0, &mesh, err));
     info_write_mesh(&mesh, out);
 
-    // Which regions each part has, and which of them to name.
+    // Find the regions of each part, and those of them to name.
     if (mesh.is_base) {
         fprintf(out, "  block on a base that deforms: `floor` is the base's upper side\n");
     } else if (parts.count > 1) {

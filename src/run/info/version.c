@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Version of this library, and the places of the files that come with it.
+// Version of this library, the places of the files that come with it, and how it uses its process.
 #include "amontons.h"
+#include "base/child_process.h"
 #include "base/kernels.h"
 #include "base/place.h"
 #include "build_record.h"
@@ -31,6 +32,11 @@ const char *amontons_kernels(const char **possible)
     const char *name = kernels_name(), *best = kernels_possible();
     *possible = strcmp(name, best) == 0 ? NULL : best;
     return name;
+}
+
+void amontons_use_child_processes(bool use)
+{
+    child_use(use);
 }
 
 // Installed, or the source folder above build/bin.

@@ -88,7 +88,7 @@ bool amontons_compare(const char *folder, const char *measured, const PictureSty
     if (size > 0) words[0] = 0;
     if (!amontons_render_result(folder, &request, err)) return false;
 
-    // From figures/misfit.csv of the folder (render/figure_data), a line a figure.
+    // figures/misfit.csv of the folder (render/figure_data) has a line for each figure.
     CsvTable table = {0};
     char path[AMONTONS_PATH_SIZE + 40];
     int32_t used = 0;

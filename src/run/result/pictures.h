@@ -6,7 +6,7 @@
 
 #include "amontons.h"
 
-// As amontons_render_result, but always in this process.
+// Draws as amontons_render_result does, but always in this process.
 bool pictures_draw(const char *folder, const PictureRequest *request, Error *err);
 
 // ERROR_INPUT: it is no folder.

@@ -199,8 +199,8 @@ bool result_folder_claim(const char *path, bool overwrite, ResultFolder *folder,
     TRY(own_file_visit(path, refuse_taken, NULL, err));
     TRY(own_list_check(path, err));
 
-    // Whether a file of an earlier result lies there, and the first, in `found`. The search for an
-    // error bar, stopped, leaves accuracy.json and .png alone, and begins anew.
+    // Find the first file of an earlier result that lies there: `found`. The search for an error
+    // bar, stopped, leaves accuracy.json and .png alone, and begins anew.
     FILE *names = own_list_open(path, err);
     while (names && !folder->has_earlier && own_list_next(names, name)) {
         if (!overwrite && strncmp(name, stopped, sizeof stopped - 1) == 0) continue;

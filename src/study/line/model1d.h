@@ -51,8 +51,8 @@ double model1d_mu(const Model1d *model, double l);   // F_T/F_N then, exactly
 double model1d_mu_line(const Model1d *model, double l);   // mu_K + (mu_S - mu_K) l/L
 // omega_n of the paper's equation 3 (off-diagonal terms neglected), the root of larger real part.
 GrowthRate model1d_omega(const Model1d *model, int32_t n, double l);
-// Where Re omega_n = 0, where omega_0 becomes real and positive, and the latter's small-l law
-// (L P)^(-1/3). May lie beyond L; NaN: friction does not weaken.
+// Lengths at which Re omega_n = 0, at which omega_0 becomes real and positive, and the latter's
+// small-l law (L P)^(-1/3). They may lie beyond L; NaN: friction does not weaken.
 double model1d_l_sc(const Model1d *model, int32_t n);
 double model1d_l_c(const Model1d *model);
 double model1d_l_c_small(const Model1d *model);
@@ -93,7 +93,7 @@ typedef struct Chain {
 // points: nodes, at least 3. The chain must not be moved afterwards.
 bool chain_build(const Model1d *model, int32_t points, Chain *chain, Error *err);
 void chain_destroy(Chain *chain);
-// At rest in u_0, the rod at U = 0.
+// Puts the state at rest in u_0, the rod at U = 0.
 void chain_rest(const Model1d *model, const Chain *chain, State *state);
 
 // --- simulation (steps.c) ------------------------------------------------------------------------

@@ -40,7 +40,7 @@ static void number_text(const Study *study, int32_t k, double value, char text[N
         snprintf(text, NUMBER_SIZE, "%.*g", digits, value);
 }
 
-// So that a value can be quoted; an end of the range is met exactly.
+// Rounds so that a value can be quoted; an end of the range is met exactly.
 void designs_round(const Study *study, double *x)
 {
     for (int32_t k = 0; k < study->search.key_count; k++) {

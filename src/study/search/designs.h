@@ -58,7 +58,7 @@ char *designs_text(const Designs *designs, const Design *list, int32_t count, Er
 void design_words(const Study *study, const Design *design, char words[OPTIMISE_WORDS_SIZE]);
 
 DesignPoint *designs_points(const Designs *designs, int32_t design);   // [aims]
-// Which result an aim is of, and whether its least is best.
+// Result that an aim is of, and if its least value is best.
 StudyAim designs_aim(const Designs *designs, int32_t aim);
 // value and bar of a design from its points, by `over`; NaN where a point has none.
 void designs_judge(Designs *designs, int32_t design);
@@ -66,11 +66,11 @@ int32_t designs_best(const Designs *designs);   // -1: none has a value
 // Value that a design is sure to reach: the end of its bar on the worse side. If other designs have
 // bars and this one has none, its bar is taken as large as its value. Without any bars: the value.
 double design_sure(const Designs *designs, const Design *design);
-// Whether a is better than b, by what is sure of both.
+// True if a is better than b by the sure ends of their bars.
 bool design_is_better(const Designs *designs, const Design *a, const Design *b);
-// Whether design `d` may be as good as `best`, with the bars of both.
+// True if design `d` may be as good as `best`, with the bars of both.
 bool designs_may_equal(const Designs *designs, int32_t best, int32_t d);
-// Whether it may be better, its value given: that is not below what is sure of `best`.
+// True if it may be better, its value given: this is not below the sure end of `best`'s bar.
 bool designs_may_lead(const Designs *designs, int32_t best, int32_t d);
 
 #endif

@@ -60,7 +60,7 @@ static double misfit_at(const Fit *fit, const double *ray, double reach, double 
     return response_least(&fit->response, fixed, place);
 }
 
-// In steps until the misfit is beyond `most`; then between the last two.
+// Goes in steps until the misfit is beyond `most`; then between the last two.
 bool fit_walk(const Fit *fit, const double *ray, double most, double *place)
 {
     double curvature[STUDY_SEARCH_MAX * STUDY_SEARCH_MAX], last[STUDY_SEARCH_MAX];

@@ -32,8 +32,9 @@ double fit_unscaled(const Fit *fit, int32_t k, double scaled);
 double fit_threshold(const Fit *fit, int32_t keys);
 double fit_errors_off(const Fit *fit, int32_t datum);   // found less measured, over both errors
 int32_t fit_freedom(const Fit *fit);   // measurements less keys
-// From the best along `ray`, [keys], as far as the misfit, the least over the keys that it leaves
-// out, is at most `most`. place: of all keys, there. Whether the range ends before.
+// Walks from the best point along `ray`, [keys], as far as the misfit, the least over the keys that
+// it leaves out, is at most `most`. place: of all keys, there. Returns true if the range ends
+// before.
 bool fit_walk(const Fit *fit, const double *ray, double most, double *place);
 // Finds the regions of all keys from the responses near the best point. *stays: no end has moved by
 // more than a part of its region.

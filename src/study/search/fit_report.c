@@ -256,7 +256,7 @@ static bool draw_region(const Fit *fit, const int32_t keys[2], Error *err)
 
 // --- found beside measured ----------------------------------------------------------------------
 
-// Whether one result was measured over the one thing that differs: along a curve under one
+// True if one result was measured over the one thing that differs: along a curve under one
 // condition, or by the one key that is its condition. x, key: out, where each was measured, and
 // what that is.
 static bool has_places(const Fit *fit, double *x, char key[STUDY_NAME_SIZE])
@@ -336,7 +336,7 @@ cleanup:
 
 // --- the best curves on the data -----------------------------------------------------------------
 
-// Whether a datum lies on the curve of datum `first`, under the same condition.
+// True if a datum lies on the curve of datum `first`, under the same condition.
 static bool is_on_curve(const Datum *datum, const Datum *first, bool under_same)
 {
     return strcmp(datum->along, first->along) == 0 && strcmp(datum->name, first->name) == 0 &&

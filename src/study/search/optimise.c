@@ -52,7 +52,7 @@ static bool compute_sections(Search *search, int32_t best, Error *err)
 {
     int32_t first = search->designs.count;
     for (int32_t k = 0; k < search->study->search.key_count; k++) {
-        // Along key `k` through the best design, the others as in it.
+        // A section goes along key `k` through the best design, the other keys as in it.
         const SearchKey *key = &search->study->search.keys[k];
         double least = search_scaled(key, key->least), most = search_scaled(key, key->most);
         for (int32_t i = 0; i < SECTION_POINTS; i++) {

@@ -29,7 +29,7 @@ static bool is_on_section(const Search *search, int32_t best, int32_t k, int32_t
 
 // --- words --------------------------------------------------------------------------------------
 
-// Without an error bar in the digits that are known.
+// Prints a value without an error bar in the digits that are known.
 static void print_estimate(const Design *design, FILE *out)
 {
     char text[ESTIMATE_SIZE];

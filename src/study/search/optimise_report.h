@@ -6,7 +6,7 @@
 #include "amontons_optimise.h"
 #include "study/search/search.h"
 
-// To options->out, and figures/course.png and along_KEY.png of the folder.
+// Writes to options->out, and draws figures/course.png and along_KEY.png of the folder.
 bool optimise_report(const Search *search, const OptimiseSummary *summary, Error *err);
 
 #endif

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Whether `a` is at least as good as `b` at each aim, and better at one.
+// True if `a` is at least as good as `b` at each aim, and better at one.
 static bool dominates(const Designs *designs, int32_t a, int32_t b)
 {
     const DesignPoint *one = designs_points(designs, a), *other = designs_points(designs, b);
@@ -37,7 +37,7 @@ typedef struct Placed {
     int32_t design;
 } Placed;
 
-// Those on the front by their first value; *front: [count], owned by the caller.
+// Lists those on the front by their first value; *front: [count], owned by the caller.
 static bool list_front(const Designs *designs, Placed **front, int32_t *count, Error *err)
 {
     *count = 0;
@@ -103,7 +103,7 @@ static bool aim_label(const Search *search, int32_t aim, QuantityLabel *label, E
     *label =
         label_of_record(search->study->records[designs_aim(&search->designs, aim).record].name);
     if (!aim_words(search, aim, words, err)) return false;
-    // As much of the words as the label has room for.
+    // The label takes as many words as it has room for.
     size_t used = strlen(label->words);
     int room = (int)(sizeof label->words - used - sizeof " at ");
     if (*words && room > 0)

@@ -38,7 +38,7 @@ double search_unscaled(const SearchKey *key, double scaled)
 
 // --- computing ----------------------------------------------------------------------------------
 
-// For a SweepCallback: the whole is more than the points so far.
+// This is a SweepCallback: the whole is more than the points so far.
 static void show_point(const SweepView *view, void *context)
 {
     Search *search = context;

@@ -23,7 +23,8 @@ static bool write_numbers(const StabilityPath *path, const StabilitySummary *sum
     scene_write_json(path->model->scene, json, "scene", path->options->folder);
     json_integer(json, "slidings_before", path->options->slidings);
 
-    // Where things are lost first. *_at_V and mu_M: at the scene's velocity; the others for V -> 0.
+    // Write where stability is lost first. *_at_V and mu_M are at the scene's velocity, the others
+    // for V -> 0.
     json_begin_object(json, "results");
     json_numbers_of(json, {"l_sc_certificate_over_L", summary->l_sc_certificate},
                     {"l_sc_over_L", summary->l_sc}, {"l_sc_frequency", summary->frequency},

@@ -78,9 +78,9 @@ static double frequency_square(const StabilityPath *path, int32_t k)
     return fmax(fall * (point->front - point[-1].front) - square, 0);
 }
 
-// Where the margin is lost first: l, U and mu there. Where the margin jumps, the set of slipping
-// nodes that has lost it slips ever since its last node began to: since the point before, whose U
-// and mu are taken: its own are those at which one more node is about to slip.
+// Place where the margin is lost first: l, U and mu there. Where the margin jumps, the set of
+// slipping nodes that has lost it slips ever since its last node began to: since the point before,
+// whose U and mu are taken: its own are those at which one more node is about to slip.
 static StabilityPoint first_loss(const StabilityPath *path, Margin margin)
 {
     StabilityPoint lost = {

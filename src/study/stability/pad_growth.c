@@ -158,7 +158,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// How far mu falls when the shear of all of the pad falls to mu_K p and everything else holds.
+// Fall of mu when the shear of all of the pad falls to mu_K p and everything else holds.
 static double fall_of_mu(PadWork *work)
 {
     const StabilityPath *path = work->path;

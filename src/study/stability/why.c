@@ -36,7 +36,7 @@ void stability_explain(const StabilityPath *path, StabilitySummary *summary)
     size_t used = 0;
     if (path->options->at_end) return;
 
-    // Which pad runs away, and at which mu.
+    // Say which pad runs away, and at which mu.
     if (path->grows && summary->pad_count == 1 && interface->dim > 2)
         say(summary,
             "Slip runs away when %.2f of the contact slips, its front at %.3f L along the middle, "
@@ -57,7 +57,7 @@ void stability_explain(const StabilityPath *path, StabilitySummary *summary)
     else
         say(summary, "The path ended before anything ran away.");
 
-    // Whether it runs away alone, unless friction remembers.
+    // Say if it runs away alone, unless friction remembers.
     if (path->grows && !path->nodes) {
         // Names of all that take part in the mode but the one that decides: "contact_1, contact_3".
         for (int32_t p = 0; p < summary->pad_count && used < sizeof others; p++) {

@@ -91,15 +91,20 @@ TEST(test_error_comes_back)
     assert_string_equal(err.message, "line 3: no stone");
 }
 
-// Only the program asks for it, by the environment.
+// Whoever owns the process says it; the user's variable comes before that.
 TEST(test_who_wants_it)
 {
     unsetenv("AMONTONS_APART");
     assert_false(child_is_wanted());
+    child_use(true);
+    assert_true(child_is_wanted());
     setenv("AMONTONS_APART", "", 1);
     assert_false(child_is_wanted());
+    child_use(false);
     setenv("AMONTONS_APART", "yes", 1);
     assert_true(child_is_wanted());
+    unsetenv("AMONTONS_APART");
+    assert_false(child_is_wanted());
 }
 
 // --- no answer ----------------------------------------------------------------------------------

@@ -192,20 +192,20 @@ TEST(test_most_states)
     }
 }
 
-TEST(test_calm)
+TEST(test_states_decay)
 {
     Random random = {.state = 7};
-    int32_t calm = 0;
+    int32_t decaying = 0;
     for (int32_t trial = 0; trial < 400; trial++) {
         FrictionRates rates = random_rates(&random, 4, 1);
         double reach = exp(random_between(&random, -1, 4));
         bool decays = !(own_growth(&rates, true) * reach >= 1);
-        assert_int_equal(friction_states_calm(&rates, reach), decays);
-        calm += decays;
+        assert_int_equal(friction_states_decay(&rates, reach), decays);
+        decaying += decays;
     }
-    assert_in_range(calm, 100, 390);
+    assert_in_range(decaying, 100, 390);
     FrictionRates none = {.states = 1, .rate_state[0][0] = NAN};
-    assert_false(friction_states_calm(&none, 1));
+    assert_false(friction_states_decay(&none, 1));
 }
 
 // The result satisfies its equation, whatever the scales, and those of states that slip moves

@@ -11,7 +11,7 @@
 #include "record/contact_arrays.h"
 #include "record/history.h"
 #include "record/pads.h"
-#include "record/turning.h"
+#include "record/rotation.h"
 #include "result_place.h"
 
 enum { NODES = 9, UNKNOWNS = 3 * NODES };
@@ -332,12 +332,12 @@ TEST_BETWEEN(test_history, setup, teardown)
 }
 
 // A rotation by 0.01 about (2, 1) and slip of (1, -0.2), with a stretch across that is no rotation.
-TEST_BETWEEN(test_turning, setup, teardown)
+TEST_BETWEEN(test_rotation, setup, teardown)
 {
     Error err = {0};
     ContactArrays contact;
     assert_true(contact_arrays_create(&hand.interface, &FRICTION, &contact, &err));
-    Turning turning = {.contact = &contact};
+    Rotation rotation = {.contact = &contact};
     for (int32_t k = 0; k < 3; k++) {
         double part = k == 1 ? 1 : 0.25 * k;   // it comes back half way
         for (int32_t i = 0; i < NODES; i++) {
@@ -346,13 +346,13 @@ TEST_BETWEEN(test_turning, setup, teardown)
                 part * (-0.2 + 0.01 * (hand.x[i] - 2) + 0.1 * (hand.y[i] - 0.5));
         }
         assert_true(contact_arrays_record(&contact, show(k, REST), &err));
-        assert_true(turning_record(&turning, &hand.seen, &err));
+        assert_true(rotation_record(&rotation, &hand.seen, &err));
     }
-    assert_near("angle", turning.angle, 0.01, 1e-15);
-    assert_near("drift", turning.drift, -0.215, 1e-15);
-    assert_near("way", turning.way, 1.005, 1e-15);
-    assert_near("across", turning.across, -0.27, 1e-15);
-    assert_near("share", turning_share(&turning), 0.215 / 1.005, 1e-14);
+    assert_near("angle", rotation.angle, 0.01, 1e-15);
+    assert_near("drift", rotation.drift, -0.215, 1e-15);
+    assert_near("way", rotation.way, 1.005, 1e-15);
+    assert_near("across", rotation.across, -0.27, 1e-15);
+    assert_near("share", rotation_share(&rotation), 0.215 / 1.005, 1e-14);
     contact_arrays_destroy(&contact);
 }
 

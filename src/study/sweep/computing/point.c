@@ -110,7 +110,8 @@ const Scene *point_scene(const Sweep *sweep, int32_t point, Error *err)
     return scene;
 }
 
-// By hash, not by number: a study that is changed finds its old points again.
+// Points are found by hash, not by number, so that a study that is changed finds its old points
+// again.
 void point_path(const Sweep *sweep, int32_t point, const char *file,
                 char path[POINT_PATH_SIZE + 16])
 {
@@ -181,7 +182,7 @@ void point_remove(Sweep *sweep, int32_t point, bool anew)
     unlink(path);
 }
 
-// For a ReportCallback: the text is the point's only where memory is.
+// This is a ReportCallback: the text is the point's only where there is memory for it.
 static void take_report(const char *json, void *context)
 {
     char **report = context;

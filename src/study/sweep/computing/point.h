@@ -89,8 +89,8 @@ void point_remove(Sweep *sweep, int32_t point, bool anew);
 // Path of a file of the point, such as "run.json"; "": of its folder.
 void point_path(const Sweep *sweep, int32_t point, const char *file,
                 char path[POINT_PATH_SIZE + 16]);
-// In this process. *report: with `keep: table` what run.json would hold, but for the scene and the
-// list of events, on one line (memory_free); else NULL.
+// Runs a point in this process. *report: with `keep: table` what run.json would hold, but for the
+// scene and the list of events, on one line (memory_free); else NULL.
 bool point_run(const Sweep *sweep, int32_t point, char **report, Error *err);
 bool point_keep(Sweep *sweep, int32_t point, const char *report, Error *err);   // in the sweep's
 // run.json for a point that left none: `failure` in a word or two, `message` in full.

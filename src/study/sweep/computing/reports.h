@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 
-// Where a report stands in the file; size 0: nowhere.
+// Place of a report in the file; size 0: it has none.
 typedef struct ReportPlace {
     int64_t at;   // bytes
     int32_t size;

@@ -114,7 +114,7 @@ typedef struct Taking {
     Error *err;
 } Taking;
 
-// For a ReportFound.
+// This is a ReportFound.
 static void take_line(void *context, const char *hash, ReportPlace place)
 {
     Taking *taking = context;

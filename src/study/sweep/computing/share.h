@@ -16,7 +16,7 @@
 bool share_write(const Sweep *sweep, int32_t share, const int32_t *points, int32_t count,
                  int32_t step, Error *err);
 bool share_write_designs(const Sweep *sweep, Error *err);
-// In the element. The sweep has a study, a folder and options, and nothing else.
+// Runs a share in the element. The sweep has a study, a folder and options, and nothing else.
 bool share_run(Sweep *sweep, int32_t share, Error *err);
 // Adds the results of the share to the sweep's reports and removes the share's files.
 bool share_take(Sweep *sweep, int32_t share, Error *err);

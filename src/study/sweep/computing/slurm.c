@@ -47,8 +47,8 @@ typedef struct SlurmRun {
     char cause[ERROR_MESSAGE_SIZE];   // of the first of them
 } SlurmRun;
 
-// How element `k` ended, in Slurm's words and its own last ones: the last line that it printed. One
-// that was cancelled before it began is no longer listed.
+// Says how element `k` ended, in Slurm's words and its own last ones: the last line that it
+// printed. One that was cancelled before it began is no longer listed.
 static void describe_end(SlurmRun *run, int32_t k, char message[ERROR_MESSAGE_SIZE])
 {
     const Element *element = &run->elements[k];

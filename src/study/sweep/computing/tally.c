@@ -189,7 +189,7 @@ bool sweep_take_lost(Sweep *sweep, int32_t point, double seconds, const char *fa
            sweep_take_ended(sweep, point, seconds, &left, err);
 }
 
-// Before the table, which has a row for each.
+// This comes before the table, which has a row for each.
 void sweep_share_results(Sweep *sweep)
 {
     for (int32_t k = 0; k < sweep->study.point_count; k++) {

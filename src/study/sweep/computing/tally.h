@@ -19,7 +19,7 @@ bool sweep_take_ended(Sweep *sweep, int32_t point, double seconds, bool *left, E
 // or two, `message` in full.
 bool sweep_take_lost(Sweep *sweep, int32_t point, double seconds, const char *failure,
                      const char *message, Error *err);
-// When all are computed: points with the same scene get the status of the first of them.
+// Is called when all are computed: points with the same scene get the status of the first of them.
 void sweep_share_results(Sweep *sweep);
 void sweep_summarise(const Sweep *sweep, SweepSummary *summary);
 

@@ -11,7 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
-// Without a unit, and finite.
+// Reads a finite number without a unit.
 bool study_plain_number(const Study *study, YamlNode node, double *value)
 {
     const char *text = yaml_text(study->file, node);
@@ -103,7 +103,7 @@ bool study_is_chosen(const Study *study, const char *key)
     return false;
 }
 
-// Also of one half read.
+// Frees a study that is half read, too.
 void study_destroy(Study *study)
 {
     for (int32_t k = 0; k < study->made_count; k++) yaml_destroy(study->made[k]);

@@ -104,7 +104,7 @@ typedef struct SearchLimit {
     double least, most;   // infinite: no limit
 } SearchLimit;
 
-// How the value of a design follows from its values at the points of `vary`.
+// Rule by which the value of a design follows from its values at the points of `vary`.
 typedef enum SearchOver {
     OVER_WORST,
     OVER_MEAN,

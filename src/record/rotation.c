@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // With weights w, places (x, y) from their mean and slip (s_x, s_y): the rotation that leaves least
 // of slip is sum w (x s_y - y s_x) / sum w (x^2 + y^2).
-#include "record/turning.h"
+#include "record/rotation.h"
 
 #include <math.h>
 
@@ -12,11 +12,11 @@ static void keep_largest(double *largest, double value)
     if (fabs(value) > fabs(*largest)) *largest = value;
 }
 
-bool turning_record(void *self, const Observation *seen, Error *err)
+bool rotation_record(void *self, const Observation *seen, Error *err)
 {
     (void)err;
-    Turning *turning = self;
-    const ContactArrays *contact = turning->contact;
+    Rotation *rotation = self;
+    const ContactArrays *contact = rotation->contact;
     const Interface *interface = seen->interface;
     if (contact->tangents < 2) return true;
 
@@ -38,31 +38,31 @@ bool turning_record(void *self, const Observation *seen, Error *err)
         inertia += w * (x * x + y * y);
         low = fmin(low, interface->y[i]);
         high = fmax(high, interface->y[i]);
-        keep_largest(&turning->across, slip[1]);
+        keep_largest(&rotation->across, slip[1]);
     }
-    turning->breadth = high - low;
-    keep_largest(&turning->angle, turned / inertia);
-    keep_largest(&turning->drift, mean_slip[1]);
-    keep_largest(&turning->way, mean_slip[0]);
+    rotation->breadth = high - low;
+    keep_largest(&rotation->angle, turned / inertia);
+    keep_largest(&rotation->drift, mean_slip[1]);
+    keep_largest(&rotation->way, mean_slip[0]);
     return true;
 }
 
-double turning_share(const Turning *turning)
+double rotation_share(const Rotation *rotation)
 {
-    double sides = 0.5 * turning->breadth * fabs(turning->angle);
-    double way = fabs(turning->way);
-    return way > ROUNDING * turning->breadth ? fmax(sides, fabs(turning->drift)) / way : 0;
+    double sides = 0.5 * rotation->breadth * fabs(rotation->angle);
+    double way = fabs(rotation->way);
+    return way > ROUNDING * rotation->breadth ? fmax(sides, fabs(rotation->drift)) / way : 0;
 }
 
-void turning_write_json(const Turning *turning, JsonWriter *json)
+void rotation_write_json(const Rotation *rotation, JsonWriter *json)
 {
-    json_object_of(json, "turning", {"angle", turning->angle}, {"drift", turning->drift},
-                   {"across", turning->across}, {"way", turning->way});
+    json_object_of(json, "turning", {"angle", rotation->angle}, {"drift", rotation->drift},
+                   {"across", rotation->across}, {"way", rotation->way});
 }
 
-void turning_archive(Turning *turning, Archive *archive)
+void rotation_archive(Rotation *rotation, Archive *archive)
 {
     archive_section(archive, "turning");
-    archive_numbers_of(archive, &turning->angle, &turning->drift, &turning->across, &turning->way,
-                       &turning->breadth);
+    archive_numbers_of(archive, &rotation->angle, &rotation->drift, &rotation->across,
+                       &rotation->way, &rotation->breadth);
 }
