@@ -32,8 +32,9 @@ extern "C" {
 // What takes an option of pictures beside figures: nothing, films, or films and pages of a report.
 enum { TAKEN_BY_FIGURES = 0, TAKEN_BY_FILMS = 1, TAKEN_BY_PAGES = 2 };
 
-// The options by which a picture is drawn, in ONE table: those of `amontons render`, `film` and `report`, the
-// keys of `page` in a plot file, what Python's functions take, and the members of PictureStyle.
+// The options by which a picture is drawn, in ONE table: those of `amontons render`, `film` and
+// `report`, the keys of `page` in a plot file, what Python's functions take, and the members of
+// PictureStyle.
 // X(name, kind, least, most, figures that take it ("": all; "plot": a plot file), what else takes
 // it, words that are allowed, argument, meaning)
 #define PICTURE_OPTIONS(X)                                                                         \
