@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Pictures of a result, drawn off-screen from what is stored of it alone: `amontons render RESULT`
 // redraws any of them without solving again; of curves that a file describes; and of a mesh before
-// anything is computed. A module opened on first use (symbols "amontons_render",
-// "amontons_render_plot", "amontons_render_film", "amontons_render_mesh"); knows
-// base/ and io/ only.
+// anything is computed. A module opened on first use, by the names of the functions below; it knows
+// base/ and io/ only. From a result to pixels: render.c, figures/picture.c (its table KINDS names
+// the function that draws each figure), view/ reads the history, canvas/ draws.
 #ifndef AMONTONS_RENDER_RENDER_H
 #define AMONTONS_RENDER_RENDER_H
 
@@ -52,8 +52,9 @@ bool amontons_render_mesh(const RenderMesh *mesh, const char *path, Error *err);
 
 // --- inside of a page (page/) --------------------------------------------------------------------
 
-// The three figures of a history as SVG, each in light and in dark, with what they show below them.
-// cycle: that those of one cycle show, as `--cycle` has it; NULL: as they choose.
+// The figures that report.html has of a history (those with a `page_format` in figures/picture.c)
+// as SVG, each in light and in dark, with a sentence below it. cycle: the one that figures of one
+// cycle show, as `--cycle` has it; NULL: as they choose.
 typedef bool (*RenderFiguresFunction)(const char *folder, const char *cycle, HtmlWriter *html,
                                       Error *err);
 bool amontons_render_figures(const char *folder, const char *cycle, HtmlWriter *html, Error *err);

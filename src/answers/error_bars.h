@@ -103,12 +103,14 @@ bool levels_reach(const Levels *levels, double way);
 // Fills the bars of the last level from the runs of all, and `asked`: mu_M where every run of that
 // level has it, else mu_hold, or as `of_hold` says.
 void levels_estimate(Levels *levels);
-const ErrorBar *levels_answer(const Levels *levels, AnswerKind kind);   // of the last level; NULL
+// By all levels, kept in the last one; NULL: there is no level.
+const ErrorBar *levels_answer(const Levels *levels, AnswerKind kind);
 
-// Levels that count: damped ones whose runs all have such an answer, at whose drops the same pads
-// slide as on the last, and whose last nodes do not hold the block up by more than is wanted.
+// Number of levels that count: they are not `undamped`, all their runs have such an answer, at
+// their drops the same pads slide as on the last level, and their last nodes do not hold the block
+// up by more than is wanted.
 int32_t levels_known(const Levels *levels, AnswerKind kind);
-// Ratio of cell sizes from the last level to one that is twice as fine as the coarsest of these. A
+// Ratio of cell sizes from the last level to one twice as fine as the coarsest that counts. A
 // bar needs at least this span: neighbours agree by chance, and coarse meshes alone agree on a
 // value that only they have.
 double levels_span_left(const Levels *levels, AnswerKind kind);   // 1: none is left

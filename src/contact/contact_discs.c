@@ -406,8 +406,8 @@ bool contact_discs_solve(ContactDiscs *discs, double tolerance, const ContactPro
     return true;
 }
 
-// At a solution e.r_t = 0, and the across row does not turn either: rows are its derivative with
-// their directions held.
+// At a solution friction lies along the slip (e.r_t = 0), so that the derivative of its direction
+// has no part in these equations: they are linear, with the directions held.
 bool contact_discs_follow(ContactDiscs *discs, ContactNewton *newton, const ContactProblem *problem,
                           ContactSolution *solution)
 {

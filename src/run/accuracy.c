@@ -23,8 +23,8 @@ static const double RATIO = 1.189207115002721;   // of cell size from level to l
 // A run's time goes with this power of the cells along the contact, in the plane and in space. What
 // the levels of a search tell of it says less: times of short runs are noise.
 static const double GROWTH[] = {2, 4};
-// Part of the time given that a mesh may take which confirms a bar where nothing says that finer
-// meshes differ.
+// A mesh that is to confirm a bar may take this part of the time given, where nothing says that
+// finer meshes differ.
 static const double CONFIRM_SHARE = 1. / 60;
 
 // One more run on its mesh, s.
@@ -248,7 +248,8 @@ static bool find_levels(Accuracy *accuracy, Error *err)
         int32_t before = levels->count, runs = level->run_count;
         double refine = level->refine;
 
-        // More runs where branches and drops leave more than the mesh does, else a finer mesh.
+        // More runs where branches and drops leave more than the mesh does, else another mesh. Of
+        // one level the mesh's part is NaN, so that a second mesh comes first.
         double between = hypot(answer->parts.branches, answer->parts.drops);
         bool more_runs = between > answer->parts.mesh && runs + 2 <= LEVEL_RUNS_MAX - 1;
         levels->met = !isnan(answer->value) && is_met(accuracy);

@@ -77,7 +77,8 @@ typedef struct Scene {
         ScenePlane plane;
     } material;
     SceneMaterials materials;   // of single regions
-    FrictionLaw friction;   // completed by scene/friction_law
+    FrictionLaw friction;   // scene/keys stores its kind, mu_S, mu_K and v_c here, and what is
+        // given otherwise in friction_keys; scene/friction_law completes it
     SceneFrictionKeys friction_keys;
     SceneContactLaws contact_laws;   // friction.contacts
     struct {

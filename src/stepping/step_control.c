@@ -141,8 +141,8 @@ void step_control_disturb(StepControl *control)
 
 // May `state` be left or reached by a step of level k, which does not resolve waves? What
 // oscillates on is small, as certified or as seen so far, and nothing grows without oscillating.
-// Where friction remembers, what grows more slowly than the step and than anything that could be
-// seen is resolved by it; what is slower than the time that was watched has not been seen.
+// Where friction remembers, the step resolves what grows more slowly than 1/(gamma dt), and what
+// grows more slowly than the time that was watched has not been seen: neither is asked about.
 static bool may_skip_waves(StepControl *control, const State *state, int32_t k)
 {
     const DtLevels *dt_levels = &control->dt_levels;
@@ -293,7 +293,9 @@ cleanup:
 bool step_control_advance(StepControl *control, double remaining, Error *err)
 {
     static const char *const reasons[] = {
-        [STEP_UNSOLVED] = "its contact problem has no solution that could be found",
+        [STEP_UNSOLVED] =
+            "its contact problem has no solution that could be found, or its error is "
+            "not a number",
         [STEP_INACCURATE] = "its local error is above the tolerance",
         [STEP_UNBALANCED] = "its energies do not balance",
         [STEP_UNCERTIFIED] = "slip grows faster than it resolves"};

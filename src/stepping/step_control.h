@@ -2,11 +2,14 @@
 // Chooses a level of dt, tries it, and accepts a step only when
 //   1. the contact problems of all its stages were solved,
 //   2. the estimated local error is within tolerance,
-//   3. numerics take or give no more energy than a part of what the run's ledger may miss,
-//   4. its end state is certified dissipative, or the step resolves waves (dt <= wave_step) and no
-//      single real rate of growth lies above 1/(gamma dt) (stepping/certificate), or what
-//      oscillates there stays small, as certified or as seen before (stepping/oscillation_record),
-//      and nothing grows without oscillating.
+//   3. numerics take or give no more energy than a part of what the run's ledger may miss (asked
+//      of steps too long to resolve waves, and of the longest that resolves them),
+//   4. one of these holds at its end state:
+//      a. it is certified dissipative (stepping/certificate);
+//      b. the step resolves waves (dt <= wave_step), and no single real rate of growth lies above
+//         1/(gamma dt);
+//      c. what oscillates stays small, as certified or as seen before
+//         (stepping/oscillation_record), and nothing grows without oscillating.
 // Otherwise it goes back to the old state with a shorter one. Used by stepping/relaxation,
 // run/simulation and the studies of stability and of the 1D model.
 #ifndef AMONTONS_STEPPING_STEP_CONTROL_H
@@ -57,7 +60,7 @@ typedef struct StepControl {
     bool grows;   // slip runs away in `now`: real growth rates stand on both sides of some level's
         // 1/(gamma dt); looked at when more nodes slip than ever since it was certified
     int32_t scanned;   // nodes that slipped then
-    int32_t level;   // to try next
+    int32_t level;   // to try next; the larger the shorter is the step (stepping/dt_levels)
     int32_t coarsest;   // level of the longest step allowed
     bool settles;   // see step_control_settle
     bool lands;   // steps end where `remaining` does, on levels made for it, down to an eighth of
