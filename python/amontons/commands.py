@@ -293,7 +293,7 @@ def render_sweep(folder: Any, plot: str | None = None, **style: Any) -> None:
 def film(result: Any, path: Any, **options: Any) -> Path:
     """A film of a stored result: `amontons film`. path: its ending (.mp4, .webm, .gif) says what is made; a folder gets
     PNG frames. options: seconds, rate (frames a second), width and height (pixels), of (field), magnification, and as for render
-    from_ and to ("U=0.0117"), cycle ("first", "last", "3"), depth (how far below its floor a base is drawn), title, dark, overwrite.
+    ``from_`` and ``to`` ("U=0.0117"), cycle ("first", "last", "3"), depth (how far below its floor a base is drawn), title, dark, overwrite.
     Ctrl-C stops; there is then no film."""
     stop = ctypes.c_int(0)
     folder = result.folder if isinstance(result, Result) else path_of(result)
