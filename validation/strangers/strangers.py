@@ -4,7 +4,7 @@
 
     validation/strangers/strangers.py [--set tuning|judging] [--only N[,M]] [-j N] [-o FOLDER]
 
-Eight hundred scenes (problems.py) are asked for 1, 2 or 3 % with `--to`, within a minute each; references come from plain runs
+Eight hundred and fifty scenes (problems.py) are asked for 1, 2 or 3 % with `--to`, within a minute each; references come from plain runs
 on finer meshes at three pressures (judge.py), until their own error is below a third of the bar, or --limit is used up. Each
 problem is a file of FOLDER (default results/strangers), written after every run: the same command goes on where it was
 stopped. Small meshes first. Leaves table.md and table.csv in FOLDER. The first 750 are for tuning; of
