@@ -61,9 +61,9 @@ enum { TAKEN_BY_FIGURES = 0, TAKEN_BY_FILMS = 1, TAKEN_BY_PAGES = 2 };
       TAKEN_BY_FIGURES, "", "LOW,HIGH",                                                            \
       "Ends of the colours, in the numbers shown; or percents of what is shown, as in 1%,99%")     \
     X(from, TEXT, 0, 0, "force slip-map contact-area state-map probes", TAKEN_BY_FILMS, "", "U=U", \
-      "Where force, slip-map, contact-area, state-map, probes or a film begins; or t=TIME")        \
+      "Where a film, force, slip-map, contact-area, state-map or probes begins; or t=TIME")        \
     X(to, TEXT, 0, 0, "force slip-map contact-area state-map probes", TAKEN_BY_FILMS, "", "U=U",   \
-      "Where such a figure or film ends; or t=TIME")                                               \
+      "Where it ends; or t=TIME")                                                                  \
     X(cycle, TEXT, 0, 0,                                                                           \
       "force slip-map contact-density contact-area state-map contact-plane precursors "            \
       "front-speed pads field field-strip",                                                        \
