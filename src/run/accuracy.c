@@ -200,7 +200,7 @@ static bool is_met(const Accuracy *accuracy)
     return is_short_enough(accuracy) && span_left(accuracy) <= 1;
 }
 
-// What all levels say after runs on `level`.
+// Tells the caller what all levels say after runs on `level`.
 static void show_level(const Accuracy *accuracy, const Level *level)
 {
     const RunOptions *options = accuracy->options;
@@ -248,8 +248,8 @@ static bool find_levels(Accuracy *accuracy, Error *err)
         int32_t before = levels->count, runs = level->run_count;
         double refine = level->refine;
 
-        // More runs where branches and drops leave more than the mesh does, else another mesh. Of
-        // one level the mesh's part is NaN, so that a second mesh comes first.
+        // More runs where branches and drops leave more than the mesh does, else another mesh. The
+        // mesh's part of one level is NaN, so that a second mesh comes first.
         double between = hypot(answer->parts.branches, answer->parts.drops);
         bool more_runs = between > answer->parts.mesh && runs + 2 <= LEVEL_RUNS_MAX - 1;
         levels->met = !isnan(answer->value) && is_met(accuracy);
