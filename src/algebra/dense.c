@@ -307,13 +307,11 @@ void dense_apply_each(DenseView a, int32_t count, const double *const *x, double
 
 void dense_apply_transposed(DenseView a, const double *x, double factor, double keep, double *y)
 {
-    if (a.rows == 0) {   // nothing to add: BLAS takes no matrix without rows
-        for (int32_t k = 0; k < a.columns; k++) y[k] = keep == 0 ? 0 : keep * y[k];
-        return;
-    }
-    if (a.columns == 0) return;
-    cblas_dgemv(CblasColMajor, CblasTrans, a.rows, a.columns, factor, a.values, a.rows, x, 1, keep,
-                y, 1);
+    if (a.rows == 0)   // BLAS takes no matrix without rows
+        dense_multiply_transposed(a, dense_view(x, 0, 1), factor, keep, y);
+    else if (a.columns > 0)
+        cblas_dgemv(CblasColMajor, CblasTrans, a.rows, a.columns, factor, a.values, a.rows, x, 1,
+                    keep, y, 1);
 }
 
 // Sums in BLAS's order: the bits are the same on one machine, not on every one.
