@@ -96,6 +96,15 @@ static bool has_time_for_level(const Accuracy *accuracy, double ratio)
     return level_seconds(accuracy, ratio) + more <= accuracy_seconds_left(accuracy);
 }
 
+// The largest of `ratio`, and of those that are smaller by powers of the usual one, at which there
+// is time for a mesh; at least `least`.
+static double ratio_in_time(const Accuracy *accuracy, double ratio, double least)
+{
+    while (ratio > least && !has_time_for_level(accuracy, fmax(ratio, accuracy->cell_ratio)))
+        ratio /= accuracy->cell_ratio;
+    return fmax(ratio, least);
+}
+
 // Ratio of cell sizes to the mesh that puts a bar to the test: the farther one, which confirms it,
 // where that takes a small part of the time given; where pads may slide otherwise on finer meshes,
 // as far towards it as time allows. 1: none is left.
@@ -108,9 +117,7 @@ static double span_left(const Accuracy *accuracy)
         bool confirms = far > left && level_seconds(accuracy, far) <= most;
         return confirms && has_time_for_level(accuracy, far) ? far : left;
     }
-    while (far > left && !has_time_for_level(accuracy, fmax(far, accuracy->cell_ratio)))
-        far /= accuracy->cell_ratio;
-    return fmax(far, left);
+    return ratio_in_time(accuracy, far, left);
 }
 
 // Ratio of cell sizes to the next level. From the third level on it is large enough that slip has
@@ -123,10 +130,7 @@ static double next_ratio(const Accuracy *accuracy)
     double lacks = SLIP_CELLS_ENOUGH / levels_cells(levels), span = span_left(accuracy);
     double ratio = fmin(fmax(accuracy->cell_ratio, 1.1 * lacks), RATIO_SPLIT);
     bool far = is_short_enough(accuracy) && span > ratio && has_time_for_level(accuracy, span);
-    if (far) return span;
-    while (ratio > accuracy->cell_ratio && !has_time_for_level(accuracy, ratio))
-        ratio = fmax(ratio / RATIO, accuracy->cell_ratio);
-    return ratio;
+    return far ? span : ratio_in_time(accuracy, ratio, accuracy->cell_ratio);
 }
 
 // Runs on a finer mesh. One whose cells are still too long for slip is passed over, while there is
@@ -265,20 +269,22 @@ static bool find_levels(Accuracy *accuracy, Error *err)
         else if (!has_time_for_level(accuracy, next_ratio(accuracy)))
             levels->ended = NO_TIME;
         if (levels->ended) break;
-        bool coarser = !more_runs && wants_coarser_level(accuracy);
-        bool added = more_runs ? add_runs(accuracy, 2, err)
-                     : coarser ? add_coarser_level(accuracy, err)
-                               : add_level(accuracy, refine, err);
+        bool added = more_runs                       ? add_runs(accuracy, 2, err)
+                     : wants_coarser_level(accuracy) ? add_coarser_level(accuracy, err)
+                                                     : add_level(accuracy, refine, err);
         if (!more_runs && accuracy->out_of_time) levels->ended = NO_TIME;
 
         // A level without a whole run does not count.
         if (levels->count > 1 && accuracy_last_level(accuracy)->run_count == 0) levels->count--;
         levels_estimate(levels);
         if (!added) return false;
+
+        // A mesh that was added is the last one or, where that is still the one of before, the
+        // first.
         const Level *last = accuracy_last_level(accuracy);
-        bool is_coarser = coarser && levels->count == 2 && levels->list[1].refine == refine;
-        if (levels->count != before || last->run_count != runs)
-            show_level(accuracy, is_coarser ? levels->list : last);
+        bool grown = levels->count != before;
+        if (grown || last->run_count != runs)
+            show_level(accuracy, grown && last->refine == refine ? levels->list : last);
     }
     return true;
 }

@@ -194,16 +194,18 @@ void accuracy_count_run(Accuracy *accuracy, const Simulation *simulation, double
                    simulation->control.counters.accepted);
 }
 
-// Returns true if nothing new is learnt on the last mesh: it has as many contact nodes as the one
-// before, or too few, or its cells are too long for slip.
+// Returns true if nothing new is learnt on the last mesh: it is finer than the one before and has
+// no more contact nodes, or coarser and has no fewer; it has too few; or its cells are too long for
+// slip.
 static bool is_too_coarse(const Accuracy *accuracy, const Interface *interface)
 {
     const Level *level = &accuracy->levels.list[accuracy->levels.count - 1];
     bool space = interface->dim > 2;
     if (level->undamped) return true;
-    bool second = accuracy->levels.count > 1, finer = second && level->refine > level[-1].refine;
-    if (second && level->contact_nodes == level[-1].contact_nodes) return true;
-    if (finer && level->contact_nodes < level[-1].contact_nodes) return true;
+    if (accuracy->levels.count > 1) {
+        int32_t more = level->contact_nodes - level[-1].contact_nodes;
+        if (level->refine > level[-1].refine ? more <= 0 : more >= 0) return true;
+    }
     if (interface->contact_count < (space ? SPACE_NODES_MIN : CONTACT_NODES_MIN)) return true;
     int32_t least = space ? SPACE_PAD_NODES_MIN : PAD_NODES_MIN;
     for (int32_t pad = 0; pad < interface->pad_count; pad++)
