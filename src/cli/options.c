@@ -13,7 +13,7 @@
 #include <unistd.h>
 
 // Keys of argp without a letter: from KEY_FIRST on; those of pictures from KEY_PICTURES on.
-enum { KEY_FIRST = 1000, KEY_PICTURES = 2000, OPTIONS_MAX = 60 };
+enum { KEY_FIRST = 1000, KEY_PICTURES = 2000, OPTIONS_MAX = 40 };
 
 static const struct {
     const char *name, *argument, *meaning;
@@ -74,8 +74,8 @@ static error_t take_word(int key, char *word, struct argp_state *state)
         const Option *option = &reading->options[k];
         int32_t p = key - KEY_PICTURES;   // argp's own keys lie beyond them
         if (option->style && p >= 0 && p < PICTURES_COUNT) {
-            Error *wrong = reading->wrong.code ? &(Error){0} : &reading->wrong;
-            amontons_picture_option(option->style, PICTURES[p].name, word, wrong);
+            if (!reading->wrong.code)
+                amontons_picture_option(option->style, PICTURES[p].name, word, &reading->wrong);
             return 0;
         }
         if (option_key(reading->options, k) != key) continue;
@@ -111,12 +111,12 @@ void guard_end(bool guarded)
 int options_read(const Command *command, const Option *options, int argc, char **argv,
                  const char **argument)
 {
-    struct argp_option known[OPTIONS_MAX + 1] = {0};
+    struct argp_option known[OPTIONS_MAX + PICTURES_COUNT + 1] = {0};
     char name[40];   // what usage lines begin with
     Reading reading = {.options = options, .all = command->all};
     struct argp argp = {
         .options = known, .parser = take_word, .args_doc = command->argument, .doc = command->help};
-    for (int32_t k = 0, count = 0; options[k].name && count < OPTIONS_MAX; k++) {
+    for (int32_t k = 0, count = 0; options[k].name && k < OPTIONS_MAX; k++) {
         for (int32_t p = 0; options[k].style && p < PICTURES_COUNT; p++)
             if (PICTURES[p].taker >= options[k].taker)
                 known[count++] = (struct argp_option){.name = PICTURES[p].name,
