@@ -252,7 +252,7 @@ best: {designs: 8}
                 (SEARCH.replace("whole: [1, 4]", "whole: [1, 4.5]"), r"study.yaml:4:\d+: mesh.set.length: .*two whole numbers"),
                 (SEARCH.replace("log: [0.003", "log: [0"), "load.pressure: .*of log: above 0"),
                 (SEARCH.replace("log:", "lag:"), r"\{linear: \[least, most\]\}"),
-                (SEARCH.replace("mesh.set.length: {whole", "mesh.lenght: {whole"), "unknown key"),
+                (SEARCH.replace("mesh.set.length: {whole", "mesh.lenght: {whole"), "mesh.lenght: unknown key; did you mean `mesh.set`"),
                 (SEARCH.replace("SEED", "0"), "seed: found `0`; allowed: a whole number from 1"),
                 (SEARCH + "vary: {load.pressure: [1, 2]}\n", "load.pressure: searched, and given by `vary` as well"),
                 (SEARCH + "cases: [{rod.kind: push}]\n", "cases: a study with `search` makes its own"),
