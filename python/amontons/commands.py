@@ -297,7 +297,7 @@ def film(result: Any, path: Any, **options: Any) -> Path:
     Ctrl-C stops; there is then no film."""
     stop = ctypes.c_int(0)
     folder = result.folder if isinstance(result, Result) else path_of(result)
-    own = {name for name, *_ in c.FilmRequest._fields_} & set(options)
+    own = {name for name, *_ in c.FilmRequest._fields_ if name != "style"} & set(options)
     style = _picture_style({name: value for name, value in options.items() if name not in own})
     request = c.FilmRequest(path=c_text(path), stop=ctypes.pointer(stop), style=style,
                             **fields(c.FilmRequest, {name: options[name] for name in own}))

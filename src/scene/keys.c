@@ -403,9 +403,9 @@ const SceneKey *scene_keys(int32_t *count)
 static const struct {
     const char *name, *instead;
 } retired_keys[] = {
-    {"contact.radius", "a round contact is a formula, `contact.gap: \"(x - X)^2 / (2 * R)\"`, "
-                       "where X is the x of the "
-                       "block's middle and R the radius; a radius of 0 is left out"},
+    {"contact.radius",
+     "a round contact is a formula, `contact.gap: \"(x - X)^2 / (2 * R)\"`, where X is the x of "
+     "the block's middle and R the radius; a radius of 0 is left out"},
 };
 
 int32_t scene_key_index(const char *name)
