@@ -258,13 +258,15 @@ void canvas_heat(Canvas *canvas, const Box *box, const HeatMap *map)
                 map->row_shown ? map : NULL);
 }
 
-void canvas_heat_triangles(Canvas *canvas, const Box *box, const GlCorner *corners, int64_t count)
+void canvas_heat_triangles(Canvas *canvas, const Box *box, const GlCorner *corners, int64_t count,
+                           float *depth)
 {
     draw_pixels(canvas, box,
                 &(GlImageDef){.width = (int32_t)lround(box->right - box->left),
                               .height = (int32_t)lround(box->bottom - box->top),
                               .corners = corners,
-                              .corner_count = count},
+                              .corner_count = count,
+                              .depth = depth},
                 NULL);
 }
 

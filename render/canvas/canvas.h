@@ -71,8 +71,10 @@ typedef struct HeatMap {
 void canvas_heat(Canvas *canvas, const Box *box, const HeatMap *map);
 
 // Triangles in `box`, whole pixels wide and high: three corners each, in pixels from its upper left
-// corner; between the corners values are linear. Below 0 is drawn as 0.
-void canvas_heat_triangles(Canvas *canvas, const Box *box, const GlCorner *corners, int64_t count);
+// corner; between the corners values are linear. Below 0 is drawn as 0. depth: as GlImageDef has
+// it, NULL in a plane.
+void canvas_heat_triangles(Canvas *canvas, const Box *box, const GlCorner *corners, int64_t count,
+                           float *depth);
 
 // Fills `box` with the colour of one value, or of HEAT_BELOW; in a PDF or SVG a shape, no image.
 void canvas_heat_cell(Canvas *canvas, const Box *box, float value);

@@ -13,7 +13,7 @@
 #include <unistd.h>
 
 enum { TOKEN_SIZE = 16 };   // pixels a side of the buffer OSMesa insists on, never drawn into
-enum { UNIT_COLORS, UNIT_VALUES, UNIT_TARGET, UNITS };   // textures
+enum { UNIT_COLORS, UNIT_VALUES, UNIT_TARGET, UNIT_DEPTH, UNITS };   // textures
 
 // clang-format off
 // All of OpenGL that is used: return type, name, arguments.
@@ -26,10 +26,12 @@ enum { UNIT_COLORS, UNIT_VALUES, UNIT_TARGET, UNITS };   // textures
     X(void, BindVertexArray, (GLuint)) \
     X(void, BufferData, (GLenum, GLsizeiptr, const void *, GLenum)) \
     X(GLenum, CheckFramebufferStatus, (GLenum)) \
+    X(void, Clear, (GLbitfield)) \
     X(void, CompileShader, (GLuint)) \
     X(GLuint, CreateProgram, (void)) \
     X(GLuint, CreateShader, (GLenum)) \
     X(void, DrawArrays, (GLenum, GLint, GLsizei)) \
+    X(void, Enable, (GLenum)) \
     X(void, EnableVertexAttribArray, (GLuint)) \
     X(void, FramebufferTexture2D, (GLenum, GLenum, GLenum, GLuint, GLint)) \
     X(void, GenBuffers, (GLsizei, GLuint *)) \
@@ -167,11 +169,11 @@ static bool context_use(GlContext *context, bool use)
 static const char VERSION[] = "#version 330 core\n",
                   VERTEX_SOURCE[] =
                       "uniform vec2 size;\n"
-                      "layout(location = 0) in vec3 corner;\n"
+                      "layout(location = 0) in vec4 corner;\n"
                       "out float at;\n"
                       "void main() {\n"
                       "    at = corner.z;\n"
-                      "    gl_Position = vec4(2.0 * corner.xy / size - 1.0, 0.0, 1.0);\n"
+                      "    gl_Position = vec4(2.0 * corner.xyw / vec3(size, 1.0) - 1.0, 1.0);\n"
                       "}\n";
 
 // Value of a pixel: between corners, or from a table of values. There NaN shows nothing: it is
@@ -247,7 +249,7 @@ static bool gl_open(Gl *gl, GlSource source, Error *err)
     gl->GenBuffers(1, &corners);
     gl->BindBuffer(GL_ARRAY_BUFFER, corners);
     gl->EnableVertexAttribArray(0);
-    gl->VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(GlCorner), NULL);
+    gl->VertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, sizeof(GlCorner), NULL);
     gl->GenTextures(UNITS, gl->texture);
     for (GLenum unit = 0; unit < UNITS; ++unit) {
         gl->ActiveTexture(GL_TEXTURE0 + unit);
@@ -257,6 +259,7 @@ static bool gl_open(Gl *gl, GlSource source, Error *err)
     }
     gl->GenFramebuffers(1, &frame);
     gl->BindFramebuffer(GL_FRAMEBUFFER, frame);
+    gl->Enable(GL_DEPTH_TEST);   // it lets all pass where the frame has no depth
     gl->PixelStorei(GL_UNPACK_ALIGNMENT, 1);
 
     gl->ready = true;
@@ -283,11 +286,18 @@ static bool target_make(const Gl *gl, const GlImageDef *def, const uint32_t *pix
     gl->PixelStorei(GL_UNPACK_ROW_LENGTH, 0);
     gl->FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
                              gl->texture[UNIT_TARGET], 0);
+    gl->ActiveTexture(GL_TEXTURE0 + UNIT_DEPTH);
+    if (def->depth)
+        gl->TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, def->width, def->height, 0,
+                       GL_DEPTH_COMPONENT, GL_FLOAT, NULL);
+    gl->FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D,
+                             def->depth ? gl->texture[UNIT_DEPTH] : 0, 0);
     // An image that cannot be had leaves the texture as it was before.
     if (gl->GetError() || gl->CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
         return FAULT(err, ERROR_LIBRARY, "OpenGL gives no image of %d by %d pixels", def->width,
                      def->height);
     gl->Viewport(0, 0, def->width, def->height);
+    gl->Clear(GL_DEPTH_BUFFER_BIT);
     return true;
 }
 
@@ -309,7 +319,7 @@ static bool image_draw(Gl *gl, const GlImageDef *def, uint32_t *pixels, Error *e
     float width = (float)def->width, height = (float)def->height;
     GLenum status = GL_NO_ERROR;
     GlKind kind = def->values ? BY_VALUES : BY_CORNERS;
-    const GlCorner all[3] = {{0, 0, 0}, {2 * width, 0, 0}, {0, 2 * height, 0}};
+    const GlCorner all[3] = {{0}, {.x = 2 * width}, {.y = 2 * height}};
     if (!target_make(gl, def, pixels, err) || !program_use(gl, kind, err)) return false;
     gl->ActiveTexture(GL_TEXTURE0 + UNIT_COLORS);
     gl->TexImage2D(GL_TEXTURE_2D, 0, GL_R32UI, def->color_count, 1, 0, GL_RED_INTEGER,
@@ -332,6 +342,9 @@ static bool image_draw(Gl *gl, const GlImageDef *def, uint32_t *pixels, Error *e
         corners_draw(gl, def->corners, def->corner_count);
     gl->PixelStorei(GL_PACK_ROW_LENGTH, def->stride);
     gl->ReadPixels(0, 0, def->width, def->height, GL_RED_INTEGER, GL_UNSIGNED_INT, pixels);
+    gl->PixelStorei(GL_PACK_ROW_LENGTH, 0);
+    if (def->depth)
+        gl->ReadPixels(0, 0, def->width, def->height, GL_DEPTH_COMPONENT, GL_FLOAT, def->depth);
     status = gl->GetError();
     if (status)
         return FAULT(err, status == GL_OUT_OF_MEMORY ? ERROR_MEMORY : ERROR_LIBRARY,

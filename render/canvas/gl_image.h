@@ -14,6 +14,7 @@ typedef enum GlSource { GL_OSMESA, GL_EGL, GL_SOURCES } GlSource;   // the secon
 typedef struct GlCorner {
     float x, y;   // pixels, (0, 0) the upper left corner of the image, y downwards
     float value;
+    float depth;   // from 0, the nearest, to 1, where nothing is drawn any more; 0 in a plane
 } GlCorner;
 
 typedef struct GlImageDef {
@@ -27,6 +28,9 @@ typedef struct GlImageDef {
     uint32_t below;
     const GlCorner *corners;   // [corner_count] three a triangle
     int64_t corner_count;
+    // Filled where it is not NULL, [height * width]: depth of the nearest triangle, 1: there is
+    // none. Only that triangle is drawn; without it each is drawn over the ones before.
+    float *depth;
 } GlImageDef;
 
 // Draws over pixels [height * stride]. ERROR_LIBRARY: no OpenGL from `first` on, or not that large.

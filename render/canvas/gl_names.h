@@ -11,7 +11,7 @@
 
 // --- OpenGL --------------------------------------------------------------------------------------
 
-typedef unsigned int GLenum, GLuint;
+typedef unsigned int GLenum, GLuint, GLbitfield;
 typedef int GLint, GLsizei;
 typedef unsigned char GLboolean;
 typedef char GLchar;
@@ -29,6 +29,8 @@ enum {
     GL_RED = 0x1903,
     GL_RGBA = 0x1908,
     GL_RED_INTEGER = 0x8d94,
+    GL_DEPTH_COMPONENT = 0x1902,
+    GL_DEPTH_COMPONENT32F = 0x8cac,
     GL_R32F = 0x822e,
     GL_R32UI = 0x8236,
 
@@ -52,6 +54,9 @@ enum {
     GL_FRAMEBUFFER = 0x8d40,
     GL_FRAMEBUFFER_COMPLETE = 0x8cd5,
     GL_COLOR_ATTACHMENT0 = 0x8ce0,
+    GL_DEPTH_ATTACHMENT = 0x8d00,
+    GL_DEPTH_BUFFER_BIT = 0x0100,
+    GL_DEPTH_TEST = 0x0b71,
 };
 
 // --- OSMesa --------------------------------------------------------------------------------------

@@ -167,7 +167,7 @@ static bool fill_add(void *context, const Corner corner[3])
     for (int32_t k = 0; k < 3; ++k)
         to[k] = (GlCorner){(float)(corner[k].at.x - fill->box->left),
                            (float)(corner[k].at.y - fill->box->top),
-                           (float)((corner[k].value - fill->low) / fill->range)};
+                           (float)((corner[k].value - fill->low) / fill->range), 0};
     return true;
 }
 
@@ -176,7 +176,7 @@ bool block_colors_draw(Canvas *canvas, const Block *block, const Axes *axes, dou
 {
     Fill fill = {.box = &axes->box, .low = low, .range = high - low, .err = err};
     if (each_triangle(block, axes, NULL, fill_add, &fill))
-        canvas_heat_triangles(canvas, &axes->box, fill.corners, 3 * (int64_t)fill.count);
+        canvas_heat_triangles(canvas, &axes->box, fill.corners, 3 * (int64_t)fill.count, NULL);
     memory_free(fill.corners);
     return error_is_clean(err);
 }

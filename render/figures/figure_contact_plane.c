@@ -59,10 +59,10 @@ bool contact_map_draw(const Page *page, const ContactPlane *plane, const float *
         for (int32_t c = 0; c < 6 && level[patch->node] >= 0; ++c) {
             const Point *at = &corner[turn[c]];
             corners[count++] = (GlCorner){(float)(at->x - axes->box.left),
-                                          (float)(at->y - axes->box.top), level[patch->node]};
+                                          (float)(at->y - axes->box.top), level[patch->node], 0};
         }
     }
-    if (count > 0) canvas_heat_triangles(page->canvas, &axes->box, corners, count);
+    if (count > 0) canvas_heat_triangles(page->canvas, &axes->box, corners, count, NULL);
     Stroke stroke = {.color = INK, .width = OUTLINE_WIDTH * page->point};
     for (int32_t k = 0; k < plane->side_count; ++k) {
         Point line[3];

@@ -94,9 +94,9 @@ static bool grid_draw(const MapDrawing *drawing, Error *err)
                     box->left + (double)x[column + 1], box->top + (double)y[row]};
         if (shapes) canvas_heat_cell(canvas, &cell, value);
         for (int32_t i = 0; i < 6; i++)
-            corners[count++] = (GlCorner){x[column + order[i][0]], y[row + order[i][1]], value};
+            corners[count++] = (GlCorner){x[column + order[i][0]], y[row + order[i][1]], value, 0};
     }
-    if (!shapes) canvas_heat_triangles(canvas, box, corners, count);
+    if (!shapes) canvas_heat_triangles(canvas, box, corners, count, NULL);
 cleanup:
     memory_free_all(x, corners);
     return error_is_clean(err);
@@ -117,10 +117,10 @@ static bool triangles_draw(const MapDrawing *drawing, Error *err)
         for (int32_t i = 0; i < 3; i++) {
             Point at = drawing->place[point[i]];
             corners[count++] = (GlCorner){(float)(at.x - box->left), (float)(at.y - box->top),
-                                          color_value(drawing, point[i])};
+                                          color_value(drawing, point[i]), 0};
         }
     }
-    canvas_heat_triangles(drawing->page->canvas, box, corners, count);
+    canvas_heat_triangles(drawing->page->canvas, box, corners, count, NULL);
     memory_free(corners);
     return true;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Values a pixel and triangles through a table of colours, by OSMesa and by EGL where each is.
+// Values a pixel and triangles through a table of colours, in a plane and in space, by OSMesa and
+// by EGL where each is.
 #include "render/canvas/gl_image.h"
 
 #include "random_numbers.h"
@@ -84,7 +85,7 @@ static void draw_triangle(GlSource source)
 {
     Error err = {0};
     GlImageDef def = image_def();
-    const GlCorner corners[3] = {{0, 0, -0.2F}, {WIDTH, 0, 0.8F}, {0, HEIGHT, 0.3F}};
+    const GlCorner corners[3] = {{0, 0, -0.2F, 0}, {WIDTH, 0, 0.8F, 0}, {0, HEIGHT, 0.3F, 0}};
     def.corners = corners;
     def.corner_count = 3;
     assert_true(gl_image_draw(source, &def, pixels, &err));
@@ -98,11 +99,50 @@ static void draw_triangle(GlSource source)
         }
 }
 
+// A tilted triangle goes through an upright one at x = WIDTH / 2, whichever is drawn first. Without
+// `depth` the second is drawn over the first.
+static void draw_in_space(GlSource source)
+{
+    enum { END = 2 * WIDTH };   // both triangles are larger than the image
+    static float depth[HEIGHT * WIDTH];
+    static const GlCorner corners[2][3] = {
+        {{0, 0, 0.1F, 0.2F}, {END, 0, 0.1F, 1.4F}, {0, END, 0.1F, 0.2F}},   // 0.2 + 0.6 x / WIDTH
+        {{0, 0, 0.7F, 0.5F}, {END, 0, 0.7F, 0.5F}, {0, END, 0.7F, 0.5F}}};
+    for (int32_t first = 0; first < 2; ++first) {
+        Error err = {0};
+        GlImageDef def = image_def();
+        GlCorner both[6];
+        memcpy(both, corners[first], sizeof corners[0]);
+        memcpy(both + 3, corners[1 - first], sizeof corners[0]);
+        def.corners = both;
+        def.corner_count = 6;
+        def.depth = depth;
+        memset(depth, 0xee, sizeof depth);
+        assert_true(gl_image_draw(source, &def, pixels, &err));
+        for (int32_t k = 0; k < HEIGHT * WIDTH; ++k) {
+            int32_t row = k / WIDTH, column = k % WIDTH;
+            double x = column + 0.5, tilted = 0.2 + 0.6 * x / WIDTH;
+            assert_int_equal(pixels[row * STRIDE + column], FIRST + (x < WIDTH / 2 ? 10 : 70));
+            assert_true(fabs((double)depth[k] - fmin(tilted, 0.5)) < 1e-6);
+        }
+        def.depth = NULL;
+        assert_true(gl_image_draw(source, &def, pixels, &err));
+        assert_int_equal(pixels[0], FIRST + (first == 0 ? 70 : 10));
+    }
+    Error err = {0};
+    GlImageDef def = image_def();   // of no triangles
+    def.depth = depth;
+    assert_true(gl_image_draw(source, &def, pixels, &err));
+    assert_true(depth[0] == 1 && depth[HEIGHT * WIDTH - 1] == 1);
+    assert_int_equal(pixels[0], UNTOUCHED);
+}
+
 static void osmesa_draws(void **state)
 {
     (void)state;
     skip_without(GL_OSMESA);
     draw_values(GL_OSMESA);
+    draw_in_space(GL_OSMESA);
     draw_triangle(GL_OSMESA);
 }
 
@@ -111,6 +151,7 @@ static void egl_draws_without_a_surface(void **state)
     (void)state;
     skip_without(GL_EGL);
     draw_triangle(GL_EGL);
+    draw_in_space(GL_EGL);
     draw_values(GL_EGL);
 }
 
@@ -119,15 +160,17 @@ static void what_is_there_draws(void **state)
 {
     (void)state;
     draw_values(GL_OSMESA);
+    draw_in_space(GL_OSMESA);
     draw_triangle(GL_OSMESA);
 }
 
 // A picture is the same bytes whatever has drawn it: a table of values, then triangles of any shape
-// over it whose values pass both ends of the colours.
+// over it whose values pass both ends of the colours; then these in space.
 static void both_sources_draw_the_same(void **state)
 {
     enum { TRIANGLES = 200 };
-    static uint32_t drawn[GL_SOURCES][HEIGHT * STRIDE];
+    static uint32_t drawn[GL_SOURCES][HEIGHT * STRIDE], nearest[GL_SOURCES][HEIGHT * STRIDE];
+    static float depth[GL_SOURCES][HEIGHT * WIDTH];
     static float values[HEIGHT * WIDTH];
     static GlCorner corners[3 * TRIANGLES];
     Random random = {1};
@@ -137,9 +180,9 @@ static void both_sources_draw_the_same(void **state)
     for (int32_t k = 0; k < HEIGHT * WIDTH; ++k)
         values[k] = (float)random_between(&random, -1.8, 1.4);
     for (int32_t k = 0; k < 3 * TRIANGLES; ++k)   // over the left half
-        corners[k] = (GlCorner){(float)random_between(&random, 0, WIDTH / 2),
-                                (float)random_between(&random, 0, HEIGHT),
-                                (float)random_between(&random, -0.2, 1.2)};
+        corners[k] = (GlCorner){
+            (float)random_between(&random, 0, WIDTH / 2), (float)random_between(&random, 0, HEIGHT),
+            (float)random_between(&random, -0.2, 1.2), (float)random_between(&random, 0, 1)};
     for (GlSource source = 0; source < GL_SOURCES; ++source) {
         Error err = {0};
         GlImageDef table = image_def(), triangles = image_def();
@@ -151,8 +194,13 @@ static void both_sources_draw_the_same(void **state)
         for (int32_t k = 0; k < HEIGHT * STRIDE; ++k) drawn[source][k] = UNTOUCHED;
         assert_true(gl_image_draw(source, &table, drawn[source], &err));
         assert_true(gl_image_draw(source, &triangles, drawn[source], &err));
+        triangles.depth = depth[source];
+        assert_true(gl_image_draw(source, &triangles, nearest[source], &err));
     }
     assert_memory_equal(drawn[GL_OSMESA], drawn[GL_EGL], sizeof drawn[GL_EGL]);
+    assert_memory_equal(nearest[GL_OSMESA], nearest[GL_EGL], sizeof nearest[GL_EGL]);
+    assert_memory_equal(depth[GL_OSMESA], depth[GL_EGL], sizeof depth[GL_EGL]);
+    assert_memory_not_equal(drawn[GL_EGL], nearest[GL_EGL], sizeof nearest[GL_EGL]);
 }
 
 // A process that is forked after images does not wait for ever for threads that are not there: it
@@ -164,7 +212,7 @@ static void a_forked_process_ends(void **state)
     if (child == 0) {
         Error err = {0};
         GlImageDef def = image_def();
-        const GlCorner corners[3] = {{0, 0, 0}, {2 * WIDTH, 0, 0}, {0, 2 * HEIGHT, 0}};
+        const GlCorner corners[3] = {{0}, {.x = 2 * WIDTH}, {.y = 2 * HEIGHT}};
         def.corners = corners;
         def.corner_count = 3;
         alarm(20);
