@@ -32,22 +32,19 @@ static double diagonal(const Block *block)
     return sqrt(sum);
 }
 
-static DepthPoint see(const SpacePage *space, const Block *block, const double place[3],
-                      double value)
+// The depth goes from 0 at the camera to 1 at twice the distance of the block's middle.
+static DepthPoint see(const SpacePage *space, const Block *block, const double place[3])
 {
     double seen[3];
     camera_see(&block->camera, place, seen);
-    Point at = axes_place(&space->axes, seen[0], seen[1]);
-    at.x -= space->axes.box.left;
-    at.y -= space->axes.box.top;
-    return (DepthPoint){at, seen[2], value};
+    return (DepthPoint){axes_place(&space->axes, seen[0], seen[1]),
+                        seen[2] / (2 * block->camera.distance)};
 }
 
 static Point see_on_page(const SpacePage *space, const Block *block, double x, double y, double z)
 {
     const double place[3] = {x, y, z};
-    DepthPoint seen = see(space, block, place, 0);
-    return (Point){seen.at.x + space->axes.box.left, seen.at.y + space->axes.box.top};
+    return see(space, block, place).at;
 }
 
 static double floor_height(const Block *block)
@@ -71,12 +68,10 @@ void space_page_floor_corners(const Block *block, double corner[4][2])
 static void draw_parts(const Page *page, const SpacePage *space, const Block *block,
                        const SurfaceParts *lines, const DepthImage *image, const Stroke *stroke)
 {
-    Point corner = {space->axes.box.left, space->axes.box.top};
     for (int64_t k = 0; k < lines->count; ++k) {
         const SurfacePoint *two = lines->points + 2 * k;
-        const DepthPoint ends[2] = {see(space, block, two[0].at, 0),
-                                    see(space, block, two[1].at, 0)};
-        depth_image_line(image, page->canvas, corner, stroke, ends);
+        const DepthPoint ends[2] = {see(space, block, two[0].at), see(space, block, two[1].at)};
+        depth_image_line(image, page->canvas, stroke, ends);
     }
 }
 
@@ -240,37 +235,47 @@ void space_page_axes(const Page *page, const SpacePage *space, const Block *bloc
 bool space_page_draw(const Page *page, const SpacePage *space, const Block *block, Error *err)
 {
     Surface surface = {.with_edges = false};
-    DepthImage image = {0};
+    GlCorner *corners = NULL;
     const Box *box = &space->axes.box;
+    const Colorbar *bar = space->bar;
+    DepthImage image = {.box = *box,
+                        .columns = (int32_t)lround(box->right - box->left),
+                        .rows = (int32_t)lround(box->bottom - box->top),
+                        .slack = SLACK * diagonal(block) / (2 * block->camera.distance)};
     double unit = space->unit, top = -INFINITY;
     Stroke outline = {.color = INK, .width = OUTLINE_WIDTH * unit};
     Stroke edge = {.color = CONTOUR, .width = EDGE_WIDTH * unit};
     TRY(surface_build(block, space->cut, space->edges, &surface, err));
     space_page_floor(page, space, block, block->row);
 
-    // Colours: at each pixel those of the nearest triangle.
-    TRY(depth_image_create((int32_t)(box->right - box->left), (int32_t)(box->bottom - box->top),
-                           SLACK * diagonal(block), &image, err));
+    // Colours: at each pixel those of the nearest triangle. What has no place or no number is left
+    // out.
+    int64_t count = 0, pixels = (int64_t)image.rows * image.columns;
+    TRY(corners = NEW_ARRAY(GlCorner, 3 * (int64_t)surface.triangles.count, err));
+    TRY(image.depth = NEW_ARRAY(float, pixels, err));
     for (int64_t t = 0; t < surface.triangles.count; ++t) {
-        DepthPoint corner[3];
+        bool whole = true;
         for (int32_t k = 0; k < 3; ++k) {
             const SurfacePoint *point = &surface.triangles.points[3 * t + k];
-            corner[k] = see(space, block, point->at, point->value);
+            DepthPoint seen = see(space, block, point->at);
+            double part = (bar->factor * point->value - bar->low) / (bar->high - bar->low);
+            whole = whole && isfinite(seen.at.x + seen.at.y + part);
+            corners[count + k] = (GlCorner){(float)(seen.at.x - box->left),
+                                            (float)(seen.at.y - box->top), (float)part,
+                                            (float)seen.depth};
         }
-        depth_image_add(&image, corner);
+        if (whole) count += 3;
     }
-    for (int64_t k = 0; k < (int64_t)image.rows * image.columns; ++k)
-        image.values[k] = colorbar_level(space->bar, (double)image.values[k]);
-    canvas_heat(page->canvas, box, &(HeatMap){image.columns, image.rows, image.values, NULL, 0});
+    canvas_heat_triangles(page->canvas, box, corners, count, image.depth);
     draw_parts(page, space, block, &surface.edges, &image, &edge);
 
     // Contours at the numbers of the bar: where a triangle has the value, a line between two of its
     // sides.
     Stroke contour = {.color = CONTOUR, .width = CONTOUR_WIDTH * unit};
-    Ticks ticks = colorbar_ticks(space->bar);
+    Ticks ticks = colorbar_ticks(bar);
     for (int32_t n = 0; n < ticks.count; ++n) {
-        double number = tick_value(&ticks, n), value = number / space->bar->factor;
-        if (!(number > space->bar->low && number < space->bar->high)) continue;
+        double number = tick_value(&ticks, n), value = number / bar->factor;
+        if (!(number > bar->low && number < bar->high)) continue;
         for (int64_t t = 0; t < surface.triangles.count; ++t) {
             const SurfacePoint *corner = surface.triangles.points + 3 * t;
             DepthPoint ends[3];
@@ -281,11 +286,9 @@ bool space_page_draw(const Page *page, const SpacePage *space, const Block *bloc
                 if ((a->value < value) == (b->value < value)) continue;
                 double part = (value - a->value) / (b->value - a->value);
                 for (int32_t d = 0; d < 3; ++d) place[d] = a->at[d] + part * (b->at[d] - a->at[d]);
-                ends[found++] = see(space, block, place, 0);
+                ends[found++] = see(space, block, place);
             }
-            if (found == 2)
-                depth_image_line(&image, page->canvas, (Point){box->left, box->top}, &contour,
-                                 ends);
+            if (found == 2) depth_image_line(&image, page->canvas, &contour, ends);
         }
     }
     draw_parts(page, space, block, &surface.outline, &image, &outline);
@@ -302,6 +305,6 @@ bool space_page_draw(const Page *page, const SpacePage *space, const Block *bloc
     draw_rod(page, space, block);
 cleanup:
     surface_destroy(&surface);
-    depth_image_destroy(&image);
+    memory_free_all(corners, image.depth);
     return error_is_clean(err);
 }

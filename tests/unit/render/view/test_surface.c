@@ -4,7 +4,6 @@
 #include "render/view/surface.h"
 
 #include "cases.h"
-#include "render/figures/depth_image.h"
 #include "space_mesh.h"
 
 enum { KINDS = 5 };
@@ -164,19 +163,4 @@ TEST(the_camera_stands_before_the_block)
     camera_see(&camera, low, seen);
     camera_see(&camera, far, other);
     assert_true(other[1] < seen[1] + 0.05);
-}
-
-TEST(the_nearer_hides)
-{
-    Error err = {0};
-    DepthImage image;
-    assert_true(depth_image_create(20, 10, 0.01, &image, &err));
-    const DepthPoint far[3] = {{{0, 0}, 5, 1}, {{40, 0}, 5, 1}, {{0, 20}, 5, 1}};
-    const DepthPoint near[3] = {{{0, 0}, 2, 7}, {{10, 0}, 2, 7}, {{0, 10}, 2, 7}};
-    depth_image_add(&image, near);
-    depth_image_add(&image, far);
-    assert_near("near", image.values[0], 7, 0);
-    assert_near("far", image.values[15], 1, 0);
-    assert_near("depth", image.depth[15], 5, 1e-12);
-    depth_image_destroy(&image);
 }
