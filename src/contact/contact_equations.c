@@ -41,14 +41,11 @@ static double along(const ContactRow *row, int32_t tangents, const double *x)
     return tangents == 1 ? row->d[0] * x[0] : row->d[0] * x[0] + row->d[1] * x[1];
 }
 
-// rho of the tangents of node i, and rho_n, from the node's own entries of S.
-static double own_stiffness(const ContactProblem *problem, int32_t i, double *rho_n)
+// rho of the tangents, from the node's own entries of S.
+static double own_stiffness(const ContactProblem *problem, int32_t i)
 {
-    int32_t tangents = slip_tangents(problem->interface);
-    int64_t next = problem->interface->count + 1;   // from an entry of the diagonal to the next
-    const double *entry = problem->matrix->schur + next * interface_tangent(problem->interface, i);
-    *rho_n = entry[tangents * next];
-    return tangents == 1 ? entry[0] : 0.5 * (entry[0] + entry[next]);
+    const double *own = problem->matrix->own + interface_tangent(problem->interface, i);
+    return slip_tangents(problem->interface) == 1 ? own[0] : 0.5 * (own[0] + own[1]);
 }
 
 // z of node i, and p.
@@ -58,10 +55,10 @@ static double pull_of(const ContactEquations *equations, int32_t i, double z[TAN
     int32_t tangents = slip_tangents(problem->interface);
     int32_t t = interface_tangent(problem->interface, i), n = t + tangents;
     const double *v = equations->at->velocity, *r = equations->at->reaction;
-    double rho_n, rho = own_stiffness(problem, i, &rho_n);
+    double rho = own_stiffness(problem, i);
     z[1] = 0;
     for (int32_t c = 0; c < tangents; c++) z[c] = r[t + c] - rho * v[t + c];
-    return r[n] - rho_n * (v[n] - problem->bound[n]);
+    return r[n] - problem->matrix->own[n] * (v[n] - problem->bound[n]);
 }
 
 // The row of node i, which slips. Slow creep has the direction of its velocity: friction is 0 at
@@ -75,7 +72,7 @@ static void find_row(const ContactEquations *equations, int32_t i, const double 
     int32_t t = interface_tangent(problem->interface, i);
     const double *v = equations->at->velocity + t;
     double speed = slip_size(problem->interface, i, equations->at->velocity);
-    double size = hypot(z[0], z[1]), rho_n, rho = own_stiffness(problem, i, &rho_n);
+    double size = hypot(z[0], z[1]), rho = own_stiffness(problem, i);
     double mu = friction_coefficient(node, speed), limit = mu * fmax(pressing, 0);
     ContactRow *row = &equations->row[i];
     *row = (ContactRow){.d = {-z[0] / size, -z[1] / size},
@@ -158,24 +155,30 @@ void contact_take_statuses(ContactEquations *equations)
     }
 }
 
-bool contact_start_fast(const ContactEquations *equations)
+bool contact_start_fast(const ContactEquations *equations, const uint8_t *stepped, double least)
 {
     const ContactProblem *problem = equations->problem;
     const Interface *interface = problem->interface;
-    const ContactSolution *at = equations->at;
-    int32_t tangents = slip_tangents(interface);
-    bool started = false;
+    int32_t tangents = slip_tangents(interface), worst = -1;
+    double fastest = 0;
     for (int32_t i = 0; i < interface->contact_count; i++) {
-        if (!status_slips(at->status[i])) continue;
+        if (!status_slips(stepped[i])) continue;
         const FrictionNode *node = friction_at(problem->friction, i);
         const ContactRow *row = &equations->row[i];
-        double *v = at->velocity + interface_tangent(interface, i);
-        double falls = -friction_slope(node, 0) * at->reaction[interface_normal(interface, i)];
-        if (node->law->creeps || !(along(row, tangents, v) < 0) || !(falls > row->rho)) continue;
-        for (int32_t c = 0; c < tangents; c++) v[c] = row->d[c] * friction_spent_speed(node);
-        started = true;
+        double back =
+            -along(row, tangents, equations->at->velocity + interface_tangent(interface, i));
+        double falls = -friction_slope(node, 0) *
+                       equations->at->reaction[interface_normal(interface, i)];
+        if (!(back > fastest) || node->law->creeps || !(falls > least * row->rho)) continue;
+        fastest = back;
+        worst = i;
     }
-    return started;
+    if (worst < 0) return false;
+    double *v = equations->at->velocity + interface_tangent(interface, worst);
+    double speed = friction_spent_speed(friction_at(problem->friction, worst));
+    for (int32_t c = 0; c < tangents; c++) v[c] = equations->row[worst].d[c] * speed;
+    equations->at->status[worst] = CONTACT_SLIP_FORWARD;
+    return true;
 }
 
 // --- what is free, what is held -----------------------------------------------------------------
@@ -187,12 +190,15 @@ void contact_list_free(ContactEquations *equations)
     int32_t *free = equations->free, count = 0;
     for (int32_t i = 0; i < interface->contact_count; i++) {
         if (!status_slips(at->status[i])) continue;
-        for (int32_t c = 0; c < interface->dim - 1; c++)
+        for (int32_t c = 0; c < slip_tangents(interface); c++) {
+            equations->node[count] = i;
             free[count++] = interface_unknown(interface, i, c);
+        }
     }
     for (int32_t j = 0; j < interface->rod_count; j++) {
-        if (!at->rod_touches[j] || rod_stiffness(equations->problem, j) > 0)
-            free[count++] = interface_rod(interface, j);
+        if (at->rod_touches[j] && rod_stiffness(equations->problem, j) == 0) continue;
+        equations->node[count] = -1;
+        free[count++] = interface_rod(interface, j);
     }
     equations->free_count = count;
 }
@@ -259,8 +265,8 @@ double contact_residuals(const ContactEquations *equations, const ContactRow *ke
     int32_t tangents = slip_tangents(interface), rods = interface_rod(interface, 0);
     double largest = 0;
     for (int32_t a = 0; a < equations->free_count; a++) {
-        int32_t k = equations->free[a], i = dof_node(interface->dim, k);
-        if (k >= rods) {
+        int32_t k = equations->free[a], i = equations->node[a];
+        if (i < 0) {
             residual[a] = at->reaction[k] +
                           spring(equations, k - rods) * (at->velocity[k] - problem->bound[k]);
             largest = larger(largest, residual[a]);
@@ -295,14 +301,14 @@ void contact_combine(const ContactEquations *equations, const ContactRow *rows, 
                      double *out)
 {
     const Interface *interface = equations->problem->interface;
-    int32_t tangents = slip_tangents(interface), rods = interface_rod(interface, 0);
+    int32_t tangents = slip_tangents(interface);
     for (int32_t a = 0; a < equations->free_count; a++) {
-        int32_t k = equations->free[a];
-        if (k >= rods) {
+        int32_t k = equations->free[a], i = equations->node[a];
+        if (i < 0) {
             out[a] += x[k];
             continue;
         }
-        const ContactRow *row = &rows[dof_node(interface->dim, k)];
+        const ContactRow *row = &rows[i];
         out[a] += along(row, tangents, x + k) + row->mu * x[k + tangents];
         if (tangents == 1) continue;
         out[++a] += (1 - row->theta) * (row->d[0] * x[k + 1] - row->d[1] * x[k]);
@@ -313,14 +319,14 @@ void contact_derivative_column(const ContactEquations *equations, const double *
                                double *out)
 {
     const Interface *interface = equations->problem->interface;
-    int32_t own = equations->free[b], rods = interface_rod(interface, 0), dim = interface->dim;
+    int32_t own = equations->free[b], i = equations->node[b], dim = interface->dim;
     for (int32_t a = 0; a < equations->free_count; a++) out[a] = 0;
     contact_combine(equations, equations->row, matrix + (int64_t)interface->count * own, out);
-    if (own >= rods) {
-        out[b] += spring(equations, own - rods);
+    if (i < 0) {
+        out[b] += spring(equations, own - interface_rod(interface, 0));
         return;
     }
-    const ContactRow *row = &equations->row[dof_node(dim, own)];
+    const ContactRow *row = &equations->row[i];
     int32_t axis = dof_axis(dim, own), first = b - axis;
     out[first] += row->along[axis];
     if (dim == 2) return;

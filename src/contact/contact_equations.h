@@ -47,6 +47,7 @@ typedef struct ContactEquations {
     double tolerance;   // of forces that statuses are judged by, relative to scales.force
     ContactScales scales;   // as the last judgement found them
     int32_t *free;   // [count] unknowns that are solved for, free_count of them, ascending
+    int32_t *node;   // [count] whose tangent each of them is; -1: a rod node's
     int32_t free_count;
     ContactRow *row;   // [contact_count] of slipping nodes, as the last judgement left them
 } ContactEquations;
@@ -65,10 +66,12 @@ void contact_take_statuses(ContactEquations *equations);
 // them now. Here a node begins to slip. false: no status has changed.
 bool contact_judge(ContactEquations *equations);
 
-// Starts nodes beyond their weakening, velocity d friction_spent_speed, that slip against d since
-// friction falls faster with their slip than S resists: slow slip is no solution there. Rows and
-// reactions are the caller's. false: there is no such node.
-bool contact_start_fast(const ContactEquations *equations);
+// Where friction falls faster with its slip than S resists, slow slip is no solution: a node that
+// is overloaded at rest slips against its friction by Newton's step. The one that does so fastest,
+// of those that slipped in the last step (`stepped`, statuses [contact_count]) and whose friction
+// falls by more than `least` times rho, starts again beyond the weakening, v = d
+// friction_spent_speed. Rows and reactions are the caller's. false: there is no such node.
+bool contact_start_fast(const ContactEquations *equations, const uint8_t *stepped, double least);
 
 // Lists the free unknowns, ascending, without those of open nodes.
 void contact_list_free(ContactEquations *equations);

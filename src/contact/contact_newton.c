@@ -15,6 +15,7 @@ bool contact_newton_create(const Interface *interface, ContactNewton *newton, Er
     int64_t count = interface->count, contacts = interface->contact_count;
     *newton = (ContactNewton){0};
     newton->free = NEW_ARRAY(int32_t, count, err);
+    newton->node = NEW_ARRAY(int32_t, count, err);
     newton->open = NEW_ARRAY(int32_t, count, err);
     newton->row = NEW_ARRAY(ContactRow, contacts, err);
     newton->step = NEW_ARRAY(double, count, err);
@@ -33,9 +34,9 @@ bool contact_newton_create(const Interface *interface, ContactNewton *newton, Er
 void contact_newton_destroy(ContactNewton *newton)
 {
     ContactFactors *factors = &newton->factors;
-    memory_free_all(newton->free, newton->open, newton->row, newton->step, newton->residual,
-                    newton->more, newton->pull, factors->lu, factors->pivots, factors->status,
-                    factors->row, factors->column);
+    memory_free_all(newton->free, newton->node, newton->open, newton->row, newton->step,
+                    newton->residual, newton->more, newton->pull, factors->lu, factors->pivots,
+                    factors->status, factors->row, factors->column);
     *newton = (ContactNewton){0};
 }
 
@@ -55,6 +56,7 @@ static void begin(ContactNewton *newton, const ContactProblem *problem, ContactS
                                            .at = solution,
                                            .tolerance = tolerance,
                                            .free = newton->free,
+                                           .node = newton->node,
                                            .row = newton->row};
     newton->creeps = problem->friction->whole.law->creeps;
     newton->rounding = 1e-3 * tolerance * dense_max_abs(problem->g, problem->interface->count);
@@ -227,12 +229,12 @@ static void bend_where_it_creeps(ContactNewton *newton)
     const ContactProblem *problem = newton->equations.problem;
     const Interface *interface = problem->interface;
     ContactSolution *at = newton->equations.at;
-    int32_t tangents = slip_tangents(interface), rods = interface_rod(interface, 0);
+    int32_t tangents = slip_tangents(interface);
     int64_t count = interface->count;
     if (!newton->creeps) return;
     double fastest = contact_scales(problem, at->reaction).velocity;
-    for (int32_t a = 0; a < newton->equations.free_count && newton->free[a] < rods; a += tangents) {
-        int32_t k = newton->free[a], i = dof_node(interface->dim, k);
+    for (int32_t a = 0; a < newton->equations.free_count && newton->node[a] >= 0; a += tangents) {
+        int32_t k = newton->free[a], i = newton->node[a];
         const FrictionNode *node = friction_at(problem->friction, i);
         if (!node->law->creeps) continue;
         double *v = at->velocity + k, *step = newton->step + a, turned = 0, next[TANGENTS_MAX];

@@ -35,6 +35,7 @@ typedef struct ContactNewton {
         // precision make up for by hardly a step more, for half the time
     bool reused;   // the last step was one with the factors of an earlier derivative
     int32_t *free;   // [count] work; owned, as all that follows
+    int32_t *node;   // [count] work: of what is free
     int32_t *open;   // [count] work: unknowns of open nodes
     ContactRow *row;   // [contact_count] of slipping nodes
     double *step;   // [count] of the last step, of what is free

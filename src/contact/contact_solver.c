@@ -57,7 +57,7 @@ static bool settle(ContactSolver *solver)
     double before = INFINITY;   // residual of the last step with these statuses, over the scale
     const double *v = equations->at->velocity;
     int32_t met = 1, anchored = 1;   // sets of statuses so far; that which solver->anchor holds
-    bool started = false;   // nodes beyond their weakening, once
+    bool started = false;   // a node beyond its weakening, once
     double anchor_size = INFINITY;   // |v|^2 with that set
     contact_copy_statuses(equations, solver->anchor);
     for (int32_t k = 0; k < STEPS; k++) {
@@ -82,32 +82,37 @@ static bool settle(ContactSolver *solver)
         }
         if (residual <= TOLERANCE) return true;
 
-        if (!changed && !newton->reused && !started && contact_start_fast(equations)) {
+        // Statuses met before, with the same velocities, tell of a cycle (Brent, BIT 20, 1980:
+        // compared with one set that is kept, and renewed at powers of two).
+        bool cycles = false;
+        if (changed) {
+            double size = dense_dot(v, v, newton->equations.problem->interface->count);
+            cycles = contact_has_statuses(equations, solver->anchor) &&
+                     fabs(size - anchor_size) <= SAME * size;
+            if (met++ >= 2 * anchored) {
+                anchored = met;
+                anchor_size = size;
+                contact_copy_statuses(equations, solver->anchor);
+            }
+        }
+
+        // Slow slip may be no solution: certainly where friction falls faster than the node's own
+        // entry of S resists; in a cycle where all that slips does.
+        if (!started && (cycles || (!changed && !newton->reused)) &&
+            contact_start_fast(equations, newton->factors.status, cycles ? 0 : 1)) {
             started = true;
             contact_newton_react(newton);
             contact_judge(equations);
             newton->factors_gain = false;
-            changed = true;
-        }
-        if (!changed) {
+        } else if (cycles) {
+            return false;
+        } else if (!changed) {
             if (newton->reused && residual > CHORD_GAIN * before) newton->factors_gain = false;
             before = residual;
             continue;
         }
         contact_newton_settle(newton);
         before = INFINITY;
-
-        // Statuses met before, with the same velocities, tell of a cycle (Brent, BIT 20, 1980:
-        // compared with one set that is kept, and renewed at powers of two).
-        double size = dense_dot(v, v, newton->equations.problem->interface->count);
-        if (contact_has_statuses(equations, solver->anchor) &&
-            fabs(size - anchor_size) <= SAME * size)
-            return false;
-        if (met++ >= 2 * anchored) {
-            anchored = met;
-            anchor_size = size;
-            contact_copy_statuses(equations, solver->anchor);
-        }
     }
     return false;
 }

@@ -15,7 +15,7 @@ static HandContact hand;
 static ContactMatrix matrix;
 static ContactProblem problem;
 static ContactSolution at;
-static int32_t free_list[COUNT], dim, count;
+static int32_t free_list[COUNT], node_list[COUNT], dim, count;
 static ContactRow row_list[NODES];
 
 // Speeds about v_c = 1 and away from it and from 0, where mu has no derivative. Trials alternate
@@ -46,8 +46,12 @@ static ContactEquations make_equations(Random *random, int32_t trial)
     }
     for (int32_t i = 0; i < NODES; i++) hand.status[i] = (uint8_t)random_index(random, 3);
     for (int32_t j = 0; j < RODS; j++) hand.rod_touches[j] = (uint8_t)random_index(random, 2);
-    return (ContactEquations){
-        .problem = &problem, .at = &at, .tolerance = 1e-12, .free = free_list, .row = row_list};
+    return (ContactEquations){.problem = &problem,
+                              .at = &at,
+                              .tolerance = 1e-12,
+                              .free = free_list,
+                              .node = node_list,
+                              .row = row_list};
 }
 
 // Rows of all nodes that slip, at velocities and reactions as they are.
