@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Equations and source stand in the header; what a row has beside S and r is found in one place,
-// contact_find_rows, from the status of its node.
+// Statuses first, then the equations that follow from them and their derivative; what each means
+// stands in the header.
 #include "contact/contact_equations.h"
 
 #include "algebra/dense.h"
@@ -33,6 +33,156 @@ bool contact_has_statuses(const ContactEquations *equations, const uint8_t *copy
            memcmp(copy + contacts, equations->at->rod_touches, (size_t)interface->rod_count) == 0;
 }
 
+// --- statuses and rows --------------------------------------------------------------------------
+
+// d.x of one tangent or two.
+static double along(const ContactRow *row, int32_t tangents, const double *x)
+{
+    return tangents == 1 ? row->d[0] * x[0] : row->d[0] * x[0] + row->d[1] * x[1];
+}
+
+// rho of the tangents, from the node's own entries of S.
+static double own_stiffness(const ContactProblem *problem, int32_t i)
+{
+    const double *own = problem->matrix->own + interface_tangent(problem->interface, i);
+    return slip_tangents(problem->interface) == 1 ? own[0] : 0.5 * (own[0] + own[1]);
+}
+
+// z of node i, and p.
+static double pull_of(const ContactEquations *equations, int32_t i, double z[TANGENTS_MAX])
+{
+    const ContactProblem *problem = equations->problem;
+    int32_t tangents = slip_tangents(problem->interface);
+    int32_t t = interface_tangent(problem->interface, i), n = t + tangents;
+    const double *v = equations->at->velocity, *r = equations->at->reaction;
+    double rho = own_stiffness(problem, i);
+    z[1] = 0;
+    for (int32_t c = 0; c < tangents; c++) z[c] = r[t + c] - rho * v[t + c];
+    return r[n] - problem->matrix->own[n] * (v[n] - problem->bound[n]);
+}
+
+// The row of node i, which slips. Slow creep has the direction of its velocity: friction is 0 at
+// rest there.
+static void find_row(const ContactEquations *equations, int32_t i, const double z[TANGENTS_MAX],
+                     double pressing)
+{
+    const ContactProblem *problem = equations->problem;
+    const FrictionNode *node = friction_at(problem->friction, i);
+    int32_t tangents = slip_tangents(problem->interface);
+    int32_t t = interface_tangent(problem->interface, i);
+    const double *v = equations->at->velocity + t;
+    double speed = slip_size(problem->interface, i, equations->at->velocity);
+    double size = hypot(z[0], z[1]), rho = own_stiffness(problem, i);
+    double mu = friction_coefficient(node, speed), limit = mu * fmax(pressing, 0);
+    ContactRow *row = &equations->row[i];
+    *row = (ContactRow){.d = {-z[0] / size, -z[1] / size},
+                        .mu = mu,
+                        .theta = limit > 0 ? limit / (limit + rho * speed) : 0,
+                        .rho = rho};
+    if (node->law->creeps && along(row, tangents, v) < 0)
+        for (int32_t c = 0; c < tangents; c++) row->d[c] = v[c] / speed;
+    double slope = friction_slope(node, speed) * fmax(equations->at->reaction[t + tangents], 0);
+    for (int32_t c = 0; c < tangents; c++)
+        row->along[c] = slope * (speed > 0 ? v[c] / speed : row->d[c]);
+}
+
+// Status of node i, and its row where it slips. false: its status stays.
+static bool judge_node(const ContactEquations *equations, int32_t i)
+{
+    const Interface *interface = equations->problem->interface;
+    const FrictionNode *node = friction_at(equations->problem->friction, i);
+    uint8_t *status = &equations->at->status[i], was = *status;
+    double slack = equations->tolerance * equations->scales.force;
+    double z[TANGENTS_MAX], pressing = pull_of(equations, i, z), size = hypot(z[0], z[1]);
+    double speed = slip_size(interface, i, equations->at->velocity);
+    double limit = friction_coefficient(node, speed) * fmax(pressing, 0);
+    // What slips rests before it would turn round.
+    bool turns = status_slips(was) && along(&equations->row[i], slip_tangents(interface), z) > 0;
+    if (pressing <= (was == CONTACT_OPEN ? slack : -slack))
+        *status = CONTACT_OPEN;
+    else if (node->law->creeps && size > 0)
+        *status = CONTACT_SLIP_FORWARD;
+    else if (turns || size <= limit + (was == CONTACT_STICK ? slack : 0))
+        *status = CONTACT_STICK;
+    else
+        *status = CONTACT_SLIP_FORWARD;
+    if (status_slips(*status)) find_row(equations, i, z, pressing);
+    return *status != was;
+}
+
+// Only a pushing rod can lose contact. false: the status of rod node j stays.
+static bool judge_rod(const ContactEquations *equations, int32_t j)
+{
+    const ContactProblem *problem = equations->problem;
+    const ContactSolution *at = equations->at;
+    int32_t x = interface_rod(problem->interface, j);
+    if (problem->rod_kind != ROD_PUSHES) return false;
+    double violation = at->rod_touches[j]
+                           ? -at->reaction[x] / equations->scales.force
+                           : (problem->bound[x] - at->velocity[x]) / equations->scales.velocity;
+    if (!(violation > equations->tolerance)) return false;
+    at->rod_touches[j] = !at->rod_touches[j];
+    return true;
+}
+
+bool contact_judge(ContactEquations *equations)
+{
+    const Interface *interface = equations->problem->interface;
+    bool changed = false;
+    equations->scales = contact_scales(equations->problem, equations->at->reaction);
+    for (int32_t i = 0; i < interface->contact_count; i++)
+        if (judge_node(equations, i)) changed = true;
+    for (int32_t j = 0; j < interface->rod_count; j++)
+        if (judge_rod(equations, j)) changed = true;
+    return changed;
+}
+
+void contact_take_statuses(ContactEquations *equations)
+{
+    const Interface *interface = equations->problem->interface;
+    const ContactSolution *at = equations->at;
+    equations->scales = contact_scales(equations->problem, at->reaction);
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        if (!status_slips(at->status[i])) continue;
+        // Its direction so far.
+        const double *v = at->velocity + interface_tangent(interface, i);
+        double speed = slip_size(interface, i, at->velocity);
+        equations->row[i] = (ContactRow){.d = {status_direction(at->status[i])}};
+        for (int32_t c = 0; speed > 0 && c < slip_tangents(interface); c++)
+            equations->row[i].d[c] = v[c] / speed;
+        at->status[i] = CONTACT_SLIP_FORWARD;
+        if (judge_node(equations, i)) at->status[i] = CONTACT_STICK;
+    }
+}
+
+bool contact_start_fast(const ContactEquations *equations, const uint8_t *stepped, double least)
+{
+    const ContactProblem *problem = equations->problem;
+    const Interface *interface = problem->interface;
+    int32_t tangents = slip_tangents(interface), worst = -1;
+    double fastest = 0;
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        if (!status_slips(stepped[i])) continue;
+        const FrictionNode *node = friction_at(problem->friction, i);
+        const ContactRow *row = &equations->row[i];
+        double back =
+            -along(row, tangents, equations->at->velocity + interface_tangent(interface, i));
+        double falls = -friction_slope(node, 0) *
+                       equations->at->reaction[interface_normal(interface, i)];
+        if (!(back > fastest) || node->law->creeps || !(falls > least * row->rho)) continue;
+        fastest = back;
+        worst = i;
+    }
+    if (worst < 0) return false;
+    double *v = equations->at->velocity + interface_tangent(interface, worst);
+    double speed = friction_spent_speed(friction_at(problem->friction, worst));
+    for (int32_t c = 0; c < tangents; c++) v[c] = equations->row[worst].d[c] * speed;
+    equations->at->status[worst] = CONTACT_SLIP_FORWARD;
+    return true;
+}
+
+// --- what is free, what is held -----------------------------------------------------------------
+
 void contact_list_free(ContactEquations *equations)
 {
     const Interface *interface = equations->problem->interface;
@@ -40,12 +190,15 @@ void contact_list_free(ContactEquations *equations)
     int32_t *free = equations->free, count = 0;
     for (int32_t i = 0; i < interface->contact_count; i++) {
         if (!status_slips(at->status[i])) continue;
-        for (int32_t c = 0; c < interface->dim - 1; c++)
+        for (int32_t c = 0; c < slip_tangents(interface); c++) {
+            equations->node[count] = i;
             free[count++] = interface_unknown(interface, i, c);
+        }
     }
     for (int32_t j = 0; j < interface->rod_count; j++) {
-        if (!at->rod_touches[j] || rod_stiffness(equations->problem, j) > 0)
-            free[count++] = interface_rod(interface, j);
+        if (at->rod_touches[j] && rod_stiffness(equations->problem, j) == 0) continue;
+        equations->node[count] = -1;
+        free[count++] = interface_rod(interface, j);
     }
     equations->free_count = count;
 }
@@ -79,110 +232,103 @@ void contact_react(const ContactEquations *equations)
     dense_add_nonzero(schur, equations->at->velocity, 1, reaction);   // what sticks adds nothing
 }
 
-// mu(|v_t|) of a slipping node, and mu' where it is asked for, one over a velocity.
-static double friction_of(const ContactEquations *equations, int32_t i, double *slope)
+void contact_release(const ContactEquations *equations)
 {
-    const FrictionNode *node = friction_at(equations->problem->friction, i);
-    int32_t t = interface_tangent(equations->problem->interface, i);
-    double speed = fabs(equations->at->velocity[t]);
-    if (slope) *slope = friction_slope(node, speed);
-    return friction_coefficient(node, speed);
-}
-
-void contact_find_rows(const ContactEquations *equations)
-{
-    const ContactProblem *problem = equations->problem;
-    const ContactSolution *at = equations->at;
-    for (int32_t a = 0; a < equations->free_count; a++) {
-        int32_t unknown = equations->free[a], i = contact_slipping_node(equations, unknown);
-        int32_t j = unknown - interface_rod(problem->interface, 0);
-        ContactRow row = {.normal = unknown};
-        if (j >= 0 && at->rod_touches[j]) row.stiffness = rod_stiffness(problem, j);
-        if (i >= 0) {
-            row.mu = status_direction(at->status[i]) * friction_of(equations, i, NULL);
-            row.normal = interface_normal(problem->interface, i);
-        }
-        equations->row[a] = row;
-    }
-}
-
-void contact_residuals(const ContactEquations *equations, double *residual)
-{
-    const double *velocity = equations->at->velocity, *bound = equations->problem->bound;
-    contact_combine(equations, equations->at->reaction, residual);
-    for (int32_t a = 0; a < equations->free_count; a++) {
-        double stiffness = equations->row[a].stiffness;
-        int32_t k = equations->free[a];
-        if (stiffness != 0) residual[a] += stiffness * (velocity[k] - bound[k]);
-    }
-}
-
-void contact_combine(const ContactEquations *equations, const double *x, double *out)
-{
-    for (int32_t a = 0; a < equations->free_count; a++)
-        out[a] = x[equations->free[a]] + equations->row[a].mu * x[equations->row[a].normal];
-}
-
-void contact_jacobian(const ContactEquations *equations, const double *matrix, int32_t stride,
-                      double *jacobian)
-{
-    int32_t count = equations->problem->interface->count, free_count = equations->free_count;
-    for (int32_t a = 0; a < free_count; a++) {
-        ContactRow row = equations->row[a];
-        const double *own = matrix + (int64_t)equations->free[a] * count;   // symmetric
-        const double *normal = matrix + (int64_t)row.normal * count;
-        double *out = jacobian + a;
-        for (int32_t b = 0; b < free_count; b++)
-            out[(int64_t)b * stride] = own[equations->free[b]] +
-                                       row.mu * normal[equations->free[b]];
-
-        // mu'(|v_t|) r_n of a slipping tangent, the spring of a soft rod node.
-        int32_t i = contact_slipping_node(equations, equations->free[a]);
-        double slope = 0;
-        if (i >= 0) friction_of(equations, i, &slope);
-        out[(int64_t)a * stride] += slope * equations->at->reaction[row.normal] + row.stiffness;
-    }
-}
-
-uint8_t contact_judge_node(const ContactEquations *equations, ContactScales scales, int32_t i,
-                           double *violation)
-{
-    const ContactProblem *problem = equations->problem;
-    const ContactSolution *at = equations->at;
     const Interface *interface = equations->problem->interface;
-    int32_t n = interface_normal(interface, i), t = interface_tangent(interface, i);
-    uint8_t status = at->status[i];
-    double pressing = at->reaction[n], shear = at->reaction[t];
-    if (status == CONTACT_OPEN) {
-        // It closes with the tangential velocity it has: held at once it may want to open again.
-        *violation = (problem->bound[n] - at->velocity[n]) / scales.velocity;
-        if (at->velocity[t] == 0) return CONTACT_STICK;
-        return at->velocity[t] > 0 ? CONTACT_SLIP_FORWARD : CONTACT_SLIP_BACKWARD;
-    }
-    *violation = -pressing / scales.force;
-    if (*violation > 0) return CONTACT_OPEN;
-    if (status == CONTACT_STICK) {
-        *violation =
-            (fabs(shear) - friction_threshold(friction_at(problem->friction, i)) * pressing) /
-            scales.force;
-        return shear < 0 ? CONTACT_SLIP_FORWARD : CONTACT_SLIP_BACKWARD;
-    }
-    *violation = -at->velocity[t] * status_direction(status) / scales.velocity;
-    return CONTACT_STICK;
+    const ContactSolution *at = equations->at;
+    for (int32_t i = 0; i < interface->contact_count; i++)
+        for (int32_t c = 0; at->status[i] == CONTACT_OPEN && c < interface->dim; c++)
+            at->reaction[interface_unknown(interface, i, c)] = 0;
+    for (int32_t j = 0; j < interface->rod_count; j++)
+        if (!at->rod_touches[j]) at->reaction[interface_rod(interface, j)] = 0;
 }
 
-// Only a pushing rod can lose contact.
-uint8_t contact_judge_rod(const ContactEquations *equations, ContactScales scales, int32_t j,
-                          double *violation)
+// --- equations and their derivative -------------------------------------------------------------
+
+// The spring of rod node j, force/width per velocity; 0 where it does not touch.
+static double spring(const ContactEquations *equations, int32_t j)
+{
+    return equations->at->rod_touches[j] ? rod_stiffness(equations->problem, j) : 0;
+}
+
+static double larger(double a, double b)
+{
+    return isfinite(b) ? fmax(a, fabs(b)) : INFINITY;
+}
+
+double contact_residuals(const ContactEquations *equations, const ContactRow *kept,
+                         double *residual)
 {
     const ContactProblem *problem = equations->problem;
+    const Interface *interface = problem->interface;
     const ContactSolution *at = equations->at;
-    int32_t x = interface_rod(problem->interface, j);
-    *violation = 0;
-    if (problem->rod_kind != ROD_PUSHES) return at->rod_touches[j];
-    if (at->rod_touches[j])
-        *violation = -at->reaction[x] / scales.force;
-    else
-        *violation = (problem->bound[x] - at->velocity[x]) / scales.velocity;
-    return !at->rod_touches[j];
+    int32_t tangents = slip_tangents(interface), rods = interface_rod(interface, 0);
+    double largest = 0;
+    for (int32_t a = 0; a < equations->free_count; a++) {
+        int32_t k = equations->free[a], i = equations->node[a];
+        if (i < 0) {
+            residual[a] = at->reaction[k] +
+                          spring(equations, k - rods) * (at->velocity[k] - problem->bound[k]);
+            largest = larger(largest, residual[a]);
+            continue;
+        }
+        const ContactRow *row = &equations->row[i], *old = kept ? &kept[i] : row;
+        const double *r = at->reaction + k, *v = at->velocity + k, *d = row->d;
+        double force = along(row, tangents, r) + row->mu * r[tangents];
+        double cosine = along(old, tangents, d);
+        if (tangents == 1) {
+            residual[a] = cosine * force;
+            largest = larger(largest, force);
+            continue;
+        }
+        // Both equations of a node in space, whose tangents follow one another.
+        double turning = (1 - row->theta) * (d[0] * r[1] - d[1] * r[0]) +
+                         row->theta * row->rho * (d[0] * v[1] - d[1] * v[0]);
+        double across = row->theta < 1 ? turning / (1 - row->theta) : 0;
+        largest = larger(largest, hypot(force, across));
+        if (kept) {
+            double sine = old->d[0] * d[1] - old->d[1] * d[0];
+            turning = (1 - old->theta) * (sine * force + cosine * across);
+            force = cosine * force - sine * across;
+        }
+        residual[a++] = force;
+        residual[a] = turning;
+    }
+    return largest;
+}
+
+void contact_combine(const ContactEquations *equations, const ContactRow *rows, const double *x,
+                     double *out)
+{
+    const Interface *interface = equations->problem->interface;
+    int32_t tangents = slip_tangents(interface);
+    for (int32_t a = 0; a < equations->free_count; a++) {
+        int32_t k = equations->free[a], i = equations->node[a];
+        if (i < 0) {
+            out[a] += x[k];
+            continue;
+        }
+        const ContactRow *row = &rows[i];
+        out[a] += along(row, tangents, x + k) + row->mu * x[k + tangents];
+        if (tangents == 1) continue;
+        out[++a] += (1 - row->theta) * (row->d[0] * x[k + 1] - row->d[1] * x[k]);
+    }
+}
+
+void contact_derivative_column(const ContactEquations *equations, const double *matrix, int32_t b,
+                               double *out)
+{
+    const Interface *interface = equations->problem->interface;
+    int32_t own = equations->free[b], i = equations->node[b], dim = interface->dim;
+    for (int32_t a = 0; a < equations->free_count; a++) out[a] = 0;
+    contact_combine(equations, equations->row, matrix + (int64_t)interface->count * own, out);
+    if (i < 0) {
+        out[b] += spring(equations, own - interface_rod(interface, 0));
+        return;
+    }
+    const ContactRow *row = &equations->row[i];
+    int32_t axis = dof_axis(dim, own), first = b - axis;
+    out[first] += row->along[axis];
+    if (dim == 2) return;
+    out[first + 1] += row->theta * row->rho * (axis == 0 ? -row->d[1] : row->d[0]);
 }

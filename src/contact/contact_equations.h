@@ -1,39 +1,38 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The equations of a contact problem while the statuses stay (Alart and Curnier, Comp. Meth. Appl.
-// Mech. Eng. 92, 1991, in their status form), and their derivatives. With r = S v - g, an unknown
-// that is not held has the equation
+// The contact problem as equations for a semismooth Newton method (Alart and Curnier, Comp. Meth.
+// Appl. Mech. Eng. 92, 1991), in the plane with one tangent and in space with two. With
+// r = S v - g and rho the node's own entry of S, the status of a node follows from r - rho v:
 //
-//     open node, rod node off         E_k = r_k
-//     slipping tangent t of normal n  E_t = r_t + s mu(|v_t|) r_n,       s = +1, -1: sign of slip
-//     soft rod node that touches      E_x = r_x + stiffness (v_x - bound_x)
+//     p = r_n - rho_n (v_n - bound) <= 0     open
+//     z = r_t - rho v_t, |z| <= mu p         sticks
+//     else                                   slips along d = -z/|z|, |v_t| = s
 //
-// and, as s^2 = 1, a row of the derivative by the velocities is
+// What is open is condensed out (contact/contact_newton). Held are normals that touch (at their
+// bound), tangents that stick (at 0) and rigid rod nodes that touch (at their bound). What is left
+// is free and has an equation each:
 //
-//     S_k + s mu S_n + (mu'(|v_t|) r_n + stiffness) e_k.
+//     slips       d.r_t + mu(s) r_n = 0
+//     in space    (1 - theta) e.r_t + theta rho e.v_t = 0, e across d,
+//                 theta = mu p/(mu p + rho s)
+//     rod node    r_x = 0, or r_x + stiffness (v_x - bound_x) = 0 where it is soft and touches
 //
-// Held are normals that touch (at their bound), tangents that stick (at 0) and rigid rod nodes that
-// touch (at their bound). Used by contact/contact_solver.
+// The first two say r_t = -mu(s) r_n v_t/s. The second is e.(r_t + mu r_n v_t/s) by (1 - theta): so
+// a node that only starts, s = 0, holds its direction, and one that slips fast turns as its force
+// does. Their derivatives beside S: mu'(s) r_n along the slip, theta rho across. An equation is
+// linear in r, so that rows found at an earlier r (a warm start) meet the r of this g.
 #ifndef AMONTONS_CONTACT_CONTACT_EQUATIONS_H
 #define AMONTONS_CONTACT_CONTACT_EQUATIONS_H
 
 #include "contact/contact_problem.h"
+#include "contact/slip.h"
 
-// The terms beside r_k in the equation of a free unknown: `mu` times r_n and a spring. Both are 0
-// where it neither slips nor is soft; then `normal` is the unknown itself.
+// The equations of a slipping node, beside S. Of one tangent d is 1 or -1, the second component 0.
 typedef struct ContactRow {
-    int32_t normal;
-    double mu;   // s mu(|v_t|), 1
-    double stiffness;   // of the spring at a soft rod node, force/width per velocity
+    double d[TANGENTS_MAX];   // along z, against friction; e = (-d[1], d[0])
+    double mu;
+    double theta, rho;   // rho: force/width per velocity
+    double along[TANGENTS_MAX];   // mu' r_n v_t/s: how friction along d answers to v_t
 } ContactRow;
-
-// Nothing is owned.
-typedef struct ContactEquations {
-    const ContactProblem *problem;
-    ContactSolution *at;
-    int32_t *free;   // [count] unknowns that are solved for, free_count of them
-    int32_t free_count;
-    ContactRow *row;   // [count] work: of what is free, as contact_find_rows left them
-} ContactEquations;
 
 // Scales that make forces and velocities comparable; neither is 0.
 typedef struct ContactScales {
@@ -41,20 +40,38 @@ typedef struct ContactScales {
     double velocity;   // that over the largest diagonal entry of S
 } ContactScales;
 
-ContactScales contact_scales(const ContactProblem *problem, const double *reaction);
+// Nothing is owned.
+typedef struct ContactEquations {
+    const ContactProblem *problem;
+    ContactSolution *at;   // a slipping node is CONTACT_SLIP_FORWARD here, whichever way it slips
+    double tolerance;   // of forces that statuses are judged by, relative to scales.force
+    ContactScales scales;   // as the last judgement found them
+    int32_t *free;   // [count] unknowns that are solved for, free_count of them, ascending
+    int32_t *node;   // [count] whose tangent each of them is; -1: a rod node's
+    int32_t free_count;
+    ContactRow *row;   // [contact_count] of slipping nodes, as the last judgement left them
+} ContactEquations;
 
-// The slipping node that `unknown` is the tangent of; -1: none.
-static inline int32_t contact_slipping_node(const ContactEquations *equations, int32_t unknown)
-{
-    const Interface *interface = equations->problem->interface;
-    int32_t i = dof_node(interface->dim, unknown);
-    if (i >= interface->contact_count || unknown != interface_tangent(interface, i)) return -1;
-    return status_slips(equations->at->status[i]) ? i : -1;
-}
+ContactScales contact_scales(const ContactProblem *problem, const double *reaction);
 
 // Statuses of nodes and of the rod as one list [contact_count + rod_count], to compare with later.
 void contact_copy_statuses(const ContactEquations *equations, uint8_t *copy);
 bool contact_has_statuses(const ContactEquations *equations, const uint8_t *copy);
+
+// Rows at what was handed in, whose reactions may be of another g; statuses stay. A node that was
+// said to slip rests where neither its velocity nor its force says which way.
+void contact_take_statuses(ContactEquations *equations);
+
+// Statuses of all nodes, and of the rod, and rows of what slips, as velocities and reactions have
+// them now. Here a node begins to slip. false: no status has changed.
+bool contact_judge(ContactEquations *equations);
+
+// Where friction falls faster with its slip than S resists, slow slip is no solution: a node that
+// is overloaded at rest slips against its friction by Newton's step. The one that does so fastest,
+// of those that slipped in the last step (`stepped`, statuses [contact_count]) and whose friction
+// falls by more than `least` times rho, starts again beyond the weakening, v = d
+// friction_spent_speed. Rows and reactions are the caller's. false: there is no such node.
+bool contact_start_fast(const ContactEquations *equations, const uint8_t *stepped, double least);
 
 // Lists the free unknowns, ascending, without those of open nodes.
 void contact_list_free(ContactEquations *equations);
@@ -65,30 +82,22 @@ void contact_hold(const ContactEquations *equations);
 // r = S v - g, from the velocities as they are.
 void contact_react(const ContactEquations *equations);
 
-// The rows of what is free, at the velocities as they are: the three below read them, so that
-// friction is looked up once for all of them.
-void contact_find_rows(const ContactEquations *equations);
+// What touches nothing has no force, not even rounding.
+void contact_release(const ContactEquations *equations);
 
-// residual [free_count] = E of the free unknowns, force/width.
-void contact_residuals(const ContactEquations *equations, double *residual);
+// residual [free_count] = what the equations of the free unknowns are off. kept [contact_count]:
+// rows whose directions they are turned into, those of an earlier derivative; NULL: their own.
+// Returns the largest force that any is off; infinite where a number is not finite.
+double contact_residuals(const ContactEquations *equations, const ContactRow *kept,
+                         double *residual);
 
-// out [free_count] = x_k + s mu x_n: how their equations take what is added to the reactions.
-void contact_combine(const ContactEquations *equations, const double *x, double *out);
+// out [free_count] += how equations with these rows take what is added to the reactions, x [count].
+void contact_combine(const ContactEquations *equations, const ContactRow *rows, const double *x,
+                     double *out);
 
-// The derivative by the free unknowns, column after column with `stride` >= free_count entries
-// each. matrix: S, or S with open nodes condensed out, [count^2].
-void contact_jacobian(const ContactEquations *equations, const double *matrix, int32_t stride,
-                      double *jacobian);
-
-// The status that contact node i, or 1 where rod node j touches, should have by its own conditions,
-// and by how much it violates them now, in units of the scales. In the plane this decides when a
-// node begins to slip: |r_t| > mu r_n with mu at rest (friction_threshold). Three other places ask
-// the same in other unknowns: contact/contact_discs in space, where the status follows from where
-// r - rho v lies; contact/contact_sweeps for a node alone, as a start that is judged here or there
-// afterwards; stepping/explicit_reference, which solves nothing, for the speed that is left.
-uint8_t contact_judge_node(const ContactEquations *equations, ContactScales scales, int32_t i,
-                           double *violation);
-uint8_t contact_judge_rod(const ContactEquations *equations, ContactScales scales, int32_t j,
-                          double *violation);
+// Column b of the derivative by the free unknowns, out [free_count]. matrix [count^2]: S, or S with
+// open nodes condensed out.
+void contact_derivative_column(const ContactEquations *equations, const double *matrix, int32_t b,
+                               double *out);
 
 #endif

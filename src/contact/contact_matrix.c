@@ -26,18 +26,22 @@ bool contact_matrix_create(const double *schur, int32_t count, ContactMatrix *ma
 {
     int64_t bytes = 8 * (int64_t)count * count;
     *matrix = (ContactMatrix){.schur = schur, .count = count, .swept = -1};
-    for (int64_t k = 0; k < count; k++)
-        matrix->diagonal = fmax(matrix->diagonal, schur[k * count + k]);
+    matrix->own = NEW_ARRAY(double, count, err);
     matrix->closed = memory_bytes(bytes, err);
     matrix->out = NEW_ARRAY(uint8_t, count, err);
     matrix->work = NEW_ARRAY(double, 3 * TOGETHER * (int64_t)count, err);
     matrix->order = NEW_ARRAY(int32_t, SWEEPS_LIMIT * (int64_t)count, err);
-    return error_is_clean(err);
+    if (!error_is_clean(err)) return false;
+    for (int64_t k = 0; k < count; k++) {
+        matrix->own[k] = schur[k * (count + 1)];
+        matrix->diagonal = fmax(matrix->diagonal, matrix->own[k]);
+    }
+    return true;
 }
 
 void contact_matrix_destroy(ContactMatrix *matrix)
 {
-    memory_free_all(matrix->closed, matrix->out, matrix->work, matrix->order);
+    memory_free_all(matrix->own, matrix->closed, matrix->out, matrix->work, matrix->order);
     *matrix = (ContactMatrix){0};
 }
 

@@ -19,7 +19,8 @@
 typedef struct ContactMatrix {
     const double *schur;   // S [count^2], symmetric; not owned, stands as long as this
     int32_t count;   // interface unknowns
-    double diagonal;   // the largest entry on the diagonal of S
+    double *own;   // [count] the diagonal of S; owned
+    double diagonal;   // its largest entry
     double *closed;   // [count^2] S swept on `out`, both triangles; owned, like all that follows
     uint8_t *out;   // [count] 1: the unknown is swept
     double *work;   // [48 count]

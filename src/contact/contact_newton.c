@@ -1,81 +1,46 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Order of one step: factors, kept or made -> what forces at open nodes do to the others (`pull`)
-// -> the step of what is free -> what follows from it (`contact_newton_take`).
+// Order of one step: what is free and open -> factors, kept or made -> residuals -> what forces at
+// open nodes do to the others (`pull`) -> the step of what is free -> what follows from it.
 #include "contact/contact_newton.h"
 
 #include "algebra/dense.h"
 #include "base/memory.h"
 #include "friction/friction.h"
-#include "contact/slip.h"
 
 #include <math.h>
 #include <string.h>
 
-// --- factors of the derivative ------------------------------------------------------------------
-
-bool contact_factors_create(const Interface *interface, ContactFactors *factors, Error *err)
-{
-    int64_t count = interface->count;
-    *factors = (ContactFactors){.lu = memory_bytes(8 * count * count, err)};
-    factors->pivots = NEW_ARRAY(int32_t, count, err);
-    factors->status = NEW_ARRAY(uint8_t, count, err);
-    return error_is_clean(err);
-}
-
-void contact_factors_destroy(ContactFactors *factors)
-{
-    memory_free_all(factors->lu, factors->pivots, factors->status);
-    *factors = (ContactFactors){0};
-}
-
-bool contact_factors_make(ContactFactors *factors, const ContactEquations *equations,
-                          const double *matrix)
-{
-    int32_t rows = equations->free_count;
-    contact_jacobian(equations, matrix, rows, factors->lu);
-    contact_copy_statuses(equations, factors->status);
-    factors->rows = dense_lu(factors->lu, rows, factors->pivots) ? rows : 0;
-    return factors->rows == rows;
-}
-
-void contact_factors_solve(const ContactFactors *factors, double *x)
-{
-    dense_lu_solve(factors->lu, factors->rows, factors->pivots, x);
-}
-
-// count: interface unknowns.
-void contact_factors_archive(ContactFactors *factors, int32_t count, Archive *archive)
-{
-    archive_section(archive, "contact factors");
-    archive_octets(archive, factors->status, count);
-    archive_index(archive, &factors->rows, 0, count + 1);
-    if (archive->failed) return;
-    archive_numbers(archive, factors->lu, (int64_t)factors->rows * factors->rows);
-    archive_indices(archive, factors->pivots, factors->rows, 1, factors->rows + 1);
-}
-
-// --- one step -----------------------------------------------------------------------------------
-
 bool contact_newton_create(const Interface *interface, ContactNewton *newton, Error *err)
 {
-    int64_t count = interface->count;
+    int64_t count = interface->count, contacts = interface->contact_count;
     *newton = (ContactNewton){0};
     newton->free = NEW_ARRAY(int32_t, count, err);
+    newton->node = NEW_ARRAY(int32_t, count, err);
     newton->open = NEW_ARRAY(int32_t, count, err);
-    newton->row = NEW_ARRAY(ContactRow, count, err);
+    newton->row = NEW_ARRAY(ContactRow, contacts, err);
     newton->step = NEW_ARRAY(double, count, err);
+    newton->residual = NEW_ARRAY(double, count, err);
     newton->more = NEW_ARRAY(double, count, err);
     newton->pull = NEW_ARRAY(double, count, err);
-    return error_is_clean(err) && contact_factors_create(interface, &newton->factors, err);
+    ContactFactors *factors = &newton->factors;
+    factors->lu = memory_bytes((int64_t)sizeof(double) * count * count, err);
+    factors->pivots = NEW_ARRAY(int32_t, count, err);
+    factors->status = NEW_ARRAY(uint8_t, contacts + interface->rod_count, err);
+    factors->row = NEW_ARRAY(ContactRow, contacts, err);
+    factors->column = NEW_ARRAY(double, count, err);
+    return error_is_clean(err);
 }
 
 void contact_newton_destroy(ContactNewton *newton)
 {
-    contact_factors_destroy(&newton->factors);
-    memory_free_all(newton->free, newton->open, newton->row, newton->step, newton->more,
-                    newton->pull);
+    ContactFactors *factors = &newton->factors;
+    memory_free_all(newton->free, newton->node, newton->open, newton->row, newton->step,
+                    newton->residual, newton->more, newton->pull, factors->lu, factors->pivots,
+                    factors->status, factors->row, factors->column);
     *newton = (ContactNewton){0};
 }
+
+// --- velocities and reactions -------------------------------------------------------------------
 
 void contact_newton_react(ContactNewton *newton)
 {
@@ -83,29 +48,27 @@ void contact_newton_react(ContactNewton *newton)
     newton->exact = true;
 }
 
-// Held unknowns take their values. A node that would slip against its status starts from rest; in
-// space there is no such thing, it turns.
-static void hold(ContactNewton *newton)
+// Without rows.
+static void begin(ContactNewton *newton, const ContactProblem *problem, ContactSolution *solution,
+                  double tolerance)
 {
-    const Interface *interface = newton->equations.problem->interface;
-    const ContactSolution *at = newton->equations.at;
-    newton->listed = false;
-    contact_hold(&newton->equations);
-    for (int32_t i = 0; interface->dim == 2 && i < interface->contact_count; i++) {
-        double *slip_rate = &at->velocity[interface_tangent(interface, i)];
-        if (status_slips(at->status[i]) && *slip_rate * status_direction(at->status[i]) < 0)
-            *slip_rate = 0;
-    }
+    newton->equations = (ContactEquations){.problem = problem,
+                                           .at = solution,
+                                           .tolerance = tolerance,
+                                           .free = newton->free,
+                                           .node = newton->node,
+                                           .row = newton->row};
+    newton->creeps = problem->friction->whole.law->creeps;
+    newton->rounding = 1e-3 * tolerance * dense_max_abs(problem->g, problem->interface->count);
+    newton->listed = newton->reused = false;
 }
 
 void contact_newton_begin(ContactNewton *newton, const ContactProblem *problem,
-                          ContactSolution *solution, double rounding)
+                          ContactSolution *solution, double tolerance)
 {
-    newton->equations = (ContactEquations){
-        .problem = problem, .at = solution, .free = newton->free, .row = newton->row};
-    newton->creeps = problem->friction->whole.law->creeps;
-    newton->rounding = rounding * dense_max_abs(problem->g, problem->interface->count);
-    hold(newton);
+    begin(newton, problem, solution, tolerance);
+    contact_take_statuses(&newton->equations);
+    contact_hold(&newton->equations);
     contact_newton_react(newton);
 }
 
@@ -114,9 +77,10 @@ void contact_newton_settle(ContactNewton *newton)
     const ContactProblem *problem = newton->equations.problem;
     const ContactSolution *at = newton->equations.at;
     int32_t count = problem->interface->count;
-    memcpy(newton->more, at->velocity, (size_t)count * sizeof(double));
-    hold(newton);
     bool moved = false;
+    memcpy(newton->more, at->velocity, (size_t)count * sizeof(double));
+    newton->listed = false;
+    contact_hold(&newton->equations);
     for (int32_t k = 0; k < count; k++) {
         newton->more[k] = at->velocity[k] - newton->more[k];
         moved = moved || newton->more[k] != 0;
@@ -127,36 +91,30 @@ void contact_newton_settle(ContactNewton *newton)
                       at->reaction);
 }
 
-bool contact_newton_close(ContactNewton *newton)
+// Lists what is free and open by the statuses as they are. false: nothing holds the open nodes.
+static bool list_unknowns(ContactNewton *newton)
 {
     const ContactProblem *problem = newton->equations.problem;
     const ContactSolution *at = newton->equations.at;
-    newton->closed = contact_matrix_close(
-        problem->matrix, at->status, problem->interface->contact_count, problem->interface->dim);
+    const Interface *interface = problem->interface;
+    newton->closed =
+        contact_matrix_close(problem->matrix, at->status, interface->contact_count, interface->dim);
     if (!newton->closed) return false;
     newton->open_count = 0;
-    for (int32_t i = 0; i < problem->interface->contact_count; i++) {
+    for (int32_t i = 0; i < interface->contact_count; i++) {
         if (at->status[i] != CONTACT_OPEN) continue;
-        for (int32_t c = 0; c < problem->interface->dim; c++)
-            newton->open[newton->open_count++] = interface_unknown(problem->interface, i, c);
+        for (int32_t c = 0; c < interface->dim; c++)
+            newton->open[newton->open_count++] = interface_unknown(interface, i, c);
     }
     contact_list_free(&newton->equations);
     newton->listed = true;
     return true;
 }
 
-bool contact_newton_list(ContactNewton *newton)
-{
-    if (!contact_newton_close(newton)) return false;
-    contact_find_rows(&newton->equations);
-    contact_residuals(&newton->equations, newton->step);
-    return true;
-}
-
 // pull: velocity change of all nodes when the forces at open nodes, which shall have none, are
 // removed, S' r_O, and on O itself -S_OO^-1 r_O, the motion of these nodes while the others stay.
 // Forces of the size of rounding are left as they are.
-void contact_newton_find_pull(ContactNewton *newton)
+static void find_pull(ContactNewton *newton)
 {
     int32_t count = newton->equations.problem->interface->count;
     bool pulls = false;
@@ -176,18 +134,18 @@ void contact_newton_find_pull(ContactNewton *newton)
 // Velocities and reactions after a step of what is free. Where nodes are open one product with S'
 // gives what the step adds to the reactions of the others and how open nodes follow; S v, which
 // has their columns too, is left to the end.
-void contact_newton_take(ContactNewton *newton)
+static void take_step(ContactNewton *newton, const double *step)
 {
     ContactSolution *at = newton->equations.at;
     int32_t count = newton->equations.problem->interface->count,
             free_count = newton->equations.free_count;
-    for (int32_t a = 0; a < free_count; a++) at->velocity[newton->free[a]] += newton->step[a];
+    for (int32_t a = 0; a < free_count; a++) at->velocity[newton->free[a]] += step[a];
     if (newton->open_count == 0) {
         contact_newton_react(newton);
         return;
     }
     memset(newton->more, 0, (size_t)count * sizeof(double));
-    for (int32_t a = 0; a < free_count; a++) newton->more[newton->free[a]] = newton->step[a];
+    for (int32_t a = 0; a < free_count; a++) newton->more[newton->free[a]] = step[a];
     dense_add_nonzero((DenseView){newton->closed, count, count}, newton->more, -1, newton->pull);
     for (int32_t k = 0; k < count; k++) at->reaction[k] -= newton->pull[k];
     for (int32_t b = 0; b < newton->open_count; b++) {
@@ -198,26 +156,90 @@ void contact_newton_take(ContactNewton *newton)
     newton->exact = false;
 }
 
+// --- factors ------------------------------------------------------------------------------------
+
+// True if the stored factors may be used again: they are the latest, of this S and of these
+// statuses, and steps with them gain. Factors of another step size would converge too slowly, and
+// where friction creeps each row changes from step to step.
+static bool keeps_factors(const ContactNewton *newton)
+{
+    const ContactFactors *factors = &newton->factors;
+    int64_t factored = newton->equations.problem->matrix->factored;
+    return newton->factors_gain && !newton->creeps && factored > 0 &&
+           factors->is_single == !newton->in_double && factored == newton->factorisations &&
+           factors->rows == newton->equations.free_count &&
+           contact_has_statuses(&newton->equations, factors->status);
+}
+
+// LU of the derivative at the rows as they are, which are kept. false: it is singular.
+static bool make_factors(ContactNewton *newton)
+{
+    const ContactEquations *equations = &newton->equations;
+    ContactMatrix *matrix = equations->problem->matrix;
+    ContactFactors *factors = &newton->factors;
+    int32_t size = equations->free_count;
+    bool regular;
+    factors->is_single = !newton->in_double;
+    if (factors->is_single) {
+        double scale = 1 / matrix->diagonal;
+        float *out = (float *)factors->lu;
+        for (int32_t b = 0; b < size; b++, out += size) {
+            contact_derivative_column(equations, newton->closed, b, factors->column);
+            for (int32_t a = 0; a < size; a++) out[a] = (float)(scale * factors->column[a]);
+        }
+        regular = dense_lu_single((float *)factors->lu, size, factors->pivots);
+    } else {
+        double *out = factors->lu;
+        for (int32_t b = 0; b < size; b++, out += size)
+            contact_derivative_column(equations, newton->closed, b, out);
+        regular = dense_lu(factors->lu, size, factors->pivots);
+    }
+    newton->factorisations++;
+    factors->rows = regular ? size : 0;
+    contact_copy_statuses(equations, factors->status);
+    memcpy(factors->row, newton->row,
+           (size_t)equations->problem->interface->contact_count * sizeof(ContactRow));
+    matrix->factored = regular ? newton->factorisations : 0;
+    newton->factors_gain = true;
+    return regular;
+}
+
+// x [rows] := derivative^-1 x.
+static void solve_by_factors(const ContactNewton *newton, double *x)
+{
+    const ContactFactors *factors = &newton->factors;
+    if (!factors->is_single) {
+        dense_lu_solve(factors->lu, factors->rows, factors->pivots, x);
+        return;
+    }
+    double scale = 1 / newton->equations.problem->matrix->diagonal;
+    dense_lu_single_solve((const float *)factors->lu, factors->rows, factors->pivots, x,
+                          (float *)factors->column);
+    for (int32_t a = 0; a < factors->rows; a++) x[a] *= scale;
+}
+
+// --- one step -----------------------------------------------------------------------------------
+
 // Nodes that never stick: friction there is steep at rest and flat above, over many decades of v.
 // Where it outweighs S, or the step would turn slip round, the step is taken in friction instead of
 // in v; no node comes to more than the forces at hand could drive, `fastest`. Slip may turn round
 // at 0, where nothing jumps.
-void contact_newton_creep(ContactNewton *newton)
+static void bend_where_it_creeps(ContactNewton *newton)
 {
     const ContactProblem *problem = newton->equations.problem;
-    const ContactSolution *at = newton->equations.at;
-    int32_t tangents = slip_tangents(problem->interface);
-    int64_t count = problem->interface->count;
+    const Interface *interface = problem->interface;
+    ContactSolution *at = newton->equations.at;
+    int32_t tangents = slip_tangents(interface);
+    int64_t count = interface->count;
     if (!newton->creeps) return;
     double fastest = contact_scales(problem, at->reaction).velocity;
-    for (int32_t a = 0; a < newton->equations.free_count; a++) {
-        int32_t k = newton->free[a], i = contact_slipping_node(&newton->equations, k);
-        if (i < 0 || !friction_at(problem->friction, i)->law->creeps) continue;
-        if (k != interface_tangent(problem->interface, i)) continue;
+    for (int32_t a = 0; a < newton->equations.free_count && newton->node[a] >= 0; a += tangents) {
+        int32_t k = newton->free[a], i = newton->node[a];
         const FrictionNode *node = friction_at(problem->friction, i);
+        if (!node->law->creeps) continue;
         double *v = at->velocity + k, *step = newton->step + a, turned = 0, next[TANGENTS_MAX];
-        double speed = slip_size(problem->interface, i, at->velocity);
-        double pressing = at->reaction[interface_normal(problem->interface, i)];
+        double speed = slip_size(interface, i, at->velocity);
+        double pressing = at->reaction[interface_normal(interface, i)];
         for (int32_t c = 0; c < tangents; c++) turned += (v[c] + step[c]) * v[c];
         bool steep = friction_direct_slope(node, speed) * pressing >
                      problem->matrix->schur[k * (count + 1)];
@@ -227,16 +249,7 @@ void contact_newton_creep(ContactNewton *newton)
         if (tangents > 1) size = hypot(next[0], next[1]);
         for (int32_t c = 0; c < tangents; c++)
             step[c] = (size > most ? next[c] * (most / size) : next[c]) - v[c];
-        if (tangents == 1) at->status[i] = status_of_slip(v[0] + step[0]);
     }
-}
-
-bool contact_newton_keeps_factors(const ContactNewton *newton)
-{
-    int64_t factored = newton->equations.problem->matrix->factored;
-    return newton->factors_gain && !newton->creeps && factored > 0 &&
-           factored == newton->factorisations &&
-           contact_has_statuses(&newton->equations, newton->factors.status);
 }
 
 // With factors of an earlier derivative it is a step of a chord method: linear in convergence, and
@@ -244,53 +257,81 @@ bool contact_newton_keeps_factors(const ContactNewton *newton)
 bool contact_newton_step(ContactNewton *newton)
 {
     const ContactEquations *equations = &newton->equations;
-    ContactMatrix *matrix = equations->problem->matrix;
+    if (!newton->listed && !list_unknowns(newton)) return false;
     int32_t free_count = equations->free_count;
+    newton->reused = keeps_factors(newton);
+    if (!newton->reused && !make_factors(newton)) return false;
 
-    newton->reused = newton->factors.rows == free_count && contact_newton_keeps_factors(newton);
-    if (!newton->reused) {
-        newton->factorisations++;
-        bool regular = contact_factors_make(&newton->factors, equations, newton->closed);
-        matrix->factored = regular ? newton->factorisations : 0;
-        if (!regular) return false;
-        newton->factors_gain = true;
-    }
-
-    // The right-hand side, with what the forces at open nodes do to the others.
+    // The residual, with what the forces at open nodes do to the others, becomes the step.
+    const ContactRow *kept = newton->reused ? newton->factors.row : NULL;
+    if (!isfinite(contact_residuals(equations, kept, newton->step))) return false;
     for (int32_t a = 0; a < free_count; a++) newton->step[a] = -newton->step[a];
     if (newton->open_count > 0) {
-        contact_newton_find_pull(newton);
-        contact_combine(equations, newton->pull, newton->more);
-        dense_add_scaled(1, newton->more, free_count, newton->step);
+        find_pull(newton);
+        contact_combine(equations, newton->factors.row, newton->pull, newton->step);
     }
-
-    contact_factors_solve(&newton->factors, newton->step);
-    contact_newton_creep(newton);
-    contact_newton_take(newton);
+    solve_by_factors(newton, newton->step);
+    bend_where_it_creeps(newton);
+    take_step(newton, newton->step);
     return true;
+}
+
+void contact_newton_halve(ContactNewton *newton)
+{
+    for (int32_t a = 0; a < newton->equations.free_count; a++) {
+        newton->step[a] *= 0.5;
+        newton->residual[a] = -newton->step[a];
+    }
+    memset(newton->pull, 0, (size_t)newton->equations.problem->interface->count * sizeof(double));
+    take_step(newton, newton->residual);
 }
 
 double contact_newton_residual(ContactNewton *newton)
 {
-    const ContactEquations *equations = &newton->equations;
-    double largest = 0, *left = newton->step;
-    contact_find_rows(equations);
-    contact_residuals(equations, left);
-    for (int32_t a = 0; a < equations->free_count; a++) {
-        if (!isfinite(left[a])) return INFINITY;
-        if (fabs(left[a]) > largest) largest = fabs(left[a]);
-    }
+    double largest = contact_residuals(&newton->equations, NULL, newton->residual);
     for (int32_t a = 0; a < newton->open_count; a++) {
-        double force = equations->at->reaction[newton->open[a]];
-        if (!isfinite(force)) return INFINITY;
-        largest = fmax(largest, fabs(force));
+        double force = newton->equations.at->reaction[newton->open[a]];
+        largest = isfinite(force) ? fmax(largest, fabs(force)) : INFINITY;
     }
     return largest;
 }
 
-void contact_newton_archive(ContactNewton *newton, int32_t count, Archive *archive)
+bool contact_newton_follow(ContactNewton *newton, const ContactRow *rows,
+                           const ContactProblem *problem, ContactSolution *solution)
 {
-    contact_factors_archive(&newton->factors, count, archive);
+    const Interface *interface = problem->interface;
+    memset(solution->velocity, 0, (size_t)interface->count * sizeof(double));
+    begin(newton, problem, solution, 0);
+    memcpy(newton->row, rows, (size_t)interface->contact_count * sizeof(ContactRow));
+    contact_hold(&newton->equations);
+    contact_newton_react(newton);
+    newton->factors_gain = false;
+    newton->in_double = true;
+    if (!contact_newton_step(newton)) return false;
+    contact_newton_react(newton);
+    contact_release(&newton->equations);
+    return true;
+}
+
+// Its bytes are as many as the factors have.
+void contact_newton_archive(ContactNewton *newton, const Interface *interface, Archive *archive)
+{
+    ContactFactors *factors = &newton->factors;
+    int32_t contacts = interface->contact_count;
+    archive_section(archive, "contact factors");
+    archive_octets(archive, factors->status, contacts + interface->rod_count);
+    archive_index(archive, &factors->rows, 0, interface->count + 1);
+    archive_flag(archive, &factors->is_single);
+    if (archive->failed) return;
+    int64_t size = (int64_t)(factors->is_single ? sizeof(float) : sizeof(double));
+    archive_octets(archive, (uint8_t *)factors->lu, size * factors->rows * factors->rows);
+    archive_indices(archive, factors->pivots, factors->rows, 1, factors->rows + 1);
+    for (int32_t i = 0; i < contacts; i++) {
+        ContactRow *row = &factors->row[i];
+        archive_numbers(archive, row->d, TANGENTS_MAX);
+        archive_numbers_of(archive, &row->mu, &row->theta, &row->rho);
+        archive_numbers(archive, row->along, TANGENTS_MAX);
+    }
     archive_flag(archive, &newton->factors_gain);
     archive_count(archive, &newton->factorisations);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Projected Gauss-Seidel sweeps for the contact problem: one node after the other takes the
 // velocity that keeps all of its conditions while the others' velocities stay. Slow to end, but
-// sure to come near: where contact/contact_discs and contact/contact_solver start again.
+// sure to come near: where contact/contact_solver starts again.
 #ifndef AMONTONS_CONTACT_CONTACT_SWEEPS_H
 #define AMONTONS_CONTACT_CONTACT_SWEEPS_H
 

@@ -221,7 +221,7 @@ bool accuracy_run_member(Accuracy *accuracy, bool *coarse, Error *err)
                           .context = accuracy,
                           .stop = accuracy->options->stop};
     Simulation *simulation = NULL;
-    EndWait wait = {.mu = NAN};
+    EndWait wait = {.mu = NAN, .passed = NAN};
     bool first = !levels_have_runs(&accuracy->levels) && accuracy->levels.count == 1;
     double started = clock_seconds(), deadline = accuracy->deadline - accuracy_full(accuracy, 1);
     accuracy->begun = started;

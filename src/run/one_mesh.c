@@ -6,6 +6,8 @@
 #include <math.h>
 
 enum { END_NODES = 2 };   // with so few left to slip, they decide when the block slides
+// They did not where mu rises by more than this part after they, too, have begun to slip.
+static const double AFTERWARDS = 0.1;
 static const double ROUNDING = 1e-6;   // of positions, in cells
 
 void one_mesh_read(const Simulation *simulation, Level *level)
@@ -52,20 +54,20 @@ void end_wait_watch(EndWait *wait, const Simulation *simulation)
     const Drops *drops = &simulation->drops;
     if (!has_end(interface)) return;
     bool in_event = events->rapid >= 0 || events->ended;
-    if (!in_event && isnan(wait->mu) &&
-        cells_left(interface, simulation->seen.front) < END_NODES - ROUNDING)
-        wait->mu = simulation->seen.mu;
+    double left = cells_left(interface, simulation->seen.front), mu = simulation->seen.mu;
+    if (!in_event && isnan(wait->mu) && left < END_NODES - ROUNDING) wait->mu = mu;
+    if (!in_event && isnan(wait->passed) && left < ROUNDING) wait->passed = mu;
     if (events->crossed && drops->count > 1) {
+        double peak = drops->list[drops->count - 1].mu, rise = peak - wait->mu;
         wait->slidings++;
-        if (!isnan(wait->mu)) wait->rise += drops->list[drops->count - 1].mu - wait->mu;
+        if (rise > 0 && !(peak - wait->passed > AFTERWARDS * rise)) wait->rise += rise;
     }
-    if (in_event) wait->mu = NAN;
+    if (in_event) wait->mu = wait->passed = NAN;
 }
 
 double end_wait_of(const EndWait *wait, const Interface *interface, double critical_length)
 {
     if (!has_end(interface) || isnan(critical_length) || wait->slidings == 0) return 0;
-    double left = cells_left(interface, critical_length);
-    bool waits = left > ROUNDING && left < END_NODES - ROUNDING;
+    bool waits = cells_left(interface, critical_length) < END_NODES - ROUNDING;
     return waits ? wait->rise / wait->slidings : 0;
 }

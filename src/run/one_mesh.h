@@ -19,17 +19,19 @@ void one_mesh_answer(const Simulation *simulation, Answers *answers);
 // is an error of the mesh. In space a row of nodes lets go one by one, and bars hold without this
 // (validation/space/priors.md). Watched after each step.
 //
-// Zeroed before the first step, but for mu: NaN.
+// Zeroed before the first step, but for mu and passed: NaN.
 typedef struct EndWait {
     double mu;   // when the front came to the last nodes, since the last fall; NaN: it has not
+    double passed;   // when it had come past them
     double rise;   // sum over bulk slidings
     int32_t slidings;   // all but the first
 } EndWait;
 
 void end_wait_watch(EndWait *wait, const Simulation *simulation);
 
-// Mean rise of mu, where the front of slip comes to the last nodes and not past them before the
-// block slides (critical_length: the mean l_c, length). 0: it does not; several pads; in space.
+// Mean rise of mu, where the front of slip comes to the last nodes (critical_length: the mean l_c,
+// length) and the block slides as soon as it comes past them. 0: it does not; several pads; in
+// space.
 double end_wait_of(const EndWait *wait, const Interface *interface, double critical_length);
 
 #endif

@@ -201,7 +201,8 @@ bool half_step_solve(HalfStep *half, const ContactProblem *problem, ContactMatri
     folded.g = half->anti_g;
     folded.bound = half->anti_bound;
     ContactSolution anti = {half->anti_velocity, half->anti_reaction, at.status, at.rod_touches};
-    if (!contact_discs_follow(&half->solver.discs, &half->newton, &folded, &anti)) return false;
+    if (!contact_newton_follow(&half->newton, half->solver.newton.row, &folded, &anti))
+        return false;
     contact_half_add(contact, true, anti.velocity, solution->velocity);
     contact_half_add_forces(contact, true, anti.reaction, solution->reaction);
     return true;

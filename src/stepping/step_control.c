@@ -310,7 +310,8 @@ bool step_control_advance(StepControl *control, double remaining, Error *err)
     for (;;) {
         // A path through the contact problem costs as much as some hundred steps on a large
         // interface, and shorter steps need none: only where none is left.
-        control->scheme.solver.sweeps_on = k == dt_levels->level_count - 1;
+        bool sweeps_on = k == dt_levels->level_count - 1;
+        control->scheme.solver.sweeps_on = control->half.solver.sweeps_on = sweeps_on;
         // The whole contact is solved, or its symmetric part alone, with the antisymmetric one
         // where that does not decay.
         bool halved = dt_levels->half && !control->asymmetric &&

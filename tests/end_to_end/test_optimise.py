@@ -43,17 +43,20 @@ class Optimise(unittest.TestCase):
             return list(csv.DictReader(file))
 
     def test_finds_what_a_grid_has(self):
-        """Of 4 x 13 designs, those outside the limit left out, none is better by more than a step of the grid; three seeds."""
-        self.call("sweep", HEAD + "vary: {mesh.set.length: [1, 2, 3, 4], load.pressure: {log: [0.003, 0.012], points: 13}}\n",
+        """Of 4 x 13 designs, those outside the limit left out, none is better by more than a step of the grid; three seeds. At a
+        tolerance of steps at which no design stands out by chance: at the usual one mu_max of one in ten is off by 1 to 10 %."""
+        head = HEAD.replace("time.until.U", "time.tolerance: 1e-6, time.until.U")
+        search = SEARCH.replace(HEAD, head).replace("designs: 30", "designs: 40")
+        self.call("sweep", head + "vary: {mesh.set.length: [1, 2, 3, 4], load.pressure: {log: [0.003, 0.012], points: 13}}\n",
                   "-q", "-o", "grid")
         grid = {(float(row["mesh.set.length"]), float(row["load.pressure"])): float(row["mu_max"]) for row in self.table("grid")}
         allowed = {key: mu for key, mu in grid.items() if key[0] * key[1] >= 0.008 * (1 - 1e-9)}
         self.assertLess(max(allowed.values()), max(grid.values()))     # the limit matters
         beside = sorted(allowed.values())[-1] - sorted(allowed.values())[-3]
         for seed in (1, 2, 3):
-            said = self.call("optimise", SEARCH.replace("SEED", str(seed)), "-j", "2", "-o", f"out{seed}").stdout
+            said = self.call("optimise", search.replace("SEED", str(seed)), "-j", "2", "-o", f"out{seed}").stdout
             rows = self.table(f"out{seed}")
-            self.assertGreaterEqual(len(rows), 30)
+            self.assertGreaterEqual(len(rows), 40)
             self.assertTrue(all(float(row["mesh.set.length"]) * float(row["load.pressure"]) >= 0.008 for row in rows))
             best = max(rows, key=lambda row: float(row["mu_max"]))
             self.assertGreater(float(best["mu_max"]), max(allowed.values()) - beside)

@@ -117,8 +117,8 @@ TEST(test_known_solutions)
     }
 }
 
-// Weakening up to a hundred times faster than S resists, and friction up to 1.2: there may be many
-// solutions; one is found, often by sweeps only.
+// Weakening up to three hundred times faster than S resists, and friction up to 1.2: there may be
+// many solutions; one is found, now and then by sweeps only.
 TEST(test_hard_problems)
 {
     Random random = {.state = 132};
@@ -128,7 +128,7 @@ TEST(test_hard_problems)
         hand.law = (FrictionLaw){.kind = (FrictionKind)(trial % 2),
                                  .mu_static = random_between(&random, 0.1, 1.2),
                                  .mu_kinetic = 0.1,
-                                 .critical_velocity = random_between(&random, 0.01, 0.3)};
+                                 .critical_velocity = random_between(&random, 0.003, 0.1)};
         hand_random_schur(&random, 1, 0.5, &hand);
         random_loads(&random, &hand);
         random_statuses(&random, &hand);

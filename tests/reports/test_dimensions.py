@@ -38,7 +38,6 @@ REASONS = {
     "render/view/space_time.h": ("begin and end of a stretch of time", r"\(\*events\)"),
     "render/frames/frames.c": ("two arrays", r"frames->x"),
     "src/contact/interface.c": ("a floor is flat", r"d < 2; d"),
-    "src/contact/contact_discs.c": ("both tangents and the normal of a node in space", r"entry\["),
     "src/reduction/training_points.c": ("points of a path, and points between", r"path\S*at\[|2 \* steps"),
     "src/run/info/info_curves.c": ("x and y of a picture", r"d < 2; d"),
     "render/events_table.c": ("half of a length", r"NUMBER_LENGTH\] / 2"),

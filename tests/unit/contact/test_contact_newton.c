@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Steps where most nodes are open: what one says of reactions and of open nodes against S v - g
-// summed up here, and what a solve hands back.
+// summed up here, what a solve hands back, and factors that are read back from an archive.
 #include "contact/contact_newton.h"
 
 #include "contact_by_hand.h"
@@ -42,6 +42,31 @@ static double force_of(int32_t row)
     return sum;
 }
 
+// Rows of nodes that slip forward, at velocities and reactions as they are.
+static void find_rows(ContactNewton *newton)
+{
+    for (int32_t i = 0; i < NODES; i++) {
+        double v = hand.velocity[2 * i];
+        const FrictionNode *node = friction_at(&hand.friction, i);
+        newton->row[i] = (ContactRow){.d = {1}, .mu = friction_coefficient(node, fabs(v))};
+        newton->row[i].along[0] = friction_slope(node, fabs(v)) * hand.reaction[2 * i + 1];
+    }
+}
+
+// From the statuses of the problem, which those velocities and reactions would change.
+static void begin_steps(ContactNewton *newton, const ContactProblem *problem,
+                        ContactSolution *solution)
+{
+    uint8_t wanted[NODES];
+    memcpy(wanted, hand.status, sizeof wanted);
+    newton->in_double = true;
+    contact_newton_begin(newton, problem, solution, 1e-12);
+    memcpy(hand.status, wanted, sizeof wanted);
+    contact_newton_settle(newton);
+    contact_newton_react(newton);
+    find_rows(newton);
+}
+
 // From velocities that leave forces at open nodes: after one step these have none, all other
 // reactions are those of the velocities there are, and each further step keeps them so.
 TEST(test_step_adds_up)
@@ -55,20 +80,20 @@ TEST(test_step_adds_up)
     assert_true(contact_newton_create(&hand.interface, &newton, &err));
     ContactSolution solution = {hand.velocity, hand.reaction, hand.status, hand.rod_touches};
     ContactProblem problem = hand_problem(&hand, &matrix);
-    contact_newton_begin(&newton, &problem, &solution, 1e-15);
-    assert_true(newton.exact);
-    assert_true(contact_newton_list(&newton));
-    assert_int_equal(newton.open_count, 2 * 18);
-    double before = contact_newton_residual(&newton), after = before;
+    begin_steps(&newton, &problem, &solution);
+    double force = contact_scales(&problem, NULL).force, after = INFINITY;
     for (int step = 0; step < 8; step++) {
         assert_true(contact_newton_step(&newton));
         assert_false(newton.exact);
         for (int32_t k = 0; k < hand.interface.count; k++)
-            assert_near("reaction", hand.reaction[k], force_of(k), 1e-12 * before);
+            assert_near("reaction", hand.reaction[k], force_of(k), 1e-12 * force);
+        assert_int_equal(newton.open_count, 2 * 18);
+        find_rows(&newton);
         after = contact_newton_residual(&newton);
         newton.factors_gain = step % 2;   // anew, and once more with the same
+        assert_int_equal(newton.reused, step > 0 && step % 2 == 0);
     }
-    assert_true(before > 1 && after < 1e-9 * before);
+    assert_true(after < 1e-9 * force);
     contact_newton_react(&newton);
     assert_true(newton.exact);
     contact_newton_destroy(&newton);
@@ -76,7 +101,7 @@ TEST(test_step_adds_up)
 }
 
 // Where statuses change reactions follow what moves: nodes that stick or close are put in their
-// place, those that open or slip stay as they are, and against its status none slips.
+// place, those that open or slip stay as they are.
 TEST(test_reactions_follow_statuses)
 {
     Error err = {0};
@@ -88,8 +113,7 @@ TEST(test_reactions_follow_statuses)
     assert_true(contact_newton_create(&hand.interface, &newton, &err));
     ContactSolution solution = {hand.velocity, hand.reaction, hand.status, hand.rod_touches};
     ContactProblem problem = hand_problem(&hand, &matrix);
-    for (int32_t k = 0; k < hand.interface.count; k++) hand.reaction[k] = NAN;   // of no use to it
-    contact_newton_begin(&newton, &problem, &solution, 1e-15);
+    begin_steps(&newton, &problem, &solution);
     for (int32_t k = 0; k < hand.interface.count; k++)
         assert_near("at first", hand.reaction[k], force_of(k), 1e-12);
     hand.status[4] = CONTACT_OPEN;   // it stuck
@@ -97,11 +121,9 @@ TEST(test_reactions_follow_statuses)
     contact_newton_settle(&newton);
     assert_true(newton.exact);   // nothing has moved
     hand.status[0] = CONTACT_STICK;
-    hand.status[3] = CONTACT_SLIP_BACKWARD;
     contact_newton_settle(&newton);
     assert_false(newton.exact);
     assert_true(hand.velocity[0] == 0 && hand.velocity[1] == hand.bound[1]);
-    assert_true(hand.velocity[2 * 3] == 0);
     for (int32_t k = 0; k < hand.interface.count; k++)
         assert_near("reaction", hand.reaction[k], force_of(k), 1e-12);
     contact_newton_destroy(&newton);
@@ -129,4 +151,72 @@ TEST(test_solution_is_exact)
         }
     }
     assert_true(open > 10 * 40);
+}
+
+// Half of a step is taken back: velocities lie half way, and reactions are theirs.
+TEST(test_half_a_step)
+{
+    Error err = {0};
+    Random random = {.state = 44};
+    ContactMatrix matrix;
+    ContactNewton newton;
+    make_problem(&random);
+    assert_true(contact_matrix_create(hand.schur, hand.interface.count, &matrix, &err));
+    assert_true(contact_newton_create(&hand.interface, &newton, &err));
+    ContactSolution solution = {hand.velocity, hand.reaction, hand.status, hand.rod_touches};
+    ContactProblem problem = hand_problem(&hand, &matrix);
+    begin_steps(&newton, &problem, &solution);
+    assert_true(contact_newton_step(&newton));   // open nodes have no force from here on
+    double from[HAND_UNKNOWNS], to[HAND_UNKNOWNS];
+    memcpy(from, hand.velocity, sizeof from);
+    assert_true(contact_newton_step(&newton));
+    memcpy(to, hand.velocity, sizeof to);
+    contact_newton_halve(&newton);
+    for (int32_t k = 0; k < hand.interface.count; k++) {
+        assert_near("v", hand.velocity[k], (from[k] + to[k]) / 2, 1e-12);
+        assert_near("reaction", hand.reaction[k], force_of(k), 1e-11);
+    }
+    contact_newton_destroy(&newton);
+    contact_matrix_destroy(&matrix);
+}
+
+// A step with factors that were read back has the bits of one with those that were written, in
+// either precision.
+TEST(test_archive)
+{
+    static char bytes[4 * 8 * HAND_UNKNOWNS * HAND_UNKNOWNS];
+    Error err = {0};
+    Random random = {.state = 45};
+    for (int in_double = 0; in_double < 2; in_double++) {
+        ContactMatrix matrix;
+        ContactNewton newton, copy;
+        make_problem(&random);
+        assert_true(contact_matrix_create(hand.schur, hand.interface.count, &matrix, &err));
+        assert_true(contact_newton_create(&hand.interface, &newton, &err));
+        assert_true(contact_newton_create(&hand.interface, &copy, &err));
+        ContactSolution solution = {hand.velocity, hand.reaction, hand.status, hand.rod_touches};
+        ContactProblem problem = hand_problem(&hand, &matrix);
+        begin_steps(&newton, &problem, &solution);
+        newton.in_double = copy.in_double = in_double;
+        assert_true(contact_newton_step(&newton));
+        Archive archive = archive_write(bytes, sizeof bytes);
+        contact_newton_archive(&newton, &hand.interface, &archive);
+        archive = archive_read(bytes, archive.at);
+        contact_newton_archive(&copy, &hand.interface, &archive);
+        assert_true(archive_check(&archive, true, &err));
+        HandContact before = hand;
+        double found[2][HAND_UNKNOWNS];
+        for (int k = 0; k < 2; k++) {
+            ContactNewton *with = k ? &copy : &newton;
+            hand = before;
+            begin_steps(with, &problem, &solution);
+            with->in_double = in_double;
+            assert_true(contact_newton_step(with) && with->reused);
+            memcpy(found[k], hand.velocity, sizeof found[k]);
+        }
+        assert_memory_equal(found[0], found[1], sizeof found[0]);
+        contact_newton_destroy(&newton);
+        contact_newton_destroy(&copy);
+        contact_matrix_destroy(&matrix);
+    }
 }

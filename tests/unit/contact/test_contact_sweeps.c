@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Sweeps in the plane, without statuses to begin from: random problems of every law, judged by
-// their conditions; one node by hand; nothing allocated. Sweeps in space: test_contact_discs.c.
+// their conditions; one node by hand; nothing allocated. Sweeps in space:
+// test_contact_solver_space.c.
 #include "contact/contact_sweeps.h"
 
 #include "base/memory.h"

@@ -180,9 +180,9 @@ static void move_on_rising_friction(double shear, double thrown)
     assert_near("nothing falls", friction_law_drop(&def.law), 0, 0);
     rig_build(&def, &rig);
     assert_true(step_control_create(&rig.block, &steps, &control, &err));
-    rig.law.mu_static = 10;
+    rig.law = (FrictionLaw){.kind = FRICTION_COULOMB, .mu_static = 10};
     settle(&control);
-    rig.law.mu_static = 0.3;
+    rig.law = def.law;
     step_control_restart(&control);
     double start = control.now.displacement[0], from = control.now.time;
     double friction = control.ledger.frictional;
