@@ -70,10 +70,7 @@ const char *friction_state_unit(const FrictionLaw *law)
 
 FrictionNode friction_node(const FrictionLaw *law, double factor)
 {
-    FrictionNode node = {.law = law,
-                         .factor = factor,
-                         .threshold = factor * law->mu_static,
-                         .pressure = law->pressure};
+    FrictionNode node = {.law = law, .factor = factor, .pressure = law->pressure};
     memcpy(node.from, law->start, sizeof node.from);
     return node;
 }
@@ -466,7 +463,6 @@ void friction_set_stage(FrictionNode *node, const double *from, double reach)
     if (!node->law->remembers) return;
     memcpy(node->from, from, (size_t)node->law->states * sizeof(double));
     node->reach = reach;
-    node->threshold = stage_coefficient(node, 0);
 }
 
 double friction_set_pressure(FrictionNode *node, double pressure, double speed)
@@ -474,7 +470,6 @@ double friction_set_pressure(FrictionNode *node, double pressure, double speed)
     if (!node->law->feels_pressure) return 0;
     double before = stage_coefficient(node, speed);
     node->pressure = pressure;
-    node->threshold = stage_coefficient(node, 0);
     return stage_coefficient(node, speed) - before;
 }
 

@@ -27,7 +27,6 @@ typedef struct FrictionNode {
     const FrictionLaw *law;   // an entry of the contact's list
     double factor;   // on mu at every speed, 1
     // The stage under way, of a law that remembers.
-    double threshold;   // mu at rest in this stage, 1: see friction_threshold
     double from[STATES_MAX], reach;   // see above; reach: time; 0: the states are `from`
     double pressure;   // p, stress
     // Another clock, by friction_paced; 0: none.
@@ -74,12 +73,6 @@ int32_t friction_states(const Friction *friction, int32_t count);
 // where it strengthens; at a kink the slope beyond it.
 double friction_coefficient(const FrictionNode *node, double speed);
 double friction_slope(const FrictionNode *node, double speed);
-
-// mu at rest: what the node can hold while it sticks.
-static inline double friction_threshold(const FrictionNode *node)
-{
-    return node->law->remembers ? node->threshold : node->factor * node->law->mu_static;
-}
 
 // mu_K there.
 static inline double friction_kinetic(const FrictionNode *node)

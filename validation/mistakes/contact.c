@@ -101,7 +101,6 @@ static bool solve_smoothed(ContactSolver *solver, const ContactProblem *problem,
     for (int32_t i = 0; i < count; i++) {
         node[i] = *friction_at(problem->friction, i);
         node[i].law = &smooth.law;
-        node[i].threshold = 0;
     }
     smooth.all = *problem->friction;
     smooth.all.node = node;

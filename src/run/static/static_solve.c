@@ -128,9 +128,10 @@ static bool static_solve(Model *model, StaticSolution *solution, Error *err)
     TRY(model_lay_laws(model, err));
     TRY(model_lay_gaps(model, err));
     TRY((solution->friction_nodes = NEW_ARRAY(FrictionNode, interface->contact_count, err)));
-    for (int32_t i = 0; i < interface->contact_count; i++)
-        solution->friction_nodes[i] =
-            friction_constant(friction_threshold(friction_at(&model->friction, i)));
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        const FrictionNode *node = friction_at(&model->friction, i);
+        solution->friction_nodes[i] = friction_constant(node->factor * node->law->mu_static);
+    }
     solution->friction = friction_of_nodes(solution->friction_nodes, interface->contact_count);
     memcpy(solution->load, bulk->load, (size_t)bulk->dof_count * sizeof(double));
     floor_scatter(&model->mesh, solution->load);

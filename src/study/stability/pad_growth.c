@@ -172,7 +172,7 @@ static double fall_of_mu(PadWork *work)
         const FrictionNode *node = friction_at(friction, i);
         double kinetic = node->law->remembers
                              ? friction_kinetic(node)
-                             : fmax(friction_threshold(node) - friction_drop(node), 0);
+                             : fmax(friction_coefficient(node, 0) - friction_drop(node), 0);
         if (node->law->creeps) return NAN;   // nothing ends its fall
         work->values[a] = fabs(path->runaway.reaction[interface_tangent(interface, i)]) -
                           kinetic * path->runaway.reaction[interface_normal(interface, i)];

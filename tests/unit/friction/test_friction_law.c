@@ -76,7 +76,7 @@ TEST(test_nodes)
             assert_near("mu", friction_coefficient(&each[k], v), mu, 1e-15);
             assert_near("slope", friction_slope(&each[k], v), slope, 1e-13);
         }
-        assert_near("threshold", friction_threshold(&each[k]), 0.6 * (0.5 + k), 1e-15);
+        assert_near("at rest", friction_coefficient(&each[k], 0), 0.6 * (0.5 + k), 1e-15);
     }
     each[3] = friction_constant(0);
     laws[0].critical_velocity = 0.01;
