@@ -61,19 +61,17 @@ static double pull_of(const ContactEquations *equations, int32_t i, double z[TAN
     return r[n] - problem->matrix->own[n] * (v[n] - problem->bound[n]);
 }
 
-// The row of node i, which slips. Slow creep has the direction of its velocity: friction is 0 at
-// rest there.
+// The row of node i, which slips with this speed and mu; limit: mu p. Slow creep has the direction
+// of its velocity: friction is 0 at rest there.
 static void find_row(const ContactEquations *equations, int32_t i, const double z[TANGENTS_MAX],
-                     double pressing)
+                     double speed, double mu, double limit)
 {
     const ContactProblem *problem = equations->problem;
     const FrictionNode *node = friction_at(problem->friction, i);
     int32_t tangents = slip_tangents(problem->interface);
     int32_t t = interface_tangent(problem->interface, i);
     const double *v = equations->at->velocity + t;
-    double speed = slip_size(problem->interface, i, equations->at->velocity);
     double size = hypot(z[0], z[1]), rho = own_stiffness(problem, i);
-    double mu = friction_coefficient(node, speed), limit = mu * fmax(pressing, 0);
     ContactRow *row = &equations->row[i];
     *row = (ContactRow){.d = {-z[0] / size, -z[1] / size},
                         .mu = mu,
@@ -83,7 +81,7 @@ static void find_row(const ContactEquations *equations, int32_t i, const double 
         for (int32_t c = 0; c < tangents; c++) row->d[c] = v[c] / speed;
     double slope = friction_slope(node, speed) * fmax(equations->at->reaction[t + tangents], 0);
     for (int32_t c = 0; c < tangents; c++)
-        row->along[c] = slope * (speed > 0 ? v[c] / speed : row->d[c]);
+        row->slope[c] = slope * (speed > 0 ? v[c] / speed : row->d[c]);
 }
 
 // Status of node i, and its row where it slips. false: its status stays.
@@ -93,20 +91,19 @@ static bool judge_node(const ContactEquations *equations, int32_t i)
     const FrictionNode *node = friction_at(equations->problem->friction, i);
     uint8_t *status = &equations->at->status[i], was = *status;
     double slack = equations->tolerance * equations->scales.force;
-    double z[TANGENTS_MAX], pressing = pull_of(equations, i, z), size = hypot(z[0], z[1]);
-    double speed = slip_size(interface, i, equations->at->velocity);
-    double limit = friction_coefficient(node, speed) * fmax(pressing, 0);
+    double z[TANGENTS_MAX], pressing = pull_of(equations, i, z);
+    if (pressing <= (was == CONTACT_OPEN ? slack : -slack)) {
+        *status = CONTACT_OPEN;
+        return was != CONTACT_OPEN;
+    }
+    double size = hypot(z[0], z[1]), speed = slip_size(interface, i, equations->at->velocity);
+    double mu = friction_coefficient(node, speed), limit = mu * fmax(pressing, 0);
+    bool sticks = size <= limit + (was == CONTACT_STICK ? slack : 0);
     // What slips rests before it would turn round.
     bool turns = status_slips(was) && along(&equations->row[i], slip_tangents(interface), z) > 0;
-    if (pressing <= (was == CONTACT_OPEN ? slack : -slack))
-        *status = CONTACT_OPEN;
-    else if (node->law->creeps && size > 0)
-        *status = CONTACT_SLIP_FORWARD;
-    else if (turns || size <= limit + (was == CONTACT_STICK ? slack : 0))
-        *status = CONTACT_STICK;
-    else
-        *status = CONTACT_SLIP_FORWARD;
-    if (status_slips(*status)) find_row(equations, i, z, pressing);
+    bool creeps = node->law->creeps && size > 0;
+    *status = !creeps && (sticks || turns) ? CONTACT_STICK : CONTACT_SLIP_FORWARD;
+    if (status_slips(*status)) find_row(equations, i, z, speed, mu, limit);
     return *status != was;
 }
 
@@ -155,30 +152,28 @@ void contact_take_statuses(ContactEquations *equations)
     }
 }
 
-bool contact_start_fast(const ContactEquations *equations, const uint8_t *stepped, double least)
+bool contact_start_fast(const ContactEquations *equations, const uint8_t *stepped,
+                        const double *velocity, double least)
 {
     const ContactProblem *problem = equations->problem;
     const Interface *interface = problem->interface;
-    int32_t tangents = slip_tangents(interface), worst = -1;
-    double fastest = 0;
+    ContactSolution *at = equations->at;
+    int32_t tangents = slip_tangents(interface);
+    bool started = false;
     for (int32_t i = 0; i < interface->contact_count; i++) {
-        if (!status_slips(stepped[i])) continue;
+        int32_t t = interface_tangent(interface, i);
         const FrictionNode *node = friction_at(problem->friction, i);
         const ContactRow *row = &equations->row[i];
-        double back =
-            -along(row, tangents, equations->at->velocity + interface_tangent(interface, i));
-        double falls = -friction_slope(node, 0) *
-                       equations->at->reaction[interface_normal(interface, i)];
-        if (!(back > fastest) || node->law->creeps || !(falls > least * row->rho)) continue;
-        fastest = back;
-        worst = i;
+        if (!status_slips(stepped[i]) || at->status[i] == CONTACT_OPEN) continue;
+        double falls = -friction_slope(node, 0) * at->reaction[t + tangents];
+        bool back = along(row, tangents, velocity + t) < 0;
+        if (!back || node->law->creeps || !(falls > least * row->rho)) continue;
+        for (int32_t c = 0; c < tangents; c++)
+            at->velocity[t + c] = row->d[c] * friction_spent_speed(node);
+        at->status[i] = CONTACT_SLIP_FORWARD;
+        started = true;
     }
-    if (worst < 0) return false;
-    double *v = equations->at->velocity + interface_tangent(interface, worst);
-    double speed = friction_spent_speed(friction_at(problem->friction, worst));
-    for (int32_t c = 0; c < tangents; c++) v[c] = equations->row[worst].d[c] * speed;
-    equations->at->status[worst] = CONTACT_SLIP_FORWARD;
-    return true;
+    return started;
 }
 
 // --- what is free, what is held -----------------------------------------------------------------
@@ -241,6 +236,14 @@ void contact_release(const ContactEquations *equations)
             at->reaction[interface_unknown(interface, i, c)] = 0;
     for (int32_t j = 0; j < interface->rod_count; j++)
         if (!at->rod_touches[j]) at->reaction[interface_rod(interface, j)] = 0;
+}
+
+bool contact_is_finite(const ContactEquations *equations)
+{
+    const ContactSolution *at = equations->at;
+    for (int32_t k = 0; k < equations->problem->interface->count; k++)
+        if (!isfinite(at->velocity[k]) || !isfinite(at->reaction[k])) return false;
+    return true;
 }
 
 // --- equations and their derivative -------------------------------------------------------------
@@ -328,7 +331,7 @@ void contact_derivative_column(const ContactEquations *equations, const double *
     }
     const ContactRow *row = &equations->row[i];
     int32_t axis = dof_axis(dim, own), first = b - axis;
-    out[first] += row->along[axis];
+    out[first] += row->slope[axis];
     if (dim == 2) return;
     out[first + 1] += row->theta * row->rho * (axis == 0 ? -row->d[1] : row->d[0]);
 }

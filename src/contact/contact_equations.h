@@ -7,9 +7,9 @@
 //     z = r_t - rho v_t, |z| <= mu p         sticks
 //     else                                   slips along d = -z/|z|, |v_t| = s
 //
-// What is open is condensed out (contact/contact_newton). Held are normals that touch (at their
-// bound), tangents that stick (at 0) and rigid rod nodes that touch (at their bound). What is left
-// is free and has an equation each:
+// Open nodes are condensed out (contact/contact_newton). Normals that touch are held at their
+// bound, tangents that stick at 0, rigid rod nodes that touch at their bound. What is left is free,
+// and each unknown of it has an equation:
 //
 //     slips       d.r_t + mu(s) r_n = 0
 //     in space    (1 - theta) e.r_t + theta rho e.v_t = 0, e across d,
@@ -30,8 +30,9 @@
 typedef struct ContactRow {
     double d[TANGENTS_MAX];   // along z, against friction; e = (-d[1], d[0])
     double mu;
-    double theta, rho;   // rho: force/width per velocity
-    double along[TANGENTS_MAX];   // mu' r_n v_t/s: how friction along d answers to v_t
+    double theta;   // 1 at rest, where the direction is held; 0 of fast slip, which turns freely
+    double rho;   // force/width per velocity
+    double slope[TANGENTS_MAX];   // mu' r_n v_t/s: how friction along d answers to v_t
 } ContactRow;
 
 // Scales that make forces and velocities comparable; neither is 0.
@@ -49,7 +50,8 @@ typedef struct ContactEquations {
     int32_t *free;   // [count] unknowns that are solved for, free_count of them, ascending
     int32_t *node;   // [count] whose tangent each of them is; -1: a rod node's
     int32_t free_count;
-    ContactRow *row;   // [contact_count] of slipping nodes, as the last judgement left them
+    ContactRow *row;   // [contact_count] of slipping nodes, as the last judgement left them; those
+        // of other nodes are left over
 } ContactEquations;
 
 ContactScales contact_scales(const ContactProblem *problem, const double *reaction);
@@ -58,8 +60,8 @@ ContactScales contact_scales(const ContactProblem *problem, const double *reacti
 void contact_copy_statuses(const ContactEquations *equations, uint8_t *copy);
 bool contact_has_statuses(const ContactEquations *equations, const uint8_t *copy);
 
-// Rows at what was handed in, whose reactions may be of another g; statuses stay. A node that was
-// said to slip rests where neither its velocity nor its force says which way.
+// Rows at what was handed in, whose reactions may be of another g. A node that was said to slip and
+// by these would not sticks at first; other statuses stay.
 void contact_take_statuses(ContactEquations *equations);
 
 // Statuses of all nodes, and of the rod, and rows of what slips, as velocities and reactions have
@@ -67,11 +69,12 @@ void contact_take_statuses(ContactEquations *equations);
 bool contact_judge(ContactEquations *equations);
 
 // Where friction falls faster with its slip than S resists, slow slip is no solution: a node that
-// is overloaded at rest slips against its friction by Newton's step. The one that does so fastest,
-// of those that slipped in the last step (`stepped`, statuses [contact_count]) and whose friction
-// falls by more than `least` times rho, starts again beyond the weakening, v = d
-// friction_spent_speed. Rows and reactions are the caller's. false: there is no such node.
-bool contact_start_fast(const ContactEquations *equations, const uint8_t *stepped, double least);
+// is overloaded at rest slips against its friction by Newton's step. Those that did so in the last
+// step, with the statuses `stepped` [contact_count] and to these velocities [count], and whose
+// friction falls by more than `least` times rho, start again beyond the weakening, v = d
+// friction_spent_speed. Reactions and rows are the caller's. false: there is no such node.
+bool contact_start_fast(const ContactEquations *equations, const uint8_t *stepped,
+                        const double *velocity, double least);
 
 // Lists the free unknowns, ascending, without those of open nodes.
 void contact_list_free(ContactEquations *equations);
@@ -85,7 +88,10 @@ void contact_react(const ContactEquations *equations);
 // What touches nothing has no force, not even rounding.
 void contact_release(const ContactEquations *equations);
 
-// residual [free_count] = what the equations of the free unknowns are off. kept [contact_count]:
+// Whether velocities and reactions are finite, those of what is held, too.
+bool contact_is_finite(const ContactEquations *equations);
+
+// residual [free_count] of the equations of the free unknowns. kept [contact_count]:
 // rows whose directions they are turned into, those of an earlier derivative; NULL: their own.
 // Returns the largest force that any is off; infinite where a number is not finite.
 double contact_residuals(const ContactEquations *equations, const ContactRow *kept,

@@ -91,15 +91,30 @@ void contact_newton_settle(ContactNewton *newton)
                       at->reaction);
 }
 
+bool contact_newton_start_fast(ContactNewton *newton, double least)
+{
+    const ContactEquations *equations = &newton->equations;
+    size_t bytes = (size_t)equations->problem->interface->count * sizeof(double);
+    memcpy(newton->residual, equations->at->velocity, bytes);
+    if (!contact_start_fast(equations, newton->factors.status, newton->residual, least))
+        return false;
+    contact_hold(equations);
+    contact_newton_react(newton);
+    contact_judge(&newton->equations);
+    contact_newton_settle(newton);
+    newton->factors_gain = false;
+    return true;
+}
+
 // Lists what is free and open by the statuses as they are. false: nothing holds the open nodes.
 static bool list_unknowns(ContactNewton *newton)
 {
     const ContactProblem *problem = newton->equations.problem;
     const ContactSolution *at = newton->equations.at;
     const Interface *interface = problem->interface;
-    newton->closed =
+    newton->condensed =
         contact_matrix_close(problem->matrix, at->status, interface->contact_count, interface->dim);
-    if (!newton->closed) return false;
+    if (!newton->condensed) return false;
     newton->open_count = 0;
     for (int32_t i = 0; i < interface->contact_count; i++) {
         if (at->status[i] != CONTACT_OPEN) continue;
@@ -111,9 +126,9 @@ static bool list_unknowns(ContactNewton *newton)
     return true;
 }
 
-// pull: velocity change of all nodes when the forces at open nodes, which shall have none, are
-// removed, S' r_O, and on O itself -S_OO^-1 r_O, the motion of these nodes while the others stay.
-// Forces of the size of rounding are left as they are.
+// pull: by what the forces at open nodes, which shall have none, act on the others when they are
+// removed, S' r_O, forces; and on O itself -S_OO^-1 r_O, velocities, the motion of these nodes
+// while the others stay. Forces of the size of rounding are left as they are.
 static void find_pull(ContactNewton *newton)
 {
     int32_t count = newton->equations.problem->interface->count;
@@ -128,7 +143,8 @@ static void find_pull(ContactNewton *newton)
         pulls = true;
     }
     if (pulls)
-        dense_add_nonzero((DenseView){newton->closed, count, count}, newton->more, 1, newton->pull);
+        dense_add_nonzero((DenseView){newton->condensed, count, count}, newton->more, 1,
+                          newton->pull);
 }
 
 // Velocities and reactions after a step of what is free. Where nodes are open one product with S'
@@ -146,7 +162,7 @@ static void take_step(ContactNewton *newton, const double *step)
     }
     memset(newton->more, 0, (size_t)count * sizeof(double));
     for (int32_t a = 0; a < free_count; a++) newton->more[newton->free[a]] = step[a];
-    dense_add_nonzero((DenseView){newton->closed, count, count}, newton->more, -1, newton->pull);
+    dense_add_nonzero((DenseView){newton->condensed, count, count}, newton->more, -1, newton->pull);
     for (int32_t k = 0; k < count; k++) at->reaction[k] -= newton->pull[k];
     for (int32_t b = 0; b < newton->open_count; b++) {
         int32_t unknown = newton->open[b];
@@ -158,17 +174,25 @@ static void take_step(ContactNewton *newton, const double *step)
 
 // --- factors ------------------------------------------------------------------------------------
 
-// True if the stored factors may be used again: they are the latest, of this S and of these
-// statuses, and steps with them gain. Factors of another step size would converge too slowly, and
-// where friction creeps each row changes from step to step.
+// True if the stored factors may be used again: they are the latest, of this S, of these statuses
+// and of slip the same way, and steps with them gain. Factors of another step size would converge
+// too slowly, and where friction creeps each row changes from step to step.
 static bool keeps_factors(const ContactNewton *newton)
 {
     const ContactFactors *factors = &newton->factors;
     int64_t factored = newton->equations.problem->matrix->factored;
-    return newton->factors_gain && !newton->creeps && factored > 0 &&
-           factors->is_single == !newton->in_double && factored == newton->factorisations &&
-           factors->rows == newton->equations.free_count &&
-           contact_has_statuses(&newton->equations, factors->status);
+    if (!newton->factors_gain || newton->creeps || factored == 0 ||
+        factored != newton->factorisations || factors->is_single == newton->in_double ||
+        factors->rows != newton->equations.free_count ||
+        !contact_has_statuses(&newton->equations, factors->status))
+        return false;
+    for (int32_t a = 0; a < newton->equations.free_count; a++) {
+        int32_t i = newton->node[a];
+        if (i < 0) continue;
+        const double *d = newton->row[i].d, *kept = factors->row[i].d;
+        if (d[0] * kept[0] + d[1] * kept[1] < 0) return false;
+    }
+    return true;
 }
 
 // LU of the derivative at the rows as they are, which are kept. false: it is singular.
@@ -184,14 +208,14 @@ static bool make_factors(ContactNewton *newton)
         double scale = 1 / matrix->diagonal;
         float *out = (float *)factors->lu;
         for (int32_t b = 0; b < size; b++, out += size) {
-            contact_derivative_column(equations, newton->closed, b, factors->column);
+            contact_derivative_column(equations, newton->condensed, b, factors->column);
             for (int32_t a = 0; a < size; a++) out[a] = (float)(scale * factors->column[a]);
         }
         regular = dense_lu_single((float *)factors->lu, size, factors->pivots);
     } else {
         double *out = factors->lu;
         for (int32_t b = 0; b < size; b++, out += size)
-            contact_derivative_column(equations, newton->closed, b, out);
+            contact_derivative_column(equations, newton->condensed, b, out);
         regular = dense_lu(factors->lu, size, factors->pivots);
     }
     newton->factorisations++;
@@ -260,11 +284,11 @@ bool contact_newton_step(ContactNewton *newton)
     if (!newton->listed && !list_unknowns(newton)) return false;
     int32_t free_count = equations->free_count;
     newton->reused = keeps_factors(newton);
-    if (!newton->reused && !make_factors(newton)) return false;
 
     // The residual, with what the forces at open nodes do to the others, becomes the step.
     const ContactRow *kept = newton->reused ? newton->factors.row : NULL;
     if (!isfinite(contact_residuals(equations, kept, newton->step))) return false;
+    if (!newton->reused && !make_factors(newton)) return false;
     for (int32_t a = 0; a < free_count; a++) newton->step[a] = -newton->step[a];
     if (newton->open_count > 0) {
         find_pull(newton);
@@ -302,6 +326,7 @@ bool contact_newton_follow(ContactNewton *newton, const ContactRow *rows,
     const Interface *interface = problem->interface;
     memset(solution->velocity, 0, (size_t)interface->count * sizeof(double));
     begin(newton, problem, solution, 0);
+    newton->creeps = false;   // the equations are linear, whatever the law
     memcpy(newton->row, rows, (size_t)interface->contact_count * sizeof(ContactRow));
     contact_hold(&newton->equations);
     contact_newton_react(newton);
@@ -330,7 +355,7 @@ void contact_newton_archive(ContactNewton *newton, const Interface *interface, A
         ContactRow *row = &factors->row[i];
         archive_numbers(archive, row->d, TANGENTS_MAX);
         archive_numbers_of(archive, &row->mu, &row->theta, &row->rho);
-        archive_numbers(archive, row->along, TANGENTS_MAX);
+        archive_numbers(archive, row->slope, TANGENTS_MAX);
     }
     archive_flag(archive, &newton->factors_gain);
     archive_count(archive, &newton->factorisations);

@@ -24,11 +24,11 @@ typedef struct ContactFactors {
 } ContactFactors;
 
 typedef struct ContactNewton {
-    ContactEquations equations;   // of the solve under way
+    ContactEquations equations;   // of the solve under way; its problem ends with it, rows stay
     double rounding;   // forces at open nodes below it are left
     int32_t open_count;   // unknowns of open nodes, in `open`
-    const double *closed;   // S'
-    bool listed;   // what is free, open and closed is that of the statuses
+    const double *condensed;   // S'
+    bool listed;   // `free`, `open` and S' are those of the statuses
     bool exact;   // reactions are S v - g, not what steps added up to
     bool creeps;   // nodes never stick, by their law
     bool in_double;   // factors are in double precision; else in single, which residuals of double
@@ -63,6 +63,11 @@ void contact_newton_react(ContactNewton *newton);
 // of what moved.
 void contact_newton_settle(ContactNewton *newton);
 
+// Where slow slip is no solution: what statuses hold takes its values, and the nodes that slipped
+// against their friction in the last step start again beyond the weakening (contact_start_fast).
+// false: there is none, and nothing has changed.
+bool contact_newton_start_fast(ContactNewton *newton, double least);
+
 // One step. false: the derivative is singular, nothing holds the open nodes, or a number is not
 // finite.
 bool contact_newton_step(ContactNewton *newton);
@@ -70,7 +75,7 @@ bool contact_newton_step(ContactNewton *newton);
 // Takes back half of the last step, or of what is left of it.
 void contact_newton_halve(ContactNewton *newton);
 
-// The largest force that any equation is off, of rows as they are, and of those at open nodes,
+// The largest residual of any equation, with rows as they are, and of the forces at open nodes,
 // force/width; infinite where a number is not finite.
 double contact_newton_residual(ContactNewton *newton);
 

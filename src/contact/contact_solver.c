@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Read from the bottom: contact_solve, and settle for the steps of Newton between two sweeps.
+// Read from the bottom: contact_solve, and settle for the steps of Newton before and after sweeps.
 // Forces are measured by the largest force of the problem, velocities by that force over the
 // largest diagonal entry of S. All arrays are the solver's own, made once for an interface: nothing
 // is allocated in a solve.
@@ -41,8 +41,8 @@ void contact_solver_destroy(ContactSolver *solver)
     *solver = (ContactSolver){0};
 }
 
-// What the equations are off, over the scale of force.
-static double off(ContactNewton *newton)
+// The residual of the equations, over the scale of force.
+static double scaled_residual(ContactNewton *newton)
 {
     return contact_newton_residual(newton) / newton->equations.scales.force;
 }
@@ -57,19 +57,20 @@ static bool settle(ContactSolver *solver)
     double before = INFINITY;   // residual of the last step with these statuses, over the scale
     const double *v = equations->at->velocity;
     int32_t met = 1, anchored = 1;   // sets of statuses so far; that which solver->anchor holds
-    bool started = false;   // a node beyond its weakening, once
+    bool started = false;   // nodes were started beyond their weakening
     double anchor_size = INFINITY;   // |v|^2 with that set
     contact_copy_statuses(equations, solver->anchor);
     for (int32_t k = 0; k < STEPS; k++) {
         if (!contact_newton_step(newton)) return false;
         solver->iterations++;
 
-        // Statuses at its end; where they stay, a step that leaves more than there was is halved.
+        // Statuses at its end; where they stay, a step after which the residual is larger is
+        // halved.
         bool changed;
         double residual;
         for (int32_t halved = 0;; halved++) {
             changed = contact_judge(equations);
-            residual = changed ? INFINITY : off(newton);
+            residual = changed ? INFINITY : scaled_residual(newton);
             if (changed || newton->reused || residual <= before || halved == HALVINGS) break;
             contact_newton_halve(newton);
         }
@@ -78,9 +79,9 @@ static bool settle(ContactSolver *solver)
         if (residual <= TOLERANCE && !newton->exact) {
             contact_newton_react(newton);
             changed = contact_judge(equations);
-            residual = changed ? INFINITY : off(newton);
+            residual = changed ? INFINITY : scaled_residual(newton);
         }
-        if (residual <= TOLERANCE) return true;
+        if (residual <= TOLERANCE) return contact_is_finite(equations);
 
         // Statuses met before, with the same velocities, tell of a cycle (Brent, BIT 20, 1980:
         // compared with one set that is kept, and renewed at powers of two).
@@ -97,22 +98,22 @@ static bool settle(ContactSolver *solver)
         }
 
         // Slow slip may be no solution: certainly where friction falls faster than the node's own
-        // entry of S resists; in a cycle where all that slips does.
-        if (!started && (cycles || (!changed && !newton->reused)) &&
-            contact_start_fast(equations, newton->factors.status, cycles ? 0 : 1)) {
-            started = true;
-            contact_newton_react(newton);
-            contact_judge(equations);
-            newton->factors_gain = false;
-        } else if (cycles) {
-            return false;
-        } else if (!changed) {
+        // entry of S resists; in a cycle where it falls faster than all that slips resists.
+        if (!started && (cycles || (!changed && !newton->reused))) {
+            started = contact_newton_start_fast(newton, cycles ? 0 : 1);
+            if (started) {
+                before = INFINITY;
+                continue;
+            }
+        }
+        if (cycles) return false;
+        if (changed) {
+            contact_newton_settle(newton);
+            before = INFINITY;
+        } else {
             if (newton->reused && residual > CHORD_GAIN * before) newton->factors_gain = false;
             before = residual;
-            continue;
         }
-        contact_newton_settle(newton);
-        before = INFINITY;
     }
     return false;
 }
@@ -159,6 +160,7 @@ bool contact_solve(ContactSolver *solver, const ContactProblem *problem, Contact
         solver->sweeps += contact_sweep(problem, solution, k);
         contact_newton_begin(newton, problem, solution, TOLERANCE);
         newton->in_double = true;
+        newton->factors_gain = false;   // those at hand are of where Newton failed
         solved = settle(solver);
         solver->rescued += solved;
     }
@@ -181,6 +183,7 @@ void contact_solver_take_counts(ContactSolver *solver, ContactSolver *from)
     take_count(&solver->solves, &from->solves);
     take_count(&solver->iterations, &from->iterations);
     take_count(&solver->fallbacks, &from->fallbacks);
+    take_count(&solver->sweeps, &from->sweeps);
     take_count(&solver->rescued, &from->rescued);
     take_count(&solver->unsolved, &from->unsolved);
     solver->seconds += from->seconds;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The contact problem of one stage, in the plane and in space, by a semismooth Newton method
-// (contact/contact_equations, contact/contact_newton): a step on what is free, then the status of
-// every node anew, and again. A step that leaves more than there was is halved. Where that does not
-// settle, sweeps over the nodes come next (contact/contact_sweeps), then steps again, then more
+// (contact/contact_equations, contact/contact_newton): a step of the free unknowns, then every
+// status is found again, and so on. A step after which the residual is larger is halved. Where that
+// does not settle, sweeps over the nodes come next (contact/contact_sweeps), then steps again, then more
 // sweeps. There is a solution, as S is positive definite and mu bounded and continuous. Where even
 // so none is found, or the caller prefers a shorter step to sweeps, the problem counts as unsolved
 // and the caller must take a shorter step. Called by stepping/sdirk.
@@ -36,7 +36,8 @@ void contact_solver_take_counts(ContactSolver *solver, ContactSolver *from);
 // error: the caller decides what to do.
 bool contact_solve(ContactSolver *solver, const ContactProblem *problem, ContactSolution *solution);
 
-// Counters (whose factors are used again depends on one of them) and what is kept.
+// Counters (`factorisations` decides whose factors are used again) and the factors. Part of the
+// state of stepping/sdirk and stepping/half_step.
 void contact_solver_archive(ContactSolver *solver, const Interface *interface, Archive *archive);
 
 #endif

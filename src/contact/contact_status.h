@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Status of a contact node: it is open, sticks, or slips one way or the other along the drive. In
-// space its velocity says where to exactly (contact/slip), and these two which way it gets on.
+// Status of a contact node: it is open, sticks, or slips forward or backward along the drive. In
+// space its velocity has the direction itself (contact/slip); these two give the sign of its
+// component along the drive. While a problem is being solved what slips is CONTACT_SLIP_FORWARD.
 #ifndef AMONTONS_CONTACT_CONTACT_STATUS_H
 #define AMONTONS_CONTACT_CONTACT_STATUS_H
 

@@ -68,7 +68,7 @@ static void make_rows(Random *random, ContactEquations *equations)
         const FrictionNode *node = friction_at(&hand.friction, i);
         row_list[i].mu = friction_coefficient(node, speed);
         for (int32_t c = 0; c < dim - 1; c++)
-            row_list[i].along[c] = friction_slope(node, speed) * hand.reaction[dim * i + dim - 1] *
+            row_list[i].slope[c] = friction_slope(node, speed) * hand.reaction[dim * i + dim - 1] *
                                    hand.velocity[dim * i + c] / speed;
     }
     contact_list_free(equations);

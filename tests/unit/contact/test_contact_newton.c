@@ -3,7 +3,9 @@
 // summed up here, what a solve hands back, and factors that are read back from an archive.
 #include "contact/contact_newton.h"
 
+#include "contact/contact_solver.h"
 #include "contact_by_hand.h"
+#include "own_laws.h"
 #include "plane.h"
 
 enum { NODES = 30, RODS = 2 };
@@ -49,7 +51,7 @@ static void find_rows(ContactNewton *newton)
         double v = hand.velocity[2 * i];
         const FrictionNode *node = friction_at(&hand.friction, i);
         newton->row[i] = (ContactRow){.d = {1}, .mu = friction_coefficient(node, fabs(v))};
-        newton->row[i].along[0] = friction_slope(node, fabs(v)) * hand.reaction[2 * i + 1];
+        newton->row[i].slope[0] = friction_slope(node, fabs(v)) * hand.reaction[2 * i + 1];
     }
 }
 
@@ -217,6 +219,62 @@ TEST(test_archive)
         assert_memory_equal(found[0], found[1], sizeof found[0]);
         contact_newton_destroy(&newton);
         contact_newton_destroy(&copy);
+        contact_matrix_destroy(&matrix);
+    }
+}
+
+// The first-order change of a solution under a small change of g, against the difference of two
+// solutions; also of a law that creeps, whose steps are bent elsewhere.
+TEST(test_follows_a_small_change)
+{
+    const double h = 1e-6;
+    Error err = {0};
+    Random random = {.state = 46};
+    for (int creeps = 0; creeps < 2; creeps++) {
+        ContactMatrix matrix;
+        ContactSolver solver;
+        ContactNewton newton;
+        FrictionNode nodes[NODES];
+        double change[HAND_UNKNOWNS] = {0}, before[HAND_UNKNOWNS], moved[HAND_UNKNOWNS],
+               force[HAND_UNKNOWNS];
+        hand_contact_size(&hand, NODES, 0);
+        hand.law =
+            creeps ? law_with_state((FrictionLaw){.kind = FRICTION_RATE_STATE,
+                                                  .slip_distance = 1,
+                                                  .evolution_effect = 0.01,
+                                                  .direct_effect = 0.015,
+                                                  .mu_reference = 0.4,
+                                                  .reference_velocity = 1e-3})
+                   : (FrictionLaw){.mu_static = 0.4, .mu_kinetic = 0.1, .critical_velocity = 50};
+        for (int32_t i = 0; i < NODES; i++) {
+            double from = 0;
+            nodes[i] = friction_node(&hand.law, 1);
+            if (creeps) friction_set_stage(&nodes[i], &from, 0.1);
+            hand.g[2 * i] = random_between(&random, 1, 4);
+            hand.g[2 * i + 1] = -6;
+            change[2 * i] = random_between(&random, -1, 1);
+        }
+        hand.friction = friction_of_nodes(nodes, NODES);
+        hand_random_schur(&random, 3, 0.2, &hand);
+        assert_true(contact_matrix_create(hand.schur, hand.interface.count, &matrix, &err));
+        assert_true(contact_solver_create(&hand.interface, &solver, &err));
+        assert_true(contact_newton_create(&hand.interface, &newton, &err));
+        ContactSolution solution = {hand.velocity, hand.reaction, hand.status, hand.rod_touches};
+        ContactSolution moves = {moved, force, hand.status, hand.rod_touches};
+        ContactProblem problem = hand_problem(&hand, &matrix), changes = problem;
+        assert_true(contact_solve(&solver, &problem, &solution));
+        memcpy(before, hand.velocity, sizeof before);
+        changes.g = change;
+        assert_true(contact_newton_follow(&newton, solver.newton.row, &changes, &moves));
+        for (int32_t k = 0; k < hand.interface.count; k++) hand.g[k] += h * change[k];
+        assert_true(contact_solve(&solver, &problem, &solution));
+        double largest = 0;
+        for (int32_t k = 0; k < hand.interface.count; k++) largest = fmax(largest, fabs(moved[k]));
+        assert_true(largest > 0.01);
+        for (int32_t k = 0; k < hand.interface.count; k++)
+            assert_near("dv", (hand.velocity[k] - before[k]) / h, moved[k], 1e-4 * largest);
+        contact_newton_destroy(&newton);
+        contact_solver_destroy(&solver);
         contact_matrix_destroy(&matrix);
     }
 }

@@ -120,6 +120,41 @@ TEST(test_strong_weakening)
     }
 }
 
+// Two nodes that resist their common slip by 1 - 0.9 alone, and friction that falls by 0.15 p: each
+// by itself could slip slowly (its own entry is 1), both cannot. v = (0.55 - 0.2)/0.1 of either.
+TEST(test_strong_weakening_together)
+{
+    FrictionLaw law = {.mu_static = 0.5, .mu_kinetic = 0.2, .critical_velocity = 2};
+    for (int way = -1; way <= 1; way += 2) {
+        HandContact hand;
+        HandCounts counts;
+        hand_contact_size(&hand, 2, 0);
+        hand.law = law;
+        const double s[] = {1, 0, -0.9, 0, 0, 1, 0, 0, -0.9, 0, 1, 0, 0, 0, 0, 1};
+        memcpy(hand.schur, s, sizeof s);
+        for (int32_t i = 0; i < 2; i++) {
+            hand.g[plane_tangent(i)] = 0.55 * way;
+            hand.g[plane_normal(i)] = -1;
+            hand.status[i] = CONTACT_STICK;
+        }
+        assert_true(hand_contact_solve_by(&hand, false, &counts));
+        for (int32_t i = 0; i < 2; i++)
+            assert_near("v", hand.velocity[plane_tangent(i)], 3.5 * way, 1e-12);
+    }
+}
+
+// Nothing that is not finite is called a solution, also where it is a force of what is held.
+TEST(test_not_finite)
+{
+    for (int component = 0; component < 2; component++) {
+        HandContact hand;
+        one_node((OneNode){.s_t = 2, .s_n = 3, .g_n = -10}, COULOMB, &hand);
+        hand.status[0] = CONTACT_STICK;
+        hand.g[component] = component ? NAN : INFINITY;
+        assert_false(hand_contact_solve(&hand));
+    }
+}
+
 // s_t = k p: as steep as the block resists, so that Newton has no step on the weakening branch. The
 // path goes round it to where friction falls no more.
 TEST(test_singular_slip)
