@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The contact problem of one stage, in the plane and in space, by a semismooth Newton method
 // (contact/contact_equations, contact/contact_newton): a step of the free unknowns, then every
-// status is found again, and so on. A step after which the residual is larger is halved. Where that
-// does not settle, sweeps over the nodes come next (contact/contact_sweeps), then steps again, then more
-// sweeps. There is a solution, as S is positive definite and mu bounded and continuous. Where even
-// so none is found, or the caller prefers a shorter step to sweeps, the problem counts as unsolved
-// and the caller must take a shorter step. Called by stepping/sdirk.
+// status is found again, and so on. A step after which the residual is larger is halved. Where
+// that does not settle, sweeps over the nodes come next (contact/contact_sweeps), then steps again,
+// then more sweeps. There is a solution, as S is positive definite and mu bounded and continuous.
+// Where even so none is found, or the caller prefers a shorter step to sweeps, the problem counts
+// as unsolved and the caller must take a shorter step. Called by stepping/sdirk.
 #ifndef AMONTONS_CONTACT_CONTACT_SOLVER_H
 #define AMONTONS_CONTACT_CONTACT_SOLVER_H
 
