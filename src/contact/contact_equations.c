@@ -238,6 +238,17 @@ void contact_release(const ContactEquations *equations)
         if (!at->rod_touches[j]) at->reaction[interface_rod(interface, j)] = 0;
 }
 
+double contact_slip_square(const ContactEquations *equations)
+{
+    const Interface *interface = equations->problem->interface;
+    const ContactSolution *at = equations->at;
+    double sum = 0;
+    for (int32_t i = 0; i < interface->contact_count; i++)
+        if (at->status[i] != CONTACT_OPEN)
+            sum += slip_dot(interface, i, at->velocity, at->velocity);
+    return sum;
+}
+
 bool contact_is_finite(const ContactEquations *equations)
 {
     const ContactSolution *at = equations->at;

@@ -88,6 +88,9 @@ void contact_react(const ContactEquations *equations);
 // What touches nothing has no force, not even rounding.
 void contact_release(const ContactEquations *equations);
 
+// Sum of |v_t|^2 over the nodes that are not open.
+double contact_slip_square(const ContactEquations *equations);
+
 // Whether velocities and reactions are finite, those of what is held, too.
 bool contact_is_finite(const ContactEquations *equations);
 

@@ -30,7 +30,7 @@ typedef struct ContactNewton {
     const double *condensed;   // S'
     bool listed;   // `free`, `open` and S' are those of the statuses
     bool exact;   // reactions are S v - g, not what steps added up to
-    bool creeps;   // nodes never stick, by their law
+    bool creeps;   // some node never sticks, by its law
     bool in_double;   // factors are in double precision; else in single, which residuals of double
         // precision make up for by hardly a step more, for half the time
     bool reused;   // the last step was one with the factors of an earlier derivative

@@ -5,7 +5,6 @@
 // is allocated in a solve.
 #include "contact/contact_solver.h"
 
-#include "algebra/dense.h"
 #include "base/clock.h"
 #include "base/memory.h"
 #include "contact/contact_sweeps.h"
@@ -15,7 +14,8 @@
 
 // A derivative is factored anew when a step leaves more than this part of the residual.
 static const double CHORD_GAIN = 0.1;
-// Velocities with the same statuses are the same where |v|^2 differs by no more than this part.
+// With the same statuses velocities are the same where their contact_slip_square differs by no more
+// than this part.
 static const double SAME = 1e-6;
 // Tolerance of residual forces, relative to the largest force: some 1e2 above the rounding of
 // S v - g.
@@ -55,10 +55,9 @@ static bool settle(ContactSolver *solver)
     ContactNewton *newton = &solver->newton;
     ContactEquations *equations = &newton->equations;
     double before = INFINITY;   // residual of the last step with these statuses, over the scale
-    const double *v = equations->at->velocity;
     int32_t met = 1, anchored = 1;   // sets of statuses so far; that which solver->anchor holds
     bool started = false;   // nodes were started beyond their weakening
-    double anchor_size = INFINITY;   // |v|^2 with that set
+    double anchor_size = INFINITY;   // contact_slip_square with that set
     contact_copy_statuses(equations, solver->anchor);
     for (int32_t k = 0; k < STEPS; k++) {
         if (!contact_newton_step(newton)) return false;
@@ -87,7 +86,7 @@ static bool settle(ContactSolver *solver)
         // compared with one set that is kept, and renewed at powers of two).
         bool cycles = false;
         if (changed) {
-            double size = dense_dot(v, v, newton->equations.problem->interface->count);
+            double size = contact_slip_square(equations);
             cycles = contact_has_statuses(equations, solver->anchor) &&
                      fabs(size - anchor_size) <= SAME * size;
             if (met++ >= 2 * anchored) {
