@@ -62,7 +62,7 @@ static double pull_of(const ContactEquations *equations, int32_t i, double z[TAN
 }
 
 // The row of node i, which slips with this speed and mu; limit: mu p. Slow creep has the direction
-// of its velocity: friction is 0 at rest there.
+// of its velocity, as friction is 0 at rest there; in space z turns with it.
 static void find_row(const ContactEquations *equations, int32_t i, const double z[TANGENTS_MAX],
                      double speed, double mu, double limit)
 {
@@ -77,7 +77,7 @@ static void find_row(const ContactEquations *equations, int32_t i, const double 
                         .mu = mu,
                         .theta = limit > 0 ? limit / (limit + rho * speed) : 0,
                         .rho = rho};
-    if (node->law->creeps && along(row, tangents, v) < 0)
+    if (tangents == 1 && node->law->creeps && along(row, tangents, v) < 0)
         for (int32_t c = 0; c < tangents; c++) row->d[c] = v[c] / speed;
     double slope = friction_slope(node, speed) * fmax(equations->at->reaction[t + tangents], 0);
     for (int32_t c = 0; c < tangents; c++)

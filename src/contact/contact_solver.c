@@ -153,9 +153,11 @@ bool contact_solve(ContactSolver *solver, const ContactProblem *problem, Contact
     bool solved = settle(solver);
     solver->fallbacks += !solved;
 
-    // Sweeps, from rest in each round, and steps from where these led to.
+    // Sweeps, in the plane from rest in each round, and steps from where these led to.
     for (int32_t k = 0; solver->sweeps_on && k < SWEEP_ROUNDS && !solved; k++) {
-        memset(solution->velocity, 0, (size_t)interface->count * sizeof(double));
+        if (interface->dim == 2)
+            if (interface->dim == 2)
+                memset(solution->velocity, 0, (size_t)interface->count * sizeof(double));
         solver->sweeps += contact_sweep(problem, solution, k);
         contact_newton_begin(newton, problem, solution, TOLERANCE);
         newton->in_double = true;

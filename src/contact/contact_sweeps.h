@@ -9,8 +9,8 @@
 
 enum { SWEEP_ROUNDS = 4 };
 
-// Round 0 is a few sweeps from the velocities as they are (contact/contact_solver has put them to
-// rest), each further one several times as many.
+// Round 0 is a few sweeps from the velocities as they are (in the plane contact/contact_solver has
+// put them to rest), each further one several times as many.
 // In the plane these go there and back, and half as far in each: in one order, or all the way, they
 // may go round in a cycle. Reactions and statuses go out with them. Returns how many sweeps it
 // took.

@@ -308,9 +308,10 @@ bool step_control_advance(StepControl *control, double remaining, Error *err)
 
     // Steps are tried that are shorter and shorter until one is accepted.
     for (;;) {
-        // A path through the contact problem costs as much as some hundred steps on a large
-        // interface, and shorter steps need none: only where none is left.
-        bool sweeps_on = k == dt_levels->level_count - 1;
+        // Sweeps over the contact cost as much as some hundred steps on a large interface, and
+        // shorter steps need none: only where none is left. In space shorter steps may need them,
+        // too (friction that creeps).
+        bool sweeps_on = control->scheme.interface->dim > 2 || k == dt_levels->level_count - 1;
         control->scheme.solver.sweeps_on = control->half.solver.sweeps_on = sweeps_on;
         // The whole contact is solved, or its symmetric part alone, with the antisymmetric one
         // where that does not decay.
