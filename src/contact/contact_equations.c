@@ -99,7 +99,7 @@ static bool judge_node(const ContactEquations *equations, int32_t i)
     double size = hypot(z[0], z[1]), speed = slip_size(interface, i, equations->at->velocity);
     double mu = friction_coefficient(node, speed), limit = mu * fmax(pressing, 0);
     bool sticks = size <= limit + (was == CONTACT_STICK ? slack : 0);
-    // What slips rests before it would turn round.
+    // A slipping node rests before it would turn round.
     bool turns = status_slips(was) && along(&equations->row[i], slip_tangents(interface), z) > 0;
     bool creeps = node->law->creeps && size > 0;
     *status = !creeps && (sticks || turns) ? CONTACT_STICK : CONTACT_SLIP_FORWARD;
@@ -152,8 +152,7 @@ void contact_take_statuses(ContactEquations *equations)
     }
 }
 
-bool contact_start_fast(const ContactEquations *equations, const uint8_t *stepped,
-                        const double *velocity, double least)
+bool contact_start_fast(const ContactEquations *equations, const uint8_t *stepped, double least)
 {
     const ContactProblem *problem = equations->problem;
     const Interface *interface = problem->interface;
@@ -166,7 +165,7 @@ bool contact_start_fast(const ContactEquations *equations, const uint8_t *steppe
         const ContactRow *row = &equations->row[i];
         if (!status_slips(stepped[i]) || at->status[i] == CONTACT_OPEN) continue;
         double falls = -friction_slope(node, 0) * at->reaction[t + tangents];
-        bool back = along(row, tangents, velocity + t) < 0;
+        bool back = along(row, tangents, at->velocity + t) < 0;
         if (!back || node->law->creeps || !(falls > least * row->rho)) continue;
         for (int32_t c = 0; c < tangents; c++)
             at->velocity[t + c] = row->d[c] * friction_spent_speed(node);
@@ -236,6 +235,22 @@ void contact_release(const ContactEquations *equations)
             at->reaction[interface_unknown(interface, i, c)] = 0;
     for (int32_t j = 0; j < interface->rod_count; j++)
         if (!at->rod_touches[j]) at->reaction[interface_rod(interface, j)] = 0;
+}
+
+void contact_clean(const ContactEquations *equations)
+{
+    const Interface *interface = equations->problem->interface;
+    ContactSolution *at = equations->at;
+    int32_t tangents = slip_tangents(interface);
+    for (int32_t i = 0; i < interface->contact_count; i++) {
+        double *v = at->velocity + interface_tangent(interface, i);
+        const ContactRow *row = &equations->row[i];
+        if (!status_slips(at->status[i])) continue;
+        at->status[i] = status_of_slip(row->d[0]);
+        bool back = along(row, tangents, v) < 0;
+        for (int32_t c = 0; back && c < tangents; c++) v[c] = 0;
+    }
+    contact_release(equations);
 }
 
 double contact_slip_square(const ContactEquations *equations)

@@ -70,11 +70,10 @@ bool contact_judge(ContactEquations *equations);
 
 // Where friction falls faster with its slip than S resists, slow slip is no solution: a node that
 // is overloaded at rest slips against its friction by Newton's step. Those that did so in the last
-// step, with the statuses `stepped` [contact_count] and to these velocities [count], and whose
-// friction falls by more than `least` times rho, start again beyond the weakening, v = d
-// friction_spent_speed. Reactions and rows are the caller's. false: there is no such node.
-bool contact_start_fast(const ContactEquations *equations, const uint8_t *stepped,
-                        const double *velocity, double least);
+// step, with the statuses `stepped` [contact_count], and whose friction falls by more than `least`
+// times rho, start again beyond the weakening, v = d friction_spent_speed. Reactions and rows are
+// the caller's. false: there is no such node.
+bool contact_start_fast(const ContactEquations *equations, const uint8_t *stepped, double least);
 
 // Lists the free unknowns, ascending, without those of open nodes.
 void contact_list_free(ContactEquations *equations);
@@ -85,8 +84,13 @@ void contact_hold(const ContactEquations *equations);
 // r = S v - g, from the velocities as they are.
 void contact_react(const ContactEquations *equations);
 
-// What touches nothing has no force, not even rounding.
+// A node that touches nothing has no force, not even rounding.
 void contact_release(const ContactEquations *equations);
+
+// Makes exact what was solved to the tolerance, and says which way nodes slip. A node may slip
+// against its friction's direction by the tolerance, which beside a rod slow enough is more than
+// rounding: it rests, and friction is what holds it. Releases, too.
+void contact_clean(const ContactEquations *equations);
 
 // Sum of |v_t|^2 over the nodes that are not open.
 double contact_slip_square(const ContactEquations *equations);

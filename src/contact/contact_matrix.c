@@ -69,7 +69,7 @@ static bool sweep_unknowns(ContactMatrix *matrix, const int32_t *list, int32_t l
         // A pivot is what is left of S's own entry when the others of O are held: 0, up to
         // rounding, of a body that nothing holds, far more than half of the digits of one that a
         // step's mass holds.
-        double least = sqrt(DBL_EPSILON) * matrix->schur[k * (n + 1)];
+        double least = sqrt(DBL_EPSILON) * matrix->own[k];
         if (!(matrix->out[k] ? pivot < 0 : pivot > least)) return false;
 
         memcpy(column, own, (size_t)n * sizeof(double));

@@ -96,10 +96,7 @@ void contact_newton_settle(ContactNewton *newton)
 bool contact_newton_start_fast(ContactNewton *newton, double least)
 {
     const ContactEquations *equations = &newton->equations;
-    size_t bytes = (size_t)equations->problem->interface->count * sizeof(double);
-    memcpy(newton->residual, equations->at->velocity, bytes);
-    if (!contact_start_fast(equations, newton->factors.status, newton->residual, least))
-        return false;
+    if (!contact_start_fast(equations, newton->factors.status, least)) return false;
     contact_hold(equations);
     contact_newton_react(newton);
     contact_judge(&newton->equations);
@@ -256,7 +253,6 @@ static void bend_where_it_creeps(ContactNewton *newton)
     const Interface *interface = problem->interface;
     ContactSolution *at = newton->equations.at;
     int32_t tangents = slip_tangents(interface);
-    int64_t count = interface->count;
     if (!newton->creeps) return;
     double fastest = contact_scales(problem, at->reaction).velocity;
     for (int32_t a = 0; a < newton->equations.free_count && newton->node[a] >= 0; a += tangents) {
@@ -267,8 +263,7 @@ static void bend_where_it_creeps(ContactNewton *newton)
         double speed = slip_size(interface, i, at->velocity);
         double pressing = at->reaction[interface_normal(interface, i)];
         for (int32_t c = 0; c < tangents; c++) turned += (v[c] + step[c]) * v[c];
-        bool steep = friction_direct_slope(node, speed) * pressing >
-                     problem->matrix->schur[k * (count + 1)];
+        bool steep = friction_direct_slope(node, speed) * pressing > problem->matrix->own[k];
         if (!steep && turned > 0) continue;
         friction_follow(node, tangents, v, step, next);
         double most = fmax(speed, fastest), size = fabs(next[0]);
@@ -340,7 +335,7 @@ bool contact_newton_follow(ContactNewton *newton, const ContactRow *rows,
     return true;
 }
 
-// Its bytes are as many as the factors have.
+// Factors take as many bytes as their precision has.
 void contact_newton_archive(ContactNewton *newton, const Interface *interface, Archive *archive)
 {
     ContactFactors *factors = &newton->factors;

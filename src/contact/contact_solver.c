@@ -117,25 +117,6 @@ static bool settle(ContactSolver *solver)
     return false;
 }
 
-// Makes exact what was solved to the tolerance, and says which way nodes slip. A node may slip
-// against its friction's direction by the tolerance, which beside a rod slow enough is more than
-// rounding: it rests, and friction is what holds it.
-static void clean_solution(const ContactEquations *equations)
-{
-    const Interface *interface = equations->problem->interface;
-    ContactSolution *at = equations->at;
-    int32_t tangents = slip_tangents(interface);
-    for (int32_t i = 0; i < interface->contact_count; i++) {
-        double *v = at->velocity + interface_tangent(interface, i), along = 0;
-        const double *d = equations->row[i].d;
-        if (!status_slips(at->status[i])) continue;
-        at->status[i] = status_of_slip(d[0]);
-        for (int32_t c = 0; c < tangents; c++) along += d[c] * v[c];
-        for (int32_t c = 0; along < 0 && c < tangents; c++) v[c] = 0;
-    }
-    contact_release(equations);
-}
-
 bool contact_solve(ContactSolver *solver, const ContactProblem *problem, ContactSolution *solution)
 {
     const Interface *interface = problem->interface;
@@ -156,8 +137,7 @@ bool contact_solve(ContactSolver *solver, const ContactProblem *problem, Contact
     // Sweeps, in the plane from rest in each round, and steps from where these led to.
     for (int32_t k = 0; solver->sweeps_on && k < SWEEP_ROUNDS && !solved; k++) {
         if (interface->dim == 2)
-            if (interface->dim == 2)
-                memset(solution->velocity, 0, (size_t)interface->count * sizeof(double));
+            memset(solution->velocity, 0, (size_t)interface->count * sizeof(double));
         solver->sweeps += contact_sweep(problem, solution, k);
         contact_newton_begin(newton, problem, solution, TOLERANCE);
         newton->in_double = true;
@@ -165,7 +145,7 @@ bool contact_solve(ContactSolver *solver, const ContactProblem *problem, Contact
         solved = settle(solver);
         solver->rescued += solved;
     }
-    if (solved) clean_solution(&newton->equations);
+    if (solved) contact_clean(&newton->equations);
 
     solver->solves++;
     solver->unsolved += !solved;

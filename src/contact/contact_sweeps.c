@@ -138,7 +138,7 @@ int32_t contact_sweep(const ContactProblem *problem, ContactSolution *solution, 
         // A rod node alone: what it is pushed by over its own entry of S.
         for (int32_t j = 0; j < interface->rod_count; j++) {
             int32_t x = interface_rod(interface, j);
-            double own = problem->matrix->schur[(interface->count + (int64_t)1) * x];
+            double own = problem->matrix->own[x];
             double stiffness = rod_stiffness(problem, j), bound = problem->bound[x];
             double b = own * solution->velocity[x] - solution->reaction[x], v = b / own;
             if (problem->rod_kind == ROD_PUSHES) solution->rod_touches[j] = v < bound;

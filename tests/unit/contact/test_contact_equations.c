@@ -145,7 +145,7 @@ static double residual_by_hand(int32_t k)
     return (1 - row->theta) * dot(e, r) + row->theta * row->rho * dot(e, v);
 }
 
-// What is added to the reactions changes residuals as contact_combine says; in the directions of
+// An addition to the reactions changes residuals as contact_combine says; in the directions of
 // other rows they are turned.
 TEST(test_residuals)
 {

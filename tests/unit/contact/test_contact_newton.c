@@ -69,67 +69,74 @@ static void begin_steps(ContactNewton *newton, const ContactProblem *problem,
     find_rows(newton);
 }
 
+typedef struct Rig {
+    ContactMatrix matrix;
+    ContactNewton newton;
+    ContactSolution solution;
+    ContactProblem problem;
+} Rig;
+
+static void begin_rig(uint64_t seed, Rig *rig)
+{
+    Error err = {0};
+    Random random = {.state = seed};
+    make_problem(&random);
+    assert_true(contact_matrix_create(hand.schur, hand.interface.count, &rig->matrix, &err));
+    assert_true(contact_newton_create(&hand.interface, &rig->newton, &err));
+    rig->solution = (ContactSolution){hand.velocity, hand.reaction, hand.status, hand.rod_touches};
+    rig->problem = hand_problem(&hand, &rig->matrix);
+    begin_steps(&rig->newton, &rig->problem, &rig->solution);
+}
+
+static void end_rig(Rig *rig)
+{
+    contact_newton_destroy(&rig->newton);
+    contact_matrix_destroy(&rig->matrix);
+}
+
 // From velocities that leave forces at open nodes: after one step these have none, all other
 // reactions are those of the velocities there are, and each further step keeps them so.
 TEST(test_step_adds_up)
 {
-    Error err = {0};
-    Random random = {.state = 41};
-    ContactMatrix matrix;
-    ContactNewton newton;
-    make_problem(&random);
-    assert_true(contact_matrix_create(hand.schur, hand.interface.count, &matrix, &err));
-    assert_true(contact_newton_create(&hand.interface, &newton, &err));
-    ContactSolution solution = {hand.velocity, hand.reaction, hand.status, hand.rod_touches};
-    ContactProblem problem = hand_problem(&hand, &matrix);
-    begin_steps(&newton, &problem, &solution);
-    double force = contact_scales(&problem, NULL).force, after = INFINITY;
+    Rig rig;
+    begin_rig(41, &rig);
+    double force = contact_scales(&rig.problem, NULL).force, after = INFINITY;
     for (int step = 0; step < 8; step++) {
-        assert_true(contact_newton_step(&newton));
-        assert_false(newton.exact);
+        assert_true(contact_newton_step(&rig.newton));
+        assert_false(rig.newton.exact);
         for (int32_t k = 0; k < hand.interface.count; k++)
             assert_near("reaction", hand.reaction[k], force_of(k), 1e-12 * force);
-        assert_int_equal(newton.open_count, 2 * 18);
-        find_rows(&newton);
-        after = contact_newton_residual(&newton);
-        newton.factors_gain = step % 2;   // anew, and once more with the same
-        assert_int_equal(newton.reused, step > 0 && step % 2 == 0);
+        assert_int_equal(rig.newton.open_count, 2 * 18);
+        find_rows(&rig.newton);
+        after = contact_newton_residual(&rig.newton);
+        rig.newton.factors_gain = step % 2;   // anew, and once more with the same
+        assert_int_equal(rig.newton.reused, step > 0 && step % 2 == 0);
     }
     assert_true(after < 1e-9 * force);
-    contact_newton_react(&newton);
-    assert_true(newton.exact);
-    contact_newton_destroy(&newton);
-    contact_matrix_destroy(&matrix);
+    contact_newton_react(&rig.newton);
+    assert_true(rig.newton.exact);
+    end_rig(&rig);
 }
 
 // Where statuses change reactions follow what moves: nodes that stick or close are put in their
 // place, those that open or slip stay as they are.
 TEST(test_reactions_follow_statuses)
 {
-    Error err = {0};
-    Random random = {.state = 43};
-    ContactMatrix matrix;
-    ContactNewton newton;
-    make_problem(&random);
-    assert_true(contact_matrix_create(hand.schur, hand.interface.count, &matrix, &err));
-    assert_true(contact_newton_create(&hand.interface, &newton, &err));
-    ContactSolution solution = {hand.velocity, hand.reaction, hand.status, hand.rod_touches};
-    ContactProblem problem = hand_problem(&hand, &matrix);
-    begin_steps(&newton, &problem, &solution);
+    Rig rig;
+    begin_rig(43, &rig);
     for (int32_t k = 0; k < hand.interface.count; k++)
         assert_near("at first", hand.reaction[k], force_of(k), 1e-12);
     hand.status[4] = CONTACT_OPEN;   // it stuck
     hand.status[9] = CONTACT_SLIP_FORWARD;   // it stuck, too
-    contact_newton_settle(&newton);
-    assert_true(newton.exact);   // nothing has moved
+    contact_newton_settle(&rig.newton);
+    assert_true(rig.newton.exact);   // nothing has moved
     hand.status[0] = CONTACT_STICK;
-    contact_newton_settle(&newton);
-    assert_false(newton.exact);
+    contact_newton_settle(&rig.newton);
+    assert_false(rig.newton.exact);
     assert_true(hand.velocity[0] == 0 && hand.velocity[1] == hand.bound[1]);
     for (int32_t k = 0; k < hand.interface.count; k++)
         assert_near("reaction", hand.reaction[k], force_of(k), 1e-12);
-    contact_newton_destroy(&newton);
-    contact_matrix_destroy(&matrix);
+    end_rig(&rig);
 }
 
 // To the last bit, not as steps added them up.
@@ -158,28 +165,19 @@ TEST(test_solution_is_exact)
 // Half of a step is taken back: velocities lie half way, and reactions are theirs.
 TEST(test_half_a_step)
 {
-    Error err = {0};
-    Random random = {.state = 44};
-    ContactMatrix matrix;
-    ContactNewton newton;
-    make_problem(&random);
-    assert_true(contact_matrix_create(hand.schur, hand.interface.count, &matrix, &err));
-    assert_true(contact_newton_create(&hand.interface, &newton, &err));
-    ContactSolution solution = {hand.velocity, hand.reaction, hand.status, hand.rod_touches};
-    ContactProblem problem = hand_problem(&hand, &matrix);
-    begin_steps(&newton, &problem, &solution);
-    assert_true(contact_newton_step(&newton));   // open nodes have no force from here on
+    Rig rig;
+    begin_rig(44, &rig);
+    assert_true(contact_newton_step(&rig.newton));   // open nodes have no force from here on
     double from[HAND_UNKNOWNS], to[HAND_UNKNOWNS];
     memcpy(from, hand.velocity, sizeof from);
-    assert_true(contact_newton_step(&newton));
+    assert_true(contact_newton_step(&rig.newton));
     memcpy(to, hand.velocity, sizeof to);
-    contact_newton_halve(&newton);
+    contact_newton_halve(&rig.newton);
     for (int32_t k = 0; k < hand.interface.count; k++) {
         assert_near("v", hand.velocity[k], (from[k] + to[k]) / 2, 1e-12);
         assert_near("reaction", hand.reaction[k], force_of(k), 1e-11);
     }
-    contact_newton_destroy(&newton);
-    contact_matrix_destroy(&matrix);
+    end_rig(&rig);
 }
 
 // A step with factors that were read back has the bits of one with those that were written, in
