@@ -311,8 +311,8 @@ bool step_control_advance(StepControl *control, double remaining, Error *err)
         // Sweeps over the contact cost as much as some hundred steps on a large interface, and
         // shorter steps need none: only where none is left. In space shorter steps may need them,
         // too (friction that creeps).
-        bool sweeps_on = control->scheme.interface->dim > 2 || k == dt_levels->level_count - 1;
-        control->scheme.solver.sweeps_on = control->half.solver.sweeps_on = sweeps_on;
+        control->scheme.solver.sweeps_on = control->scheme.interface->dim > 2 ||
+                                           k == dt_levels->level_count - 1;
         // The whole contact is solved, or its symmetric part alone, with the antisymmetric one
         // where that does not decay.
         bool halved = dt_levels->half && !control->asymmetric &&
