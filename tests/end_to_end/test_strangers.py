@@ -25,7 +25,8 @@ DRAWN = ("fffbfe5e2246803ca7d418fa65e6a743635fc5625a227ff3825724059b537a14",    
          "e73f2ed32cb6a618371a50bba19c855687212d884f7fa3a664296b393c24f0a1",
          "a5bba5faa2f3348b5c569e26c5a2fc2efa9baabd5434b43a5cba9b144687b203",
          "8fe1102d16db56459a43a83b3a5be7687da13d25a19ba21aba8595f6cb6dd155",
-         "1bb9ca99e64436f3b019a6f30bb419d996f7aa347f32d5b253dfef5bed5b6523")
+         "1bb9ca99e64436f3b019a6f30bb419d996f7aa347f32d5b253dfef5bed5b6523",
+         "ae6d211ccde89346f8a021ce3da5b624e43e2e03a0fc61b8f2a27657c5f4bbf5")
 
 
 def runs(values, answer="mu_hold", drift=0, late=0):
@@ -41,13 +42,13 @@ def asked(value, bar):
 class Problems(unittest.TestCase):
     def test_same_as_drawn(self):
         found = problems.problems()
-        self.assertEqual(tuple(problems.digest(found[first:last]) for first, last in ((0, 200), (200, 300), (300, 400), (400, 500), (500, 600), (600, 700), (700, 750), (750, 800), (800, 850))),
+        self.assertEqual(tuple(problems.digest(found[first:last]) for first, last in ((0, 200), (200, 300), (300, 400), (400, 500), (500, 600), (600, 700), (700, 750), (750, 800), (800, 850), (850, 950))),
                          DRAWN)
 
     def test_all_is_said(self):
         """Each kind of thing that a scene can say comes up in ten problems or more, among the tuning ones too."""
         found = problems.problems()
-        self.assertEqual((len(found), sum(one.tuning for one in found), sum(one.whole for one in found)), (850, 750, 85))
+        self.assertEqual((len(found), sum(one.tuning for one in found), sum(one.whole for one in found)), (950, 850, 95))
         seen = collections.Counter(word for one in found for word in one.features)
         for word in ("T3", "T6", "Q4", "Q8", "Q9", "SI", "stress", "strain", "table", "formula", "bonded", "machine", "by pad", "along",
                      "linear-weakening", "exponential-weakening", "program of the rod", "program of the load", "ageing", "slip-weakening", "rate-and-state", "holds of the rod",
@@ -56,7 +57,7 @@ class Problems(unittest.TestCase):
 
     def test_program_takes_a_sample(self):
         with tempfile.TemporaryDirectory() as folder:
-            for number in (*range(1, 601, 25), 115, *range(605, 850, 12)):      # 115: a profile that ends at the contact's end in five digits
+            for number in (*range(1, 601, 25), 115, *range(605, 950, 12)):      # 115: a profile that ends at the contact's end in five digits
                 unknowns, said = strangers.size(problems.problem(number).write(Path(folder)))
                 self.assertIsNotNone(unknowns, f"{number}: {said}")
 
