@@ -61,8 +61,8 @@ static double pull_of(const ContactEquations *equations, int32_t i, double z[TAN
     return r[n] - problem->matrix->own[n] * (v[n] - problem->bound[n]);
 }
 
-// The row of node i, which slips with this speed and mu; limit: mu p. Slow creep has the direction
-// of its velocity, as friction is 0 at rest there; in space z turns with it.
+// The row of node i, which slips with this speed and mu; limit: mu p. What creeps has the direction
+// of its velocity, as friction is 0 at rest there and resists alike in all directions.
 static void find_row(const ContactEquations *equations, int32_t i, const double z[TANGENTS_MAX],
                      double speed, double mu, double limit)
 {
@@ -72,14 +72,14 @@ static void find_row(const ContactEquations *equations, int32_t i, const double 
     int32_t t = interface_tangent(problem->interface, i);
     const double *v = equations->at->velocity + t;
     double size = hypot(z[0], z[1]), rho = own_stiffness(problem, i);
-    ContactRow *row = &equations->row[i];
-    *row = (ContactRow){.d = {-z[0] / size, -z[1] / size},
-                        .mu = mu,
-                        .theta = limit > 0 ? limit / (limit + rho * speed) : 0,
-                        .rho = rho};
-    if (tangents == 1 && node->law->creeps && along(row, tangents, v) < 0)
-        for (int32_t c = 0; c < tangents; c++) row->d[c] = v[c] / speed;
     double slope = friction_slope(node, speed) * fmax(equations->at->reaction[t + tangents], 0);
+    double across = speed > 0 ? limit / speed : limit > 0 ? INFINITY : 0;
+    if (node->law->creeps && speed == 0) across = slope;
+    ContactRow *row = &equations->row[i];
+    *row = (ContactRow){
+        .d = {-z[0] / size, -z[1] / size}, .mu = mu, .theta = rho / (rho + across), .rho = rho};
+    for (int32_t c = 0; node->law->creeps && speed > 0 && c < tangents; c++)
+        row->d[c] = v[c] / speed;
     for (int32_t c = 0; c < tangents; c++)
         row->slope[c] = slope * (speed > 0 ? v[c] / speed : row->d[c]);
 }
@@ -311,13 +311,13 @@ double contact_residuals(const ContactEquations *equations, const ContactRow *ke
             continue;
         }
         // Both equations of a node in space, whose tangents follow one another.
-        double turning = (1 - row->theta) * (d[0] * r[1] - d[1] * r[0]) +
-                         row->theta * row->rho * (d[0] * v[1] - d[1] * v[0]);
-        double across = row->theta < 1 ? turning / (1 - row->theta) : 0;
+        double turning = row->theta * (d[0] * r[1] - d[1] * r[0]) +
+                         (1 - row->theta) * row->rho * (d[0] * v[1] - d[1] * v[0]);
+        double across = row->theta > 0 ? turning / row->theta : 0;
         largest = larger(largest, hypot(force, across));
         if (kept) {
             double sine = old->d[0] * d[1] - old->d[1] * d[0];
-            turning = (1 - old->theta) * (sine * force + cosine * across);
+            turning = old->theta * (sine * force + cosine * across);
             force = cosine * force - sine * across;
         }
         residual[a++] = force;
@@ -340,7 +340,7 @@ void contact_combine(const ContactEquations *equations, const ContactRow *rows, 
         const ContactRow *row = &rows[i];
         out[a] += along(row, tangents, x + k) + row->mu * x[k + tangents];
         if (tangents == 1) continue;
-        out[++a] += (1 - row->theta) * (row->d[0] * x[k + 1] - row->d[1] * x[k]);
+        out[++a] += row->theta * (row->d[0] * x[k + 1] - row->d[1] * x[k]);
     }
 }
 
@@ -359,5 +359,5 @@ void contact_derivative_column(const ContactEquations *equations, const double *
     int32_t axis = dof_axis(dim, own), first = b - axis;
     out[first] += row->slope[axis];
     if (dim == 2) return;
-    out[first + 1] += row->theta * row->rho * (axis == 0 ? -row->d[1] : row->d[0]);
+    out[first + 1] += (1 - row->theta) * row->rho * (axis == 0 ? -row->d[1] : row->d[0]);
 }

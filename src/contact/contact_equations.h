@@ -12,14 +12,15 @@
 // and each unknown of it has an equation:
 //
 //     slips       d.r_t + mu(s) r_n = 0
-//     in space    (1 - theta) e.r_t + theta rho e.v_t = 0, e across d,
-//                 theta = mu p/(mu p + rho s)
+//     in space    theta e.r_t + (1 - theta) rho e.v_t = 0, e across d,
+//                 theta = rho s/(mu p + rho s)
 //     rod node    r_x = 0, or r_x + stiffness (v_x - bound_x) = 0 where it is soft and touches
 //
-// The first two say r_t = -mu(s) r_n v_t/s. The second is e.(r_t + mu r_n v_t/s) by (1 - theta): so
+// The first two say r_t = -mu(s) r_n v_t/s. The second is e.(r_t + mu r_n v_t/s) by theta: so
 // a node that only starts, s = 0, holds its direction, and one that slips fast turns as its force
-// does. Their derivatives beside S: mu'(s) r_n along the slip, theta rho across. An equation is
-// linear in r, so that rows found at an earlier r (a warm start) meet the r of this g.
+// does. Their derivatives beside S: mu'(s) r_n along the slip, (1 - theta) rho across. An equation
+// is linear in r, so that rows found at an earlier r (a warm start) meet the r of this g. Where
+// friction creeps, mu(0) = 0, nothing sticks, d is v_t/s, and mu/s at rest is mu'(0).
 #ifndef AMONTONS_CONTACT_CONTACT_EQUATIONS_H
 #define AMONTONS_CONTACT_CONTACT_EQUATIONS_H
 
@@ -28,9 +29,9 @@
 
 // The equations of a slipping node, beside S. Of one tangent d is 1 or -1, the second component 0.
 typedef struct ContactRow {
-    double d[TANGENTS_MAX];   // along z, against friction; e = (-d[1], d[0])
+    double d[TANGENTS_MAX];   // along the slip, against friction; e = (-d[1], d[0])
     double mu;
-    double theta;   // 1 at rest, where the direction is held; 0 of fast slip, which turns freely
+    double theta;   // 0 at rest, where the direction is held; 1 of fast slip, which turns freely
     double rho;   // force/width per velocity
     double slope[TANGENTS_MAX];   // mu' r_n v_t/s: how friction along d answers to v_t
 } ContactRow;

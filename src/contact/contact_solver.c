@@ -130,7 +130,8 @@ bool contact_solve(ContactSolver *solver, const ContactProblem *problem, Contact
 
     // Steps from what was handed in.
     contact_newton_begin(newton, problem, solution, TOLERANCE);
-    newton->in_double = interface->dim == 2;
+    // Where friction creeps its slope at rest is beyond what a float holds.
+    newton->in_double = interface->dim == 2 || newton->creeps;
     bool solved = settle(solver);
     solver->fallbacks += !solved;
 

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Random contact problems of nodes that remember, each with a law and a state of its own: rate and
 // state over many decades of slip rate, where no node sticks; ageing and slip-weakening. They are
-// solved, and rightly, from any guess, where S outweighs the weakening.
+// solved, and rightly, from any guess, where S outweighs the weakening. In the plane; in space by
+// test_contact_memory_space.c.
 #include "contact_by_hand.h"
 #include "own_laws.h"
-#include "plane.h"
+
+#ifndef SWEEPS_ON
+#define SWEEPS_ON false   // steps of Newton alone
+#endif
 
 static HandContact hand, other;   // large; a test runs alone
 static FrictionLaw laws[HAND_NODES];
@@ -38,9 +42,11 @@ static void set_law(Random *random, FrictionKind kind, FrictionLaw *law, Frictio
 static void random_loads(Random *random)
 {
     for (int32_t i = 0; i < hand.interface.contact_count; i++) {
-        hand.g[plane_tangent(i)] = random_between(random, -3, 3);
-        hand.g[plane_normal(i)] = random_between(random, -4, 1);
-        hand.bound[plane_normal(i)] = random_between(random, -0.4, 0.1);
+        int32_t n = interface_normal(&hand.interface, i);
+        for (int32_t t = interface_tangent(&hand.interface, i); t < n; t++)
+            hand.g[t] = random_between(random, -3, 3);
+        hand.g[n] = random_between(random, -4, 1);
+        hand.bound[n] = random_between(random, -0.4, 0.1);
     }
     for (int32_t j = 0; j < hand.interface.rod_count; j++) {
         hand.g[interface_rod(&hand.interface, j)] = random_between(random, -1, 1);
@@ -74,19 +80,19 @@ TEST(test_solved_from_any_guess)
         hand_random_schur(&random, 3, 0.5, &hand);
         random_loads(&random);
         random_statuses(&random, &hand);
-        if (!hand_contact_solve_by(&hand, false, &counts))
+        if (!hand_contact_solve_by(&hand, SWEEPS_ON, &counts))
             fail_msg("trial %d with %d nodes is not solved", trial, count);
         assert_near("judged", hand_contact_error(&hand), 0, 1e-9);
         other = hand;
         random_statuses(&random, &other);
-        assert_true(hand_contact_solve_by(&other, false, &counts));
+        assert_true(hand_contact_solve_by(&other, SWEEPS_ON, &counts));
         assert_all_near("from another guess", other.velocity, hand.velocity, hand.interface.count,
                         1e-8);
         if (kind != FRICTION_RATE_STATE) continue;
         solves++;
         iterations += counts.iterations;
         for (int32_t i = 0; i < count; i++) {
-            double speed = fabs(hand.velocity[plane_tangent(i)]);
+            double speed = slip_size(&hand.interface, i, hand.velocity);
             assert_true(hand.status[i] != CONTACT_STICK || speed == 0);
             if (status_slips(hand.status[i])) slowest = fmin(slowest, speed);
             if (status_slips(hand.status[i])) fastest = fmax(fastest, speed);

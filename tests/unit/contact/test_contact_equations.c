@@ -142,7 +142,7 @@ static double residual_by_hand(int32_t k)
     double mu = friction_coefficient(NODE_OF(&hand.law), speed);
     const double e[] = {-d[1], d[0]};
     if (axis == 0) return dot(d, r) + mu * r[dim - 1];
-    return (1 - row->theta) * dot(e, r) + row->theta * row->rho * dot(e, v);
+    return row->theta * dot(e, r) + (1 - row->theta) * row->rho * dot(e, v);
 }
 
 // An addition to the reactions changes residuals as contact_combine says; in the directions of
@@ -167,7 +167,7 @@ TEST(test_residuals)
             assert_near("combined", value - combined[a], less[a], 1e-12);
             double off = fabs(value);
             if (k < dim * NODES && dim == 3 && k % 3 == 0)
-                off = hypot(value, residual_by_hand(k + 1) / (1 - row_list[k / 3].theta));
+                off = hypot(value, residual_by_hand(k + 1) / row_list[k / 3].theta);
             if (k >= dim * NODES || k % dim == 0) largest = fmax(largest, off);
         }
         assert_near("largest", found, largest, 1e-12);
