@@ -24,6 +24,7 @@ static const double TOLERANCE = 1e-12;
 enum {
     STEPS = 20,   // of Newton before any sweeps, and after each round of them
     HALVINGS = 4,   // of a step that leaves more than there was: to and fro over a kink of mu
+    STALE = 6,   // steps with the same statuses that do not halve the residual: it stays so
 };
 
 // *solver is overwritten; on failure contact_solver_destroy frees what was made.
@@ -55,6 +56,8 @@ static bool settle(ContactSolver *solver)
     ContactNewton *newton = &solver->newton;
     ContactEquations *equations = &newton->equations;
     double before = INFINITY;   // residual of the last step with these statuses, over the scale
+    double least = INFINITY;   // residual when it was last halved
+    int32_t stale = 0;   // steps since then
     int32_t met = 1, anchored = 1;   // sets of statuses so far; that which solver->anchor holds
     bool started = false;   // nodes were started beyond their weakening
     double anchor_size = INFINITY;   // contact_slip_square with that set
@@ -83,7 +86,8 @@ static bool settle(ContactSolver *solver)
         if (residual <= TOLERANCE) return contact_is_finite(equations);
 
         // Statuses met before, with the same velocities, tell of a cycle (Brent, BIT 20, 1980:
-        // compared with one set that is kept, and renewed at powers of two).
+        // compared with one set that is kept, and renewed at powers of two); so do steps that lead
+        // to and fro over kinks of mu with the same statuses.
         bool cycles = false;
         if (changed) {
             double size = contact_slip_square(equations);
@@ -95,13 +99,18 @@ static bool settle(ContactSolver *solver)
                 contact_copy_statuses(equations, solver->anchor);
             }
         }
+        bool halved = changed || residual <= 0.5 * least;
+        least = changed ? INFINITY : halved ? residual : least;
+        stale = halved ? 0 : stale + 1;
+        cycles = cycles || stale == STALE;
 
         // Slow slip may be no solution: certainly where friction falls faster than the node's own
         // entry of S resists; in a cycle where it falls faster than all that slips resists.
         if (!started && (cycles || (!changed && !newton->reused))) {
             started = contact_newton_start_fast(newton, cycles ? 0 : 1);
             if (started) {
-                before = INFINITY;
+                before = least = INFINITY;
+                stale = 0;
                 continue;
             }
         }
