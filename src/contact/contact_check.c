@@ -32,16 +32,17 @@ ContactResidual contact_residual(const ContactProblem *problem, const double *ve
         int32_t t = interface_tangent(interface, i), n = interface_normal(interface, i);
         double pressing = reaction[n] / force_scale;
         check_unilateral((velocity[n] - problem->bound[n]) / velocity_scale, pressing, &worst);
+        const FrictionNode *node = friction_at(problem->friction, i);
         double speed = slip_size(interface, i, velocity);
-        double limit = friction_coefficient(friction_at(problem->friction, i), speed) *
-                       fmax(pressing, 0);
+        double limit = friction_coefficient(node, speed) * fmax(pressing, 0);
         worst.cone = fmax(worst.cone, slip_size(interface, i, reaction) / force_scale - limit);
         // Where it slips, friction is mu p against the slip; at rest any shear inside the cone will
-        // do.
+        // do. What creeps slips at any speed.
         double off = 0;
         for (int32_t c = 0; c < slip_tangents(interface); c++)
             off = hypot(off, reaction[t + c] / force_scale + limit * (velocity[t + c] / speed));
-        if (speed > STILL * velocity_scale) worst.direction = fmax(worst.direction, off);
+        double still = node->law->creeps ? 0 : STILL * velocity_scale;
+        if (speed > still) worst.direction = fmax(worst.direction, off);
     }
     for (int32_t j = 0; j < interface->rod_count; j++) {
         int32_t x = interface_rod(interface, j);

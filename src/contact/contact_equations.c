@@ -62,7 +62,7 @@ static double pull_of(const ContactEquations *equations, int32_t i, double z[TAN
 }
 
 // The row of node i, which slips with this speed and mu; limit: mu p. What creeps has the direction
-// of its velocity, as friction is 0 at rest there and resists alike in all directions.
+// of its velocity; friction that is 0 at rest resists there alike in all directions.
 static void find_row(const ContactEquations *equations, int32_t i, const double z[TANGENTS_MAX],
                      double speed, double mu, double limit)
 {
@@ -73,8 +73,8 @@ static void find_row(const ContactEquations *equations, int32_t i, const double 
     const double *v = equations->at->velocity + t;
     double size = hypot(z[0], z[1]), rho = own_stiffness(problem, i);
     double slope = friction_slope(node, speed) * fmax(equations->at->reaction[t + tangents], 0);
-    double across = speed > 0 ? limit / speed : limit > 0 ? INFINITY : 0;
-    if (node->law->creeps && speed == 0) across = slope;
+    double at_rest = limit > 0 ? INFINITY : fmax(slope, 0);
+    double across = speed > 0 ? limit / speed : at_rest;
     ContactRow *row = &equations->row[i];
     *row = (ContactRow){
         .d = {-z[0] / size, -z[1] / size}, .mu = mu, .theta = rho / (rho + across), .rho = rho};

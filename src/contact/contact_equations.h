@@ -20,7 +20,7 @@
 // a node that only starts, s = 0, holds its direction, and one that slips fast turns as its force
 // does. Their derivatives beside S: mu'(s) r_n along the slip, (1 - theta) rho across. An equation
 // is linear in r, so that rows found at an earlier r (a warm start) meet the r of this g. Where
-// friction creeps, mu(0) = 0, nothing sticks, d is v_t/s, and mu/s at rest is mu'(0).
+// friction creeps nothing sticks, and d is v_t/s for s > 0. mu/s is mu'(0) at rest where mu(0) = 0.
 #ifndef AMONTONS_CONTACT_CONTACT_EQUATIONS_H
 #define AMONTONS_CONTACT_CONTACT_EQUATIONS_H
 
@@ -31,7 +31,7 @@
 typedef struct ContactRow {
     double d[TANGENTS_MAX];   // along the slip, against friction; e = (-d[1], d[0])
     double mu;
-    double theta;   // 0 at rest, where the direction is held; 1 of fast slip, which turns freely
+    double theta;   // 0 where it starts, its direction held; 1 of fast slip, which turns freely
     double rho;   // force/width per velocity
     double slope[TANGENTS_MAX];   // mu' r_n v_t/s: how friction along d answers to v_t
 } ContactRow;

@@ -24,7 +24,7 @@ static const double TOLERANCE = 1e-12;
 enum {
     STEPS = 20,   // of Newton before any sweeps, and after each round of them
     HALVINGS = 4,   // of a step that leaves more than there was: to and fro over a kink of mu
-    STALE = 6,   // steps with the same statuses that do not halve the residual: it stays so
+    STALE = 6,   // steps with the same statuses that do not halve the residual, as in a cycle
 };
 
 // *solver is overwritten; on failure contact_solver_destroy frees what was made.
@@ -86,8 +86,8 @@ static bool settle(ContactSolver *solver)
         if (residual <= TOLERANCE) return contact_is_finite(equations);
 
         // Statuses met before, with the same velocities, tell of a cycle (Brent, BIT 20, 1980:
-        // compared with one set that is kept, and renewed at powers of two); so do steps that lead
-        // to and fro over kinks of mu with the same statuses.
+        // compared with one set that is kept, and renewed at powers of two). Steps with the same
+        // statuses that do not halve the residual lead to and fro over kinks of mu.
         bool cycles = false;
         if (changed) {
             double size = contact_slip_square(equations);
@@ -102,10 +102,10 @@ static bool settle(ContactSolver *solver)
         bool halved = changed || residual <= 0.5 * least;
         least = changed ? INFINITY : halved ? residual : least;
         stale = halved ? 0 : stale + 1;
-        cycles = cycles || stale == STALE;
+        cycles = cycles || (stale >= STALE && !newton->reused);
 
         // Slow slip may be no solution: certainly where friction falls faster than the node's own
-        // entry of S resists; in a cycle where it falls faster than all that slips resists.
+        // entry of S resists; in a cycle perhaps where it falls at all.
         if (!started && (cycles || (!changed && !newton->reused))) {
             started = contact_newton_start_fast(newton, cycles ? 0 : 1);
             if (started) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Random contact problems of nodes that remember, each with a law and a state of its own: rate and
 // state over many decades of slip rate, where no node sticks; ageing and slip-weakening. They are
-// solved, and rightly, from any guess, where S outweighs the weakening. In the plane; in space by
-// test_contact_memory_space.c.
+// solved, and rightly, from any guess, where S outweighs the weakening. test_contact_memory_space.c
+// asks the same in space.
 #include "contact_by_hand.h"
 #include "own_laws.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The random problems of nodes that remember, in space, where sweeps are on at every step.
+// This asks test_contact_memory.c's questions in space, where sweeps are on at every step.
 #define HAND_DIM 3
 #define HAND_NODES 12
 #define SWEEPS_ON true

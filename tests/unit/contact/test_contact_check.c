@@ -4,6 +4,7 @@
 #include "contact/contact_check.h"
 
 #include "contact_by_hand.h"
+#include "own_laws.h"
 #include "plane.h"
 
 static const double FORCE = 10, VELOCITY = 0.5;
@@ -115,4 +116,36 @@ TEST(test_still_is_still)
     hand.reaction[0] = 5.9;
     residual = judge(&hand);
     assert_true(residual.direction > 1);
+}
+
+// What creeps is never still: force along the slip is inside the cone, and wrong at any speed.
+TEST(test_creep_has_a_direction)
+{
+    HandContact hand;
+    good_state(&hand);
+    FrictionLaw law = law_with_state((FrictionLaw){.kind = FRICTION_RATE_STATE,
+                                                   .slip_distance = 1,
+                                                   .evolution_effect = 0.01,
+                                                   .direct_effect = 0.01,
+                                                   .mu_reference = 0.4,
+                                                   .reference_velocity = 1e-3});
+    FrictionNode nodes[4];
+    double from = 0;
+    for (int32_t i = 0; i < 4; i++) {
+        nodes[i] = friction_node(&law, 1);
+        friction_set_stage(&nodes[i], &from, 0.1);
+        hand.velocity[plane_tangent(i)] = 0;
+    }
+    hand.friction = friction_of_nodes(nodes, 4);
+    hand.reaction[2] = hand.reaction[4] = 0;
+    hand.velocity[0] = 1e-15;
+    double mu = friction_coefficient(&nodes[0], 1e-15);
+    assert_true(mu > 0.01);
+    hand.reaction[0] = -mu * 10;
+    ContactResidual residual = judge(&hand);
+    assert_near("against the slip", contact_residual_max(&residual), 0, 1e-12);
+    hand.reaction[0] = 0.5 * mu * 10;
+    residual = judge(&hand);
+    assert_near("in the cone", residual.cone, 0, 1e-12);
+    assert_near("along the slip", residual.direction, 1.5 * mu, 1e-12);
 }

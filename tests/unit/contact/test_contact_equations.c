@@ -6,6 +6,7 @@
 #include "contact/contact_equations.h"
 
 #include "contact_by_hand.h"
+#include "own_laws.h"
 
 enum { NODES = 6, RODS = 3, COUNT = 3 * NODES + RODS };
 
@@ -89,7 +90,7 @@ TEST(test_statuses)
         make_rows(&random, &equations);
         uint8_t wanted[NODES], touches[RODS];
         bool changes = false;
-        double d_wanted[NODES][2];
+        double d_wanted[NODES][2], theta_wanted[NODES];
         for (int32_t i = 0; i < NODES; i++) {
             const double *v = hand.velocity + dim * i, *r = hand.reaction + dim * i;
             const double *own = hand.schur + (int64_t)dim * i * (count + 1);
@@ -105,6 +106,7 @@ TEST(test_statuses)
             bool turns = hand.status[i] == CONTACT_SLIP_FORWARD && dot(row_list[i].d, z) > 0;
             if (wanted[i] == CONTACT_SLIP_FORWARD && turns) wanted[i] = CONTACT_STICK, turned++;
             for (int32_t c = 0; c < 2; c++) d_wanted[i][c] = -z[c] / size;
+            theta_wanted[i] = rho * speed / (mu * p + rho * speed);
             met[wanted[i]]++;
             changes = changes || wanted[i] != hand.status[i];
         }
@@ -118,11 +120,55 @@ TEST(test_statuses)
         assert_memory_equal(hand.status, wanted, sizeof wanted);
         assert_memory_equal(hand.rod_touches, touches, sizeof touches);
         for (int32_t i = 0; i < NODES; i++)
-            if (wanted[i] == CONTACT_SLIP_FORWARD)
+            if (wanted[i] == CONTACT_SLIP_FORWARD) {
                 assert_all_near("d", row_list[i].d, d_wanted[i], 2, 1e-12);
+                assert_near("theta", row_list[i].theta, theta_wanted[i], 1e-12);
+            }
         contact_matrix_destroy(&matrix);
     }
     assert_true(met[0] > 100 && met[1] > 100 && met[2] > 100 && turned > 100);
+}
+
+// A node that creeps slips along its velocity, whatever its force is; from rest against its force,
+// and friction across is mu'(0) p v.
+TEST(test_creep)
+{
+    Random random = {.state = 16};
+    for (int32_t trial = 0; trial < 100; trial++) {
+        ContactEquations equations = make_equations(&random, trial);
+        FrictionLaw law = law_with_state((FrictionLaw){.kind = FRICTION_RATE_STATE,
+                                                       .slip_distance = 1,
+                                                       .evolution_effect = 0.01,
+                                                       .direct_effect = 0.015,
+                                                       .mu_reference = 0.4,
+                                                       .reference_velocity = 1e-3});
+        FrictionNode nodes[NODES];
+        double from = 0;
+        for (int32_t i = 0; i < NODES; i++) {
+            nodes[i] = friction_node(&law, 1);
+            friction_set_stage(&nodes[i], &from, 0.1);
+            hand.reaction[dim * i + dim - 1] = 1;
+            hand.bound[dim * i + dim - 1] = hand.velocity[dim * i + dim - 1];
+            for (int32_t c = 0; c < dim - 1; c++)
+                hand.velocity[dim * i + c] *= i % 2 ? pow(10, -3 * i) : 0;
+        }
+        hand.friction = friction_of_nodes(nodes, NODES);
+        contact_judge(&equations);
+        for (int32_t i = 0; i < NODES; i++) {
+            const double *v = hand.velocity + dim * i, *r = hand.reaction + dim * i;
+            const double *own = hand.schur + (int64_t)dim * i * (count + 1);
+            double rho = dim == 2 ? own[0] : (own[0] + own[count + 1]) / 2;
+            double speed = sqrt(dot(v, v)), force = sqrt(dot(r, r)), wanted[2] = {0};
+            double slow = speed > 0 ? speed : 1e-6 / friction_slope(&nodes[i], 0);
+            for (int32_t c = 0; c < dim - 1; c++)
+                wanted[c] = speed > 0 ? v[c] / speed : -r[c] / force;
+            assert_int_equal(hand.status[i], CONTACT_SLIP_FORWARD);
+            assert_all_near("d", row_list[i].d, wanted, 2, 1e-12);
+            double across = friction_coefficient(&nodes[i], slow) / slow;
+            assert_near("theta", row_list[i].theta, rho / (rho + across), 1e-6 * rho / across);
+        }
+        contact_matrix_destroy(&matrix);
+    }
 }
 
 // r_k, and what stands beside it, in the words of the header; of an axis of node i in space the
