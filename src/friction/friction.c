@@ -119,6 +119,13 @@ bool friction_remembers(const Friction *friction, int32_t count)
     return friction->whole.law->remembers;
 }
 
+bool friction_creeps(const Friction *friction, int32_t count)
+{
+    for (int32_t i = 0; friction->node && i < count; i++)
+        if (friction->node[i].law->creeps) return true;
+    return friction->whole.law->creeps;
+}
+
 int32_t friction_states(const Friction *friction, int32_t count)
 {
     int32_t most = friction->whole.law->states;

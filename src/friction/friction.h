@@ -63,8 +63,9 @@ static inline const FrictionNode *friction_at(const Friction *friction, int32_t 
     return friction->node ? &friction->node[i] : &friction->whole;
 }
 
-// Some node has a law that remembers; and the largest number of states of a node.
+// Some node has a law that remembers; one that creeps; and the largest number of states of a node.
 bool friction_remembers(const Friction *friction, int32_t count);
+bool friction_creeps(const Friction *friction, int32_t count);
 int32_t friction_states(const Friction *friction, int32_t count);
 
 // --- the coefficient; in a stage, of a law that remembers ---------------------------------------

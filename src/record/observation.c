@@ -32,8 +32,9 @@ Observation observe(const StepControl *control, const ObservationScales *scales)
                         .rod_force = rod_force(interface, state->reaction),
                         .trailing = scales->trailing,
                         .certified = control->certified,
-                        .grows = control->grows};
-    if (scheme->friction->whole.law->creeps) seen.creep = CREEP * scales->slip_velocity;
+                        .grows = control->grows,
+                        .friction = scheme->friction,
+                        .creep = CREEP * scales->slip_velocity};
 
     // The front: x of the last node of the run of nodes from the trailing edge that do not stick.
     seen.front = interface_line_x(interface, 0);

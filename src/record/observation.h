@@ -26,8 +26,8 @@ typedef struct Observation {
         // stands at the trailing edge, and its place is no length of slip
     double trailing;   // x of the block's trailing end: l is front - trailing
     double max_slip_rate;   // velocity
-    double creep;   // where no node ever sticks, one that slips slower than this counts as at rest;
-        // 0 where nodes stick; velocity
+    const Friction *friction;   // of the nodes; not owned
+    double creep;   // a node that never sticks counts as at rest while it slips slower; velocity
     bool certified;
     bool grows;   // slip runs away, as step_control saw it
     double energy_imbalance;   // energy/width, since the start
@@ -54,9 +54,9 @@ typedef struct ObservationScales {
 static inline uint8_t seen_status(const Observation *seen, int32_t i)
 {
     uint8_t status = seen->state->status[i];
-    bool creeps = status_slips(status) &&
-                  slip_size(seen->interface, i, seen->state->slip_rate) < seen->creep;
-    return creeps ? CONTACT_STICK : status;
+    bool slow = status_slips(status) &&
+                slip_size(seen->interface, i, seen->state->slip_rate) < seen->creep;
+    return slow && friction_at(seen->friction, i)->law->creeps ? CONTACT_STICK : status;
 }
 
 Observation observe(const StepControl *control, const ObservationScales *scales);

@@ -4,6 +4,7 @@
 #include "run/start.h"
 
 #include "base/clock.h"
+#include "base/memory.h"
 #include "friction/friction.h"
 #include "model/step_rule.h"
 #include "scene/programs.h"
@@ -76,7 +77,8 @@ bool start_relax(Simulation *simulation, Error *err)
 {
     const Scene *scene = &simulation->scene;
     const Model *model = &simulation->model;
-    const FrictionLaw *law = model->friction.whole.law;
+    int32_t contacts = model->interface.contact_count;
+    FrictionNode *constant = NULL;
     double started = clock_seconds();
     RelaxationDef def = {.speed_max = scene->start.tolerance * model->scales.slip_velocity,
                          .duration_max = scene->start.duration_max * model_settling_time(model),
@@ -84,8 +86,17 @@ bool start_relax(Simulation *simulation, Error *err)
                          .self = simulation};
     if (scene->start.friction == START_FRICTION_OFF)
         simulation->friction = friction_everywhere(friction_constant(0));
-    else if (law->creeps)   // no block ever settles on what never sticks
-        simulation->friction = friction_everywhere(friction_constant(law->mu_reference));
+    else if (friction_creeps(&model->friction, contacts)) {
+        // No block ever settles on what never sticks: there mu is that at the reference velocity.
+        TRY((constant = NEW_ARRAY(FrictionNode, contacts, err)));
+        for (int32_t i = 0; i < contacts; i++) {
+            constant[i] = *friction_at(&model->friction, i);
+            const FrictionLaw *law = constant[i].law;
+            if (law->creeps)
+                constant[i] = friction_constant(constant[i].factor * law->mu_reference);
+        }
+        simulation->friction = friction_of_nodes(constant, contacts);
+    }
     if (scene->start.state == START_RELAXED)
         TRY(relax(&simulation->control, &def, &simulation->relaxation_steps, err));
     simulation->friction = model->friction;
@@ -123,6 +134,8 @@ bool start_relax(Simulation *simulation, Error *err)
     friction_states_reset(&simulation->control.scheme.memory, &simulation->control.now);
     step_control_restart(&simulation->control);
 cleanup:
+    simulation->friction = model->friction;
+    memory_free(constant);
     simulation->timing.relax = clock_seconds() - started;
     return error_is_clean(err);
 }

@@ -317,8 +317,7 @@ static bool write_arrays(const char *folder, const Model *model, const StaticSol
          contact,
          contacts},
         {{"contact/status", ARRAY_UINT8, 1, "1",
-          plane ? "0 open, 1 stick, 2 slip towards +x, 3 slip towards -x"
-                : "0 open, 1 stick, 2 slip"},
+          "0 open, 1 stick, 2 slip towards +x, 3 slip towards -x"},
          contact + contacts,
          contacts},
         {{"contact/weight", ARRAY_FLOAT64, 1, plane ? "length" : "length^2",

@@ -6,6 +6,12 @@
 
 #include <math.h>
 
+static bool creeps(const StabilityPath *path)
+{
+    const Model *model = path->model;
+    return friction_creeps(&model->friction, model->interface.contact_count);
+}
+
 // Half a period's growth against v_c/V: pi Re/Im - ln(v_c/V). From 0 on a disturbance of the rod's
 // size comes to v_c, where friction no longer weakens, before its oscillation turns it back: slip
 // then runs away although the pair is still complex. Friction that is 0 at rest has no such end: an
@@ -16,7 +22,7 @@ double stability_half_period(const StabilityPath *path, int32_t k)
     double ratio = path->model->friction.critical_velocity / path->model->scene->rod.velocity;
     if (!(point->rate_re > 0)) return -INFINITY;
     if (!(point->rate_im > 0)) return INFINITY;
-    if (path->model->friction.whole.law->creeps || ratio < 1) ratio = 1;
+    if (creeps(path) || ratio < 1) ratio = 1;
     return M_PI * point->rate_re / point->rate_im - log(ratio);
 }
 
@@ -115,8 +121,8 @@ static StabilityPoint first_loss(const StabilityPath *path, Margin margin)
 static StabilityPoint first_sliding(const StabilityPath *path, Margin margin)
 {
     StabilityPoint lost = first_loss(path, margin);
-    bool creeps = path->model->friction.whole.law->creeps, ends = isnan(lost.front);
-    if (!creeps && (!ends || !path->at_end)) return lost;
+    bool ends = isnan(lost.front);
+    if (!creeps(path) && (!ends || !path->at_end)) return lost;
     if (ends && !path->at_end) return lost;
     if (ends) lost = path->points[path->count - 1];
     for (int32_t k = 0; k < path->count - 1 && path->points[k].front <= lost.front; k++) {

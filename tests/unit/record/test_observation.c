@@ -3,6 +3,7 @@
 #include "record/observation.h"
 
 #include "block_rig.h"
+#include "own_laws.h"
 #include "plane.h"
 
 // Some steps of a pushed block; then the state and everything around it is known.
@@ -76,6 +77,46 @@ TEST(test_sums_over_the_mesh)
     seen = observe(&control, &scales);
     assert_true(seen.contact_error > 0.1);
     assert_near("moment", seen.moment_error, rig.interface.x[2], 1e-10);
+    step_control_destroy(&control);
+    rig_destroy(&rig);
+}
+
+// Slow slip counts as stick where the own law of the node creeps, whichever law drops most.
+TEST(test_slow_slip_of_two_laws)
+{
+    Error err = {0};
+    RigDef def = rig_def();
+    StepControlDef steps = {.tolerance = 1e-5, .step_max = 0.5, .step_min = 1e-6, .wave_step = 0.1};
+    ObservationScales scales = {.load = 0.003, .length = 1, .time = 3, .slip_velocity = 1e-4};
+    BlockRig rig;
+    StepControl control;
+    rig_build(&def, &rig);
+    assert_true(step_control_create(&rig.block, &steps, &control, &err));
+    for (int k = 0; k < 2; k++) {
+        FrictionLaw laws[] = {
+            {.mu_static = k ? 0.9 : 0.1001, .mu_kinetic = 0.1, .critical_velocity = 1e-3},
+            law_with_state((FrictionLaw){.kind = FRICTION_RATE_STATE,
+                                         .slip_distance = 1e-4,
+                                         .evolution_effect = 0.015,
+                                         .direct_effect = 0.01,
+                                         .mu_reference = 0.3,
+                                         .reference_velocity = 1e-4})};
+        FrictionNode nodes[64];
+        int32_t count = rig.interface.contact_count;
+        assert_true(count <= 64);
+        for (int32_t i = 0; i < count; i++) {
+            nodes[i] = friction_node(&laws[i % 2], 1);
+            control.now.status[i] = CONTACT_SLIP_FORWARD;
+            control.now.slip_rate[plane_tangent(i)] = i % 4 < 2 ? 1e-7 : 1e-4;
+        }
+        Friction friction = friction_of_nodes(nodes, count);
+        assert_int_equal(friction.whole.law->creeps, k == 0);
+        control.scheme.friction = &friction;
+        Observation seen = observe(&control, &scales);
+        for (int32_t i = 0; i < count; i++)
+            assert_int_equal(seen_status(&seen, i),
+                             i % 4 == 1 ? CONTACT_STICK : CONTACT_SLIP_FORWARD);
+    }
     step_control_destroy(&control);
     rig_destroy(&rig);
 }

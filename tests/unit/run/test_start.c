@@ -63,6 +63,29 @@ TEST(test_friction_while_relaxing)
     }
 }
 
+// What never sticks relaxes on mu at its reference velocity, times the factor of its place.
+TEST(test_creep_while_relaxing)
+{
+    Simulation *simulation = simulation_of((const char *const[]){
+        "start.friction=on",
+        "friction={law: rate-and-state, direct_effect: 0.01, evolution_effect: 0.015, "
+        "mu_reference: 0.3, reference_velocity: 2e-5, slip_distance: 1e-4, "
+        "along: \"points(x, 0, 0.1, 1, 0.5)\"}",
+        NULL});
+    const State *now = &simulation->control.now;
+    int32_t loaded = 0;
+    for (int32_t i = 0; i < simulation->model.interface.contact_count; i++) {
+        double limit = 0.3 * friction_at(&simulation->friction, i)->factor *
+                       now->reaction[plane_normal(i)];
+        double shear = fabs(now->reaction[plane_tangent(i)]);
+        assert_true(shear < (1 + 1e-6) * limit);
+        loaded += shear > 0.5 * limit;
+    }
+    assert_true(loaded > 0);
+    assert_int_equal(friction_at(&simulation->friction, 0)->law->kind, FRICTION_RATE_STATE);
+    amontons_simulation_destroy(simulation);
+}
+
 // The rod comes to the relaxed face, or stands there while the block spreads against it: then it
 // presses, and a bonded one would pull as well.
 TEST(test_rod_at_the_start)
