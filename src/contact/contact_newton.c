@@ -58,9 +58,7 @@ static void begin(ContactNewton *newton, const ContactProblem *problem, ContactS
                                            .free = newton->free,
                                            .node = newton->node,
                                            .row = newton->row};
-    newton->creeps = false;
-    for (int32_t i = 0; i < problem->interface->contact_count; i++)
-        newton->creeps = newton->creeps || friction_at(problem->friction, i)->law->creeps;
+    newton->creeps = friction_creeps(problem->friction, problem->interface->contact_count);
     newton->rounding = 1e-3 * tolerance * dense_max_abs(problem->g, problem->interface->count);
     newton->listed = newton->reused = false;
 }

@@ -98,8 +98,10 @@ bool start_relax(Simulation *simulation, Error *err)
         simulation->friction = friction_of_nodes(constant, contacts);
     }
     if (scene->start.state == START_RELAXED)
-        TRY(relax(&simulation->control, &def, &simulation->relaxation_steps, err));
+        relax(&simulation->control, &def, &simulation->relaxation_steps, err);
     simulation->friction = model->friction;
+    memory_free(constant);
+    if (!error_is_clean(err)) goto cleanup;
     simulation->rod.kind = ROD_KINDS[scene->rod.kind];
     simulation->rod.velocity = scene->rod.velocity;
     start_programs(simulation);
@@ -134,8 +136,6 @@ bool start_relax(Simulation *simulation, Error *err)
     friction_states_reset(&simulation->control.scheme.memory, &simulation->control.now);
     step_control_restart(&simulation->control);
 cleanup:
-    simulation->friction = model->friction;
-    memory_free(constant);
     simulation->timing.relax = clock_seconds() - started;
     return error_is_clean(err);
 }

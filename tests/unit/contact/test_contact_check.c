@@ -118,7 +118,7 @@ TEST(test_still_is_still)
     assert_true(residual.direction > 1);
 }
 
-// What creeps is never still: force along the slip is inside the cone, and wrong at any speed.
+// A creeping node is never still: force along the slip is in the cone, and wrong at any speed.
 TEST(test_creep_has_a_direction)
 {
     HandContact hand;

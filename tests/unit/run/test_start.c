@@ -63,7 +63,7 @@ TEST(test_friction_while_relaxing)
     }
 }
 
-// What never sticks relaxes on mu at its reference velocity, times the factor of its place.
+// A node that never sticks relaxes on mu at its reference velocity, times the factor of its place.
 TEST(test_creep_while_relaxing)
 {
     Simulation *simulation = simulation_of((const char *const[]){
