@@ -283,6 +283,7 @@ static double orthogonalise(Growth *growth, int32_t count, double *x, double *do
 static bool build_basis(Growth *growth, int32_t k, int32_t *count, double *rest, Error *err)
 {
     const int32_t *dofs = growth->system->interface_dofs;
+    const MovingSet *moving = &growth->moving;
     int64_t size = state_size(growth), rows = VECTORS_LIMIT + 1;
     double *seed = growth->basis + size;
 
@@ -291,8 +292,11 @@ static bool build_basis(Growth *growth, int32_t k, int32_t *count, double *rest,
     for (int32_t j = 0; j < growth->system->dof_count; j++)
         seed[j] = 1e-3 * (1 + 0.5 * cos(1.7 * j));
     for (int32_t j = 0; j < growth->interface->count; j++) seed[dofs[j]] = 0;
-    for (int32_t r = 0; r < growth->moving.count; r++)
-        seed[dofs[growth->moving.list[r].unknown]] = 1 + 0.5 * cos(1.3 * r);
+    for (int32_t r = 0; r < moving->count; r++) growth->step[r] = 1 + 0.5 * cos(1.3 * r);
+    moving_set_turn_vector(moving, false, growth->step);   // nothing of what is held
+    moving_set_turn_vector(moving, true, growth->step);
+    for (int32_t r = 0; r < moving->count; r++)
+        seed[dofs[moving->list[r].unknown]] = growth->step[r];
     TRY(apply_inverse(growth, k, seed, growth->basis, err));
     orthogonalise(growth, 0, growth->basis, growth->projected);
 

@@ -75,6 +75,7 @@ static void add_slipping(MovingSet *set, const State *state, int32_t i)
         MovingUnknown *across = add_unknown(set, t + 1);
         across->normal = n;
         across->friction = d[1] * follows;
+        across->held = speed == 0 && rates.mu > 0;
         across->damper = speed > 0 ? rates.mu * pressing / speed
                                    : fmax(rates.mu_speed, 0) * pressing;
     }
@@ -159,6 +160,12 @@ void moving_set_gather_symmetric(const MovingSet *set, const double *schur, doub
     }
 }
 
+// True if the second unknown of turned node k, across its slip, does not move.
+static bool is_held_across(const MovingSet *set, int32_t k)
+{
+    return set->list[set->turned[k] + 1].held;
+}
+
 // (x, y) becomes (d.(x, y), e.(x, y)).
 static void turn(const double d[2], double *x, double *y)
 {
@@ -171,8 +178,17 @@ void moving_set_turn_vector(const MovingSet *set, bool back, double *vector)
 {
     for (int32_t k = 0; k < set->turned_count; k++) {
         const double *d = set->direction + 2 * k, other[] = {d[0], -d[1]};
-        turn(back ? other : d, vector + set->turned[k], vector + set->turned[k] + 1);
+        double *along = vector + set->turned[k];
+        turn(back ? other : d, along, along + 1);
+        if (!back && is_held_across(set, k)) along[1] = 0;
     }
+}
+
+// Takes row and column `held` out of the matrix: it keeps its own diagonal entry alone.
+static void uncouple(double *matrix, int64_t count, int64_t held)
+{
+    for (int64_t a = 0; a < count; a++)
+        if (a != held) matrix[count * held + a] = matrix[count * a + held] = 0;
 }
 
 void moving_set_turn(const MovingSet *set, bool lower, double *matrix)
@@ -199,6 +215,8 @@ void moving_set_turn(const MovingSet *set, bool lower, double *matrix)
         for (int64_t r = lower ? a + 2 : 0; r < count; r++)
             turn(set->direction + 2 * k, column + r, column + count + r);
     }
+    for (int32_t k = 0; k < set->turned_count; k++)
+        if (is_held_across(set, k)) uncouple(matrix, count, set->turned[k] + 1);
 }
 
 void moving_set_add_dampers(const MovingSet *set, double reach, double *matrix)

@@ -19,7 +19,8 @@
 // weakening along the slip, a damper across it, as friction turns with the slip. So matrices are
 // turned into d and e of each slipping node (moving_set_turn), where both lie on the diagonal: its
 // first unknown is then along the slip, with weakening and damper of the plane, its second across,
-// with the damper mu r_n/s. Pressure follows slip along d only.
+// with the damper mu r_n/s. Pressure follows slip along d only. At s = 0 that damper is infinite
+// where there is friction at rest: such a node is held across, its row and column uncoupled.
 //
 // Where friction remembers (friction/friction.h) a disturbance theta' of its state follows
 // that of the slip rate: d theta'/dt = g_v v'_t + g_theta theta', and friction changes by mu_v v'_t
@@ -47,6 +48,7 @@ typedef struct MovingUnknown {
     double weakening;   // w >= 0, force * time / length
     double damper;   // of a soft rod node that touches: lag / softness; of a node whose friction
         // strengthens: mu' r_n; across slip: mu r_n/s; force * time / length
+    bool held;   // across slip of speed 0: does not move
     double spring;   // of the same: 1 / softness, force / length
     double memory;   // of a slipping tangent: -mu_theta g_v r_n, force / length; 0: no memory
     double fading;   // -g_theta, 1/time
@@ -89,9 +91,9 @@ void moving_set_couple(const MovingSet *set, const double *schur, double *matrix
 void moving_set_gather_symmetric(const MovingSet *set, const double *schur, double *matrix);
 // Rows and columns, or (lower) of a symmetric matrix those of the lower triangle, of slipping nodes
 // in space come along their slip and across it; after which dampers and weakening are on the
-// diagonal. In the plane nothing is done.
+// diagonal. What is held across keeps its diagonal entry alone. In the plane nothing is done.
 void moving_set_turn(const MovingSet *set, bool lower, double *matrix);
-// The same for a vector [count], and back.
+// The same for a vector [count], 0 where held across, and back.
 void moving_set_turn_vector(const MovingSet *set, bool back, double *vector);
 
 // Adds dampers, and springs times `reach` (velocity to displacement, time; 0: none), to the

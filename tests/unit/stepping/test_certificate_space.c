@@ -282,3 +282,49 @@ TEST(test_growth)
     growth_destroy(growth);
     fixture_destroy(&fixture);
 }
+
+// Slip of speed 0 is the limit of ever slower slip: friction holds its direction. Each number of
+// the state at rest is that of the same state at 1e-7 v_c, where the damper across is large enough
+// and rounding is not yet.
+TEST(test_rest_is_slowest_slip)
+{
+    Random random = {.state = 6};
+    Error err = {0};
+    Fixture fixture;
+    Certificate certificate;
+    ContactMatrix level = {0};
+    fixture_build(&fixture);
+    int32_t size = fixture.rig.interface.count, compared = 0, turned = 0;
+    GrowthDef def = growth_def(1, 1.1, 9);
+    Growth *growth = growth_create(&fixture.rig.block, &def, &err);
+    assert_non_null(growth);
+    assert_true(certificate_create(&fixture.rig.block, &certificate, &err));
+    assert_true(contact_matrix_create(fixture.schur, size, &level, &err));
+    for (int32_t trial = 0; trial < 40; trial++) {
+        double ratio[2], load[2];
+        GrowthRates rates[2];
+        bool holds[2];
+        random_state(&random, random_between(&random, 0.2, 1) * 2e-3, false, &fixture);
+        for (int32_t k = 0; k < size; k++) fixture.seen.slip_rate[k] *= 1e-7;
+        for (int at = 0; at < 2; at++) {
+            if (at == 1) memset(fixture.seen.slip_rate, 0, (size_t)size * sizeof(double));
+            ratio[at] = certificate_ratio(&certificate, &fixture.seen, &level, 1);
+            holds[at] = certificate_holds(&certificate, &fixture.seen, 0);
+            load[at] = growth_scan(growth, &fixture.seen).ratio;
+            assert_true(growth_rates(growth, &fixture.seen, &rates[at], &err));
+        }
+        turned += certificate.moving.turned_count;
+        assert_near("ratio", ratio[1], ratio[0], 1e-5 * ratio[0]);
+        assert_near("load", load[1], load[0], 1e-5 * load[0]);
+        assert_int_equal(holds[1], holds[0]);
+        if (rates[0].count == 0 || rates[0].rate[0].re < 0.1 || rates[0].rate[0].re > 30) continue;
+        assert_near("rate", rates[1].rate[0].re, rates[0].rate[0].re, 1e-4 * rates[0].rate[0].re);
+        compared++;
+    }
+    print_message("%d rates compared, %d nodes at rest\n", compared, turned);
+    assert_true(compared > 10 && turned > 100);
+    contact_matrix_destroy(&level);
+    growth_destroy(growth);
+    certificate_destroy(&certificate);
+    fixture_destroy(&fixture);
+}
