@@ -540,7 +540,7 @@ void friction_follow(const FrictionNode *node, int32_t count, const double *velo
     // mu/(mu_v v) = x/tanh(x). Newton's method from the right, where it cannot overshoot.
     friction_state(node, speed, state);
     double at = speed == 0 ? node->law->critical_velocity : speed;
-    find_mu(node, at, state, &rates);
+    friction_rates(node, at, state, &rates);
     double ratio = rates.mu / (rates.mu_speed * at), x = fmin(ratio, EXPONENT_MAX);
     if (!(ratio > 1)) return;
     for (int32_t k = 0; k < STEPS; k++) {

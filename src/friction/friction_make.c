@@ -210,7 +210,7 @@ static double find_spent(const FrictionLaw *law)
 // velocity: not finite, negative, not continuous, or a slope that is not that of mu; or a mu_static
 // or mu_kinetic that is not that of the law. mu' of a linear table is not continuous and its
 // largest need not be at a point looked at: pieces are looked at from both ends, and inside.
-static bool look_at_own(FrictionLaw *law, Error *err)
+static bool look_at_own(const FrictionSource *source, FrictionLaw *law, Error *err)
 {
     double given = law->mu_static, before = 0, speed, lowest = INFINITY, lowest_at = 0, rise = 0;
     double highest = 0, fall = 0;
@@ -245,6 +245,8 @@ static bool look_at_own(FrictionLaw *law, Error *err)
     law->mu_kinetic = fmin(law->mu_kinetic, law->mu_static);
     if (!(law->critical_velocity > 0)) law->critical_velocity = find_critical(law);
     law->strengthens = rise > SAME * law->steepest;
+    law->mu_reference = mu_of(law, source->rod_velocity > 0 ? source->rod_velocity : law->end);
+    law->creeps = friction_never_holds(law->mu_static, slope_of(law, 0), law->mu_reference);
     law->spent = law->steepest > 0 ? find_spent(law) : 0;
     return true;
 }
@@ -267,7 +269,7 @@ bool friction_make(const FrictionSource *source, FrictionLaw *law, const char **
     }
     if (operations->make && !operations->make(source, law, key, err)) return false;
     if (!operations->own) return true;
-    if (!law->remembers) return ERROR_AT(key, operations->mu_key, look_at_own(law, err));
+    if (!law->remembers) return ERROR_AT(key, operations->mu_key, look_at_own(source, law, err));
     if (law->feels_pressure && isnan(source->pressure))
         return true;   // made again when it is known
     return friction_start(source, law, key, err);

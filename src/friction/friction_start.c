@@ -11,8 +11,6 @@
 
 static const double SLIGHT = 1e-6;   // part of mu_S that a formula may be below 0
 static const double LEFT = 0.36787944117144233;   // 1/e
-// Part of mu at the rod's velocity up to which mu(0) counts as 0: the law creeps.
-static const double NO_FRICTION = 1e-12;
 enum { DECADES = 12, DECADE = 10 };   // speeds that are looked at
 
 static double look_speed(const FrictionSource *source, int32_t k)
@@ -274,7 +272,7 @@ bool friction_start(const FrictionSource *source, FrictionLaw *law, const char *
     double rests = rates.mu, rises = rates.mu_speed;
     friction_rates(&node, source->rod_velocity > 0 ? source->rod_velocity : source->end, law->start,
                    &rates);
-    law->creeps = law->strengthens = rests <= NO_FRICTION * rates.mu && rises > 0;
+    law->creeps = law->strengthens = friction_never_holds(rests, rises, rates.mu);
     law->mu_reference = rates.mu;
     for (int32_t k = 1; k <= LAST; k++) {
         lowest = fmin(lowest, steady[k]);   // fmin and fmax pass a NaN over

@@ -22,6 +22,14 @@
 // found. *key: of the map `friction`.
 bool friction_start(const FrictionSource *source, FrictionLaw *law, const char **key, Error *err);
 
+// True if a law whose mu rises from `rests` at rest never holds: that is nothing beside
+// `reference`, mu at the rod's velocity.
+static inline bool friction_never_holds(double rests, double rises, double reference)
+{
+    static const double NO_FRICTION = 1e-12;
+    return rests <= NO_FRICTION * reference && rises > 0;
+}
+
 // Number of states of steady slip found at this speed from the states at the start and from others
 // far from them: 0, 1, or 2 for several. states: one value of two of these where there are several.
 int32_t friction_count_steady(const FrictionNode *node, double speed, double states[2]);

@@ -149,3 +149,20 @@ TEST(test_contradictions)
         assert_non_null(strstr(err.message, k ? "mu_kinetic" : "mu_static is given as 0.5"));
     }
 }
+
+// A law of speed alone that is 0 at rest and rises never holds, as the same law with a pressure
+// that it does not feel; one that is 0 and level there, or holds a little, does not creep.
+TEST(test_creeps)
+{
+    FrictionLaw law = own_formula("0.3 * tanh(v / 1e-3)", 0.1);
+    FrictionLaw pressed = own_formula("0.3 * tanh(v / 1e-3) + 0 * p", 0.1);
+    assert_true(law.creeps && pressed.creeps);
+    assert_near("mu at the rod's V, here the end", law.mu_reference, pressed.mu_reference, 1e-15);
+    const double velocity[] = {0, 1e-3, 1}, rises[] = {0, 0.3, 0.2}, level[] = {0, 0, 0};
+    law = own_table(3, velocity, rises, true);
+    assert_true(law.creeps);
+    law = own_table(3, velocity, level, true);
+    assert_false(law.creeps);
+    law = own_formula("0.01 + 0.3 * tanh(v / 1e-3)", 0.1);
+    assert_false(law.creeps);
+}
