@@ -1,15 +1,22 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A film of a result, frame by frame: which part of the run, how fast its time goes, the page, and
 // the file it goes into.
+#include "render/canvas/color.h"
 #include "render/film/film_page.h"
-#include "render/film/film_sink.h"
 #include "render/picture_options.h"
 #include "render/render.h"
 
 #include "base/memory.h"
+#include "io/files/folder.h"
+#include "io/files/own_list.h"
 #include "io/hdf5/result_tables.h"
+#include "io/video/video_file.h"
 
+#include <limits.h>
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
 
 static const double SECONDS = 20, SECONDS_MAX = 3600;
 static const double EASE = 0.5, EASE_SHARE = 1.0 / 40;   // s of film; of all of it, at most
@@ -17,13 +24,13 @@ static const double EASE = 0.5, EASE_SHARE = 1.0 / 40;   // s of film; of all of
 enum { RATE = 30, RATE_MAX = 240, FRAMES_MAX = 100000 };
 enum { WIDTH = 1920, HEIGHT = 1080, WIDTH_LEAST = 640, HEIGHT_LEAST = 360 };
 enum { GIF_RATE = 20, GIF_WIDTH = 800, GIF_HEIGHT = 450 };
+enum { GIF_COLORS = 256, MAP_COLORS = 160, GREYS = 40, TINTS = 9 };   // of a GIF's palette
 
 // Fills in the parts of the request that were left open, and checks it.
 static bool complete(const FilmRequest *request, FilmRequest *film, int32_t *frames, Error *err)
 {
     *film = *request;
     if (!film->path || !film->path[0]) return REFUSE(err, "the film needs a name");
-    if (!film_sink_check(film->path, err)) return false;
     bool gif = video_file_is_gif(film->path);
     if (film->seconds == 0) film->seconds = SECONDS;
     if (film->rate == 0) film->rate = gif ? GIF_RATE : RATE;
@@ -49,6 +56,45 @@ static bool complete(const FilmRequest *request, FilmRequest *film, int32_t *fra
     return picture_options_fit_taker(&film->style, TAKEN_BY_FILMS, err);
 }
 
+// The film's name, its folder made where it has PNG frames: of a folder frames/frame-%04d.png.
+static bool path_make(const char *given, char path[PATH_MAX], Error *err)
+{
+    // A folder's name has no ending, ends in a slash, or is that of one.
+    struct stat status;
+    const char *slash = strrchr(given, '/'), *name = slash ? slash + 1 : given;
+    bool is_there = stat(given, &status) == 0;
+    bool is_folder = is_there ? S_ISDIR(status.st_mode) : !name[0] || !strpbrk(name, ".%");
+    if (is_folder)
+        snprintf(path, PATH_MAX, "%s%sframe-%%04d.png", given, name[0] ? "/" : "");
+    else
+        snprintf(path, PATH_MAX, "%s", given);
+    const char *last = strrchr(path, '/'), *dot = strrchr(path, '.');
+    if (!last || last == path || !dot || strcmp(dot, ".png") != 0) return true;
+    char folder[PATH_MAX];
+    snprintf(folder, sizeof folder, "%.*s", (int)(last - path), path);
+    return folder_make(folder, err) &&
+           (!is_folder || (own_list_check(folder, err) && own_list_make(folder, err)));
+}
+
+// Colours of the pictures: the colour map, greys, and six tints up to white.
+static void palette_fill(uint8_t palette[3 * GIF_COLORS])
+{
+    static const uint8_t tint[][3] = {{13, 69, 140}, {191, 31, 31},  {237, 148, 20},
+                                      {20, 89, 179}, {77, 158, 217}, {140, 20, 77}};
+    uint8_t map[3 * MAP_SIZE];
+    int32_t n = 0;
+    color_map_fill(map);
+    for (int32_t k = 0; k < MAP_COLORS; ++k, ++n)
+        memcpy(palette + 3 * n, map + 3 * (k * (MAP_SIZE - 1) / (MAP_COLORS - 1)), 3);
+    for (int32_t k = 0; k < GREYS; ++k, ++n) memset(palette + 3 * n, k * 255 / (GREYS - 1), 3);
+    for (size_t c = 0; c < sizeof tint / sizeof *tint; ++c)
+        for (int32_t k = 0; k < TINTS; ++k, ++n)
+            for (int32_t part = 0; part < 3; ++part)
+                palette[3 * n + part] =
+                    (uint8_t)(tint[c][part] + (255 - tint[c][part]) * k / TINTS);
+    for (; n < GIF_COLORS; ++n) memset(palette + 3 * n, 255, 3);
+}
+
 __attribute__((visibility("default"))) bool
 amontons_render_film(const char *folder, const FilmRequest *request, Error *err)
 {
@@ -56,7 +102,9 @@ amontons_render_film(const char *folder, const FilmRequest *request, Error *err)
     FilmClock clock = {0};
     ResultView view = {0};
     FilmPage *page = NULL;
-    FilmSink *sink = NULL;
+    VideoFile *video = NULL;
+    char path[PATH_MAX];
+    uint8_t palette[3 * GIF_COLORS];
     double *fastest = NULL, t[2] = {0, 0};
     int32_t frames = 0;
     TRY(complete(request, &film, &frames, err));
@@ -90,9 +138,11 @@ amontons_render_film(const char *folder, const FilmRequest *request, Error *err)
     // The page, the file, and frame by frame from one to the other.
     FilmPageDef def = {folder, &view, &clock, &film, page_title(style, view.title, true)};
     TRY(page = film_page_create(&def, err));
-    VideoDef file = {film.path,  film.width, film.height,     film.rate,
-                     view.title, NULL,       style->overwrite};
-    TRY(sink = film_sink_create(&file, err));
+    TRY(path_make(film.path, path, err));
+    palette_fill(palette);
+    VideoDef file = {path,       film.width, film.height,     film.rate,
+                     view.title, palette,    style->overwrite};
+    TRY(video = video_file_create(&file, err));
     for (int32_t k = 0; k < frames; ++k) {
         const uint8_t *pixels = NULL;
         int32_t stride = 0;
@@ -100,14 +150,14 @@ amontons_render_film(const char *folder, const FilmRequest *request, Error *err)
             FAIL(err, ERROR_INTERRUPT, "stopped after %d of %d frames; there is no film", k,
                  frames);
         TRY(film_page_show(page, k, &pixels, &stride, err));
-        TRY(film_sink_add(sink, pixels, stride, err));
+        TRY(video_file_add(video, pixels, stride, err));
         if (film.on_frame) film.on_frame(k + 1, frames, film.context);
     }
-    TRY(film_sink_finish(sink, err));
+    TRY(video_file_finish(video, err));
     if (film.still) *film.still = (double)film_page_still(page) / film.rate;
 cleanup:
     memory_free(fastest);
-    film_sink_destroy(sink);
+    video_file_destroy(video);
     film_page_destroy(page);
     film_clock_destroy(&clock);
     result_view_close(&view);

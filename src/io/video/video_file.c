@@ -7,20 +7,10 @@
 #include <string.h>
 #include <strings.h>
 
-static bool ends_in(const char *path, const char *ending)
-{
-    const char *dot = strrchr(path, '.');
-    return dot && strcasecmp(dot, ending) == 0;
-}
-
 bool video_file_is_gif(const char *path)
 {
-    return ends_in(path, ".gif");
-}
-
-bool video_file_is_known(const char *path)
-{
-    return ends_in(path, ".mp4") || ends_in(path, ".webm") || video_file_is_gif(path);
+    const char *dot = strrchr(path, '.');
+    return dot && strcasecmp(dot, ".gif") == 0;
 }
 
 static const VideoModule *module_of(const VideoFile *file)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Frames of a film into one file: .mp4 (H.264), .webm (VP9) or .gif, by libav, in a module opened
-// with the first film. Knows nothing of what the frames show. Called by render/film/film_sink.
+// with the first film. Knows nothing of what the frames show. Called by render/film.
 //
 //   create -> add, a frame after the other -> finish     the file has its final name
 //                                          -> destroy    without finish nothing is left
@@ -13,7 +13,8 @@
 
 // Definition of a film.
 typedef struct VideoDef {
-    const char *path;   // its ending says what it becomes: .mp4, .webm or .gif
+    const char *path;   // its ending says what it becomes: .mp4, .webm, .gif; or a PNG a frame,
+        // from 1, after a pattern with one number in its name: run-%04d.png
     int32_t width, height;   // pixels, even
     int32_t rate;   // frames a second; of a GIF a divisor of 100
     const char *title;   // stored in the file; a GIF has none
@@ -25,8 +26,6 @@ typedef struct VideoDef {
 
 typedef struct VideoFile VideoFile;   // begins with a pointer to its module's table
 
-// True if the name ends as one of the three.
-bool video_file_is_known(const char *path);
 bool video_file_is_gif(const char *path);
 
 // ERROR_LIBRARY where libav cannot be had or has no encoder for this. NULL: it failed.

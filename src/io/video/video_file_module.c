@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "base/transfer.h"
+#include "io/files/own_list.h"
 #include "io/files/part_file.h"
 
 #include <libavcodec/avcodec.h>
@@ -13,6 +14,8 @@
 #include <libswscale/swscale.h>
 
 #include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include <unistd.h>
@@ -21,6 +24,7 @@ enum { THREADS = 2, BUFFER_SIZE = 1 << 16, GIF_TICKS = 100, PALETTE_SIZE = 256 }
 enum { SIDE_BITS = 5, SIDE = 1 << SIDE_BITS };   // of the cube that colours are looked up in
 
 // Kind of film for an ending of the name: libav's format and encoder, and options of the latter.
+// Without a format each frame becomes a file of its own.
 // The quality was chosen by eye, on thin lines and on the colours of a field.
 typedef struct VideoKind {
     const char *ending, *format, *encoder, *name;
@@ -41,11 +45,14 @@ static const VideoKind kinds[] = {
      "VP9",
      AV_PIX_FMT_YUV420P,
      {{"deadline", "realtime"}, {"cpu-used", "7"}, {"row-mt", "1"}, {"crf", "24"}}},
-    {".gif", "gif", "gif", "GIF", AV_PIX_FMT_PAL8, {{0}}}};
+    {".gif", "gif", "gif", "GIF", AV_PIX_FMT_PAL8, {{0}}},
+    {".png", NULL, "png", "PNG", AV_PIX_FMT_RGB24, {{"compression_level", "4"}, {"pred", "up"}}}};
 
 struct VideoFile {
     const VideoModule *module;   // stands first
-    PartFile part;
+    char path[PATH_MAX];   // of PNGs their pattern
+    bool overwrite;
+    PartFile part;   // not of PNGs, like the next two and the track
     AVFormatContext *format;   // owned, like all
     AVIOContext *io;
     AVCodecContext *codec;
@@ -56,7 +63,7 @@ struct VideoFile {
     uint32_t palette[PALETTE_SIZE];
     uint8_t *nearest;   // [SIDE^3] entry of the palette by blue, green, red
     int write_errno;   // 0: all was written so far
-    int64_t frames;
+    int64_t frames, pictures;   // encoded; PNGs written
     int log_level;   // libav's, as it was found
 };
 
@@ -89,12 +96,12 @@ static bool check(VideoFile *film, int code, const char *what, Error *err)
 {
     char words[AV_ERROR_MAX_STRING_SIZE] = "";
     if (film->write_errno)
-        return FAULT(err, ERROR_FILE, "film %s: cannot write: %s", film->part.path,
+        return FAULT(err, ERROR_FILE, "film %s: cannot write: %s", film->path,
                      strerror(film->write_errno));
     if (code == AVERROR(ENOMEM)) return FAULT(err, ERROR_MEMORY, "no memory for libav");
     if (code < 0) {
         av_strerror(code, words, sizeof words);
-        return FAULT(err, ERROR_LIBRARY, "film %s: libav %s: %s", film->part.path, what, words);
+        return FAULT(err, ERROR_LIBRARY, "film %s: libav %s: %s", film->path, what, words);
     }
     return true;
 }
@@ -122,7 +129,7 @@ static bool codec_open(VideoFile *film, const VideoKind *kind, const VideoDef *d
     codec->gop_size = 2 * def->rate;   // a viewer may jump to every other second
     codec->thread_count = THREADS;
     codec->flags |= AV_CODEC_FLAG_BITEXACT;
-    if (film->format->oformat->flags & AVFMT_GLOBALHEADER)
+    if (film->format && film->format->oformat->flags & AVFMT_GLOBALHEADER)
         codec->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
     if (kind->pixels == AV_PIX_FMT_YUV420P) {
         codec->colorspace = AVCOL_SPC_BT709;
@@ -176,9 +183,21 @@ static void film_destroy(VideoFile *film)
     memory_free_all(film->nearest, film);
 }
 
+// Name of the PNG of a frame, from 1, after a pattern "run-%04d.png", which is never handed to
+// printf: a folder may be called "50% load". false: the pattern has not one number in its name.
+static bool picture_path(const char *pattern, int64_t frame, char path[PATH_MAX])
+{
+    const char *slash = strrchr(pattern, '/'), *mark = strchr(slash ? slash : pattern, '%');
+    char *end = NULL;
+    long digits = mark ? strtol(mark + 1, &end, 10) : -1;
+    if (digits < 0 || digits > 9 || *end != 'd' || strchr(end, '%')) return false;
+    return snprintf(path, PATH_MAX, "%.*s%0*lld%s", (int)(mark - pattern), pattern, (int)digits,
+                    (long long)frame, end + 1) < PATH_MAX;
+}
+
 static VideoFile *film_create(const VideoDef *def, Error *err)
 {
-    char url[4200];
+    char url[4200], first[PATH_MAX];
     AVDictionary *options = NULL;
     const VideoKind *kind = NULL;
     const char *dot = strrchr(def->path, '.');
@@ -189,26 +208,39 @@ static VideoFile *film_create(const VideoDef *def, Error *err)
     film->module = amontons_video_module();
     film->log_level = av_log_get_level();
     av_log_set_level(AV_LOG_QUIET);
-    if (!kind) FAIL(err, ERROR_INPUT, "a film's name ends in .mp4, .webm or .gif");
+    if (!kind || (!kind->format && !picture_path(def->path, 1, first)))
+        FAIL(err, ERROR_INPUT,
+             "%s: a film ends in .mp4, .webm or .gif; PNG frames go into a folder (frames/), or "
+             "their name has one number and ends in .png (frames/run-%%04d.png)",
+             def->path);
+    snprintf(film->path, sizeof film->path, "%s", def->path);
+    film->overwrite = def->overwrite;
+    if (!kind->format && access(first, F_OK) == 0 && !def->overwrite)
+        FAIL(err, ERROR_INPUT,
+             "%s is there already: name another folder, say --overwrite, or remove those frames",
+             first);
     if (kind->pixels == AV_PIX_FMT_PAL8 && GIF_TICKS % def->rate != 0)
         FAIL(err, ERROR_INPUT,
              "%d frames a second: a GIF counts hundredths of a second, so 10, 20, 25 or 50",
              def->rate);
     if (kind->pixels == AV_PIX_FMT_PAL8) TRY(palette_fill(film, def->palette, err));
-    TRY(part_file_replace(&film->part, def->path, def->overwrite, err));
+    if (kind->format) {
+        TRY(part_file_replace(&film->part, def->path, def->overwrite, err));
 
-    // The file. Its name is asked once more, to move the index of an .mp4 to its front; "file:"
-    // keeps a colon in it from being taken for a protocol.
-    snprintf(url, sizeof url, "file:%s", film->part.part);
-    TRY(check(film, avformat_alloc_output_context2(&film->format, NULL, kind->format, url),
-              "makes no such file", err));
-    uint8_t *buffer = av_malloc(BUFFER_SIZE);
-    if (buffer)
-        film->io = avio_alloc_context(buffer, BUFFER_SIZE, 1, film, NULL, bytes_write, place_seek);
-    if (!film->io) av_free(buffer);
-    TRY(check(film, film->io ? 0 : AVERROR(ENOMEM), "", err));
-    film->format->pb = film->io;
-    film->format->flags |= AVFMT_FLAG_BITEXACT;
+        // The file. Its name is asked once more, to move the index of an .mp4 to its front; "file:"
+        // keeps a colon in it from being taken for a protocol.
+        snprintf(url, sizeof url, "file:%s", film->part.part);
+        TRY(check(film, avformat_alloc_output_context2(&film->format, NULL, kind->format, url),
+                  "makes no such file", err));
+        uint8_t *buffer = av_malloc(BUFFER_SIZE);
+        if (buffer)
+            film->io =
+                avio_alloc_context(buffer, BUFFER_SIZE, 1, film, NULL, bytes_write, place_seek);
+        if (!film->io) av_free(buffer);
+        TRY(check(film, film->io ? 0 : AVERROR(ENOMEM), "", err));
+        film->format->pb = film->io;
+        film->format->flags |= AVFMT_FLAG_BITEXACT;
+    }
 
     TRY(codec_open(film, kind, def, err));
 
@@ -229,6 +261,7 @@ static VideoFile *film_create(const VideoDef *def, Error *err)
     }
 
     // The one stream in it, and the header.
+    if (!kind->format) return film;
     film->track = avformat_new_stream(film->format, NULL);
     TRY(check(film, film->track ? 0 : AVERROR(ENOMEM), "", err));
     film->track->time_base = film->codec->time_base;
@@ -255,6 +288,13 @@ static bool packets_write(VideoFile *film, Error *err)
         int code = avcodec_receive_packet(film->codec, film->packet);
         if (code == AVERROR(EAGAIN) || code == AVERROR_EOF) return true;
         if (!check(film, code, "cannot encode a frame", err)) return false;
+        if (!film->format) {
+            char path[PATH_MAX];
+            picture_path(film->path, ++film->pictures, path);
+            if (!part_file_put(path, film->overwrite, film->packet->data, film->packet->size, err))
+                return false;
+            continue;
+        }
         if (film->packet->duration <= 0) film->packet->duration = 1;   // frame
         av_packet_rescale_ts(film->packet, film->codec->time_base, film->track->time_base);
         film->packet->stream_index = film->track->index;
@@ -291,6 +331,15 @@ static bool film_finish(VideoFile *film, Error *err)
     if (!check(film, avcodec_send_frame(film->codec, NULL), "cannot end the film", err))
         return false;
     if (!packets_write(film, err)) return false;
+
+    // PNGs of a longer film of ours, in a folder of ours, would seem to be of this one.
+    bool ours = film->overwrite;
+    while (!film->format && ours) {
+        char path[PATH_MAX];
+        picture_path(film->path, ++film->pictures, path);
+        ours = own_list_has(path, &ours, err) && ours && unlink(path) == 0;
+    }
+    if (!film->format) return error_is_clean(err);
     if (!check(film, av_write_trailer(film->format), "cannot end the file", err)) return false;
     avio_flush(film->io);
     return check(film, film->io->error, "cannot end the file", err) &&
