@@ -128,7 +128,7 @@ static const double LINE_WIDTH = 2.5;   // points
 
 static bool is_shown(const PadCourse *course, const Zoom *zoom)
 {
-    return !zoom->found || zoom->cycle == 0 || course->cycle == zoom->cycle;
+    return !zoom->found || course->cycle == zoom->cycle;
 }
 
 bool figure_pads_are_there(const ResultView *view)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Which part of U the zoomed pictures show: the last precursors before a sliding, of the first
-// loading all of them. The table of events tells it where there is one, else the falls of mu.
+// loading all of them. The table of events tells it.
 #include "render/view/zoom.h"
 
 #include <math.h>
@@ -15,7 +15,6 @@ static const double BEHIND = 0.04;   // of a cycle: shown after its sliding
 static const double PAD = 0.08;   // beside the precursors, over what they span
 static const double CYCLE_SHOWN = 0.15;   // of a cycle without rapid precursors
 static const double SPAN_MIN = 0.01;   // of a cycle: one precursor close to sliding
-static const double DROP_LARGE = 0.25;   // of the range of mu: bulk sliding
 
 int32_t zoom_slidings(const ResultView *view)
 {
@@ -46,7 +45,7 @@ static int32_t cycle_merit(const Cycle *cycle)
 
 // The cycle of the events table that is asked for, or the best; false where no sliding is in it.
 // *slidings: how many there are.
-static bool cycle_from_events(const ResultView *view, Cycle *best, int32_t *slidings)
+static bool cycle_find(const ResultView *view, Cycle *best, int32_t *slidings)
 {
     double low = 0, high = 0;
     bool found = false;
@@ -98,44 +97,6 @@ static bool cycle_from_events(const ResultView *view, Cycle *best, int32_t *slid
     return found;
 }
 
-// The last fall of mu by DROP_LARGE of its range.
-static bool cycle_from_mu(const ResultView *view, Cycle *cycle)
-{
-    double low = INFINITY, high = -INFINITY;
-    bool found = false, falling = false;
-    for (int64_t row = 0; row < view->rows; ++row) {
-        low = fmin(low, view->mu[row]);
-        high = fmax(high, view->mu[row]);
-    }
-    double fall = DROP_LARGE * (high - low), top = -INFINITY, bottom = INFINITY;
-    double U_top = 0, U_bottom = view->U[0];
-    for (int64_t row = 0; row < view->rows; ++row) {
-        double mu = view->mu[row], U = view->U[row];
-        if (!isfinite(mu) || !isfinite(U)) continue;
-        if (falling && mu < bottom) {
-            bottom = mu;
-            U_bottom = U;
-        }
-        if (falling && mu > bottom + fall / 2) {
-            falling = false;
-            top = mu;
-            U_top = U;
-        }
-        if (!falling && mu > top) {
-            top = mu;
-            U_top = U;
-        }
-        if (!falling && mu < top - fall) {
-            *cycle = (Cycle){.U_start = U_bottom, .U_slide = U_top, .U_stop = U};
-            found = fall > 0 && U_top > U_bottom;
-            falling = true;
-            bottom = mu;
-            U_bottom = U;
-        }
-    }
-    return found;
-}
-
 // The zoom goes from the first precursor to be shown to a little beyond the sliding. It is never
 // less than SPAN_MIN of the cycle, and never beyond the history.
 Zoom zoom_choose(const ResultView *view)
@@ -147,15 +108,14 @@ Zoom zoom_choose(const ResultView *view)
         snprintf(zoom.words, sizeof zoom.words, "all cycles");
         return zoom;
     }
-    bool by_events = cycle_from_events(view, &cycle, &zoom.cycles);
-    zoom.found = by_events || cycle_from_mu(view, &cycle);
+    zoom.found = cycle_find(view, &cycle, &zoom.cycles);
     if (!zoom.found) return zoom;
     zoom.cycle = cycle.number;
     zoom.U_stop = cycle.U_stop;
     zoom.U_behind = cycle.U_stop + BEHIND * (cycle.U_stop - cycle.U_start);
     if (cycle.number == 1)
         snprintf(zoom.words, sizeof zoom.words, "first loading");
-    else if (cycle.number > 1)
+    else
         snprintf(zoom.words, sizeof zoom.words, "cycle %d of %d", cycle.number, zoom.cycles);
     double length = cycle.U_slide - cycle.U_start;
     double first = cycle.bounded > 0 ? cycle.U_precursor : cycle.U_slide - CYCLE_SHOWN * length;
@@ -163,7 +123,7 @@ Zoom zoom_choose(const ResultView *view)
     result_view_range(view, &low, &high);
     zoom.U_start = cycle.U_start;
     zoom.U_slide = cycle.U_slide;
-    zoom.smooth = by_events && cycle.bounded == 0;
+    zoom.smooth = cycle.bounded == 0;
     zoom.U_low = fmax(low, cycle.U_slide - (1 + PAD) * span);
     zoom.U_high = fmin(high, cycle.U_slide + PAD * span);
     return zoom;

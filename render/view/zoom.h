@@ -12,7 +12,7 @@ enum { ZOOM_WORDS_SIZE = 48 };
 
 typedef struct Zoom {
     bool found;   // false: no sliding was seen, or all cycles are asked for; the rest is not set
-    int32_t cycle, cycles;   // its number, from 1, of how many; 0: found by a fall of mu
+    int32_t cycle, cycles;   // its number, from 1, of how many
     char words[ZOOM_WORDS_SIZE];   // "first loading", "cycle 5 of 6"; also "all cycles"; may be ""
     double U_stop;   // where the sliding ended, or the history does; length
     double U_behind;   // a little behind the sliding, for what shows the whole cycle; length
@@ -25,7 +25,7 @@ typedef struct Zoom {
 // The cycle that is asked for. Where none is: in a run of one or two slidings the first loading;
 // else the last cycle that is periodic and has bounded rapid precursors; where none is, the first
 // loading if it has precursors, the last cycle with precursors, the last periodic one, the last.
-// Without tables (a run that did not end) the last large drop of mu.
+// Without tables (a run that did not end) there is none.
 Zoom zoom_choose(const ResultView *view);
 
 // True if an event that began when the rod was at U belongs to the cycle, its sliding included; all

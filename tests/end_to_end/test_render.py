@@ -522,11 +522,11 @@ class Variants(unittest.TestCase):
             self.assertAlmostEqual(min(seen), wanted, delta=0.02 * (1 - low))
 
     def test_killed_run(self):
-        """history.h5.part, without tables: drawn, the sliding found in mu itself."""
+        """history.h5.part, without tables: drawn, without an inset, as no event is known."""
         fixture.make(self.folder, tables=False, name="history.h5.part")
         self.draw()
         red = is_color(read_picture(self.folder, "force"), RED)
-        self.assertEqual(len(groups(red.sum(axis=1) > 0.4 * red.shape[1])), 2, "has an inset")
+        self.assertLess(len(groups(red.sum(axis=1) > 0.4 * red.shape[1])), 2, "has no inset")
 
     def test_odd_histories(self):
         def nothing_slips(data, _):

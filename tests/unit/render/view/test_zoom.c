@@ -155,25 +155,9 @@ TEST(many_precursors_are_cut)
     assert_true(zoom.U_low < 0.02);
 }
 
-TEST(without_tables_mu_tells)
+TEST(without_tables_no_zoom)
 {
     ResultView view = saw_tooth();
-    Zoom zoom = zoom_choose(&view);
-    assert_true(zoom.found);
-    assert_float_equal(zoom.U_slide, 3.0, 0.011);
-    assert_true(zoom.U_low > 2.8 && zoom.U_high < 3.1);
-    saw_mu[350] = saw_mu[351] = NAN;
-    assert_float_equal(zoom_choose(&view).U_slide, 3.0, 0.011);
-}
-
-TEST(no_sliding_no_zoom)
-{
-    ResultView view = saw_tooth();
-    for (int32_t k = 0; k < STEPS; ++k) saw_mu[k] = 1e-3 * k - (k % 10 == 0 ? 0.01 : 0);
-    assert_false(zoom_choose(&view).found);   // small drops are no sliding
-    for (int32_t k = 0; k < STEPS; ++k) saw_mu[k] = NAN;
-    assert_false(zoom_choose(&view).found);
-    for (int32_t k = 0; k < STEPS; ++k) saw_mu[k] = 0.2;
     assert_false(zoom_choose(&view).found);
 }
 
