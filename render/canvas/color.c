@@ -1,131 +1,48 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The map is made from a smooth path in CIELAB (CIE 15:2004, white D65) through a few stations,
-// walked at constant speed and turned to sRGB (IEC 61966-2-1). The stations are ours: lightness
-// falls in nearly equal steps while the hue goes from yellowish white through red to violet, with
-// as much chroma as sRGB holds there.
 #include "render/canvas/color.h"
 
 #include <math.h>
+#include <stdio.h>
 
-enum { STATIONS = 6, PATH_POINTS = 4000 };
+static const double DARK_PAPER = 0.10, DARK_INK = 0.966;   // sRGB of what was white, and black
 
-static const double DARK_PAPER = 9, DARK_INK = 97;   // CIELAB lightness of what was white, black
+// Red, green, blue of each entry. A smooth path in CIELAB (CIE 15:2004, white D65), walked at
+// constant speed through (lightness, chroma, hue) = (96, 20, 97), (80, 56, 76), (63, 72, 51),
+// (46, 66, 24), (29, 52, 352), (14, 36, 310): lightness falls in nearly equal steps while the hue
+// goes from yellowish white through red to violet, with as much chroma as sRGB holds there.
+static const char MAP[6 * MAP_SIZE + 1] =
+    "fef4cdfef3cbfff1c9fff0c7ffefc5ffeec3ffedc1ffecbfffebbdffeabbffe9b9ffe8b7ffe7b4ffe7b3ffe6b0"
+    "ffe5aeffe4acffe3aaffe2a8ffe1a6ffe0a4ffdfa2ffdea0ffdd9effdc9cffdb9affda98ffd996ffd894fed892"
+    "fed790fed68efed58cfed48afed388fed286fed184fdd082fdcf80fdce7efdcc7cfdcb7afdca78fcc976fcc874"
+    "fcc772fcc670fcc56efcc36cfbc26afbc168fbc066fbbe64fbbd62fabc60faba5efab95dfab75bfab659fab558"
+    "fab356fab255f9b054f9af52f9ae51f9ac50f9ab4ef9a94df9a84cf9a74bf9a54af9a448f9a247f9a146f9a045"
+    "f99e44f99d43f99b43f99a42f99941f99740f9963ff9943ef9933ef9913df8903cf88e3cf88d3bf88b3af88a3a"
+    "f88839f88739f78538f78438f78237f78137f67f36f67e36f67c35f57a35f57935f47735f47634f37434f27234"
+    "f27134f16f34f16e34f06c34ef6a34ef6934ee6734ed6634ed6534ec6335eb6235eb6035ea5f36e95d36e95c36"
+    "e85b37e75937e75837e65738e55538e45439e45339e3513ae2503ae14f3ae14e3be04c3bdf4b3cde4a3cdd483d"
+    "dc473ddc463ddb453eda433ed9423fd8413fd74040d63e40d53d40d43c41d33b41d23942d13842d03742cf3643"
+    "ce3443cd3343cc3244cb3144ca2f44c82e44c72d45c62c45c52b45c42a46c22846c12746c02647bf2547bd2447"
+    "bc2348bb2248ba2148b82048b71f49b61e49b51e49b31d4ab21c4ab11b4aaf1a4bae194bad194bac184caa174c"
+    "a9164ca8164ca6154da5144da3144da2134ea1134e9f124e9e114e9d114e9b104f9a104f98104f970f4f950f50"
+    "940e50920e50910e508f0e508e0d508c0d518b0d51890d51880d51860d51840d51830d51810d51800d517e0d51"
+    "7c0e517b0e51790e51770e51760f51740f517210517110516f10506d11506c11506a1250681250671250651350"
+    "63135062134f60144f5e144f5c144f5b154f59154f57154e56164e54164e52164e51164e4f174e4d174d4b174d"
+    "4a174d48174d46174d44184d43184c41184c3f184c3d184c3b184c39184c37184b36184b34184b32184b30184b"
+    "2e184b";
 
-typedef struct Lab {
-    double L, a, b;
-} Lab;
-
-typedef struct Station {
-    double lightness, chroma, hue;   // CIELAB; hue in degrees
-} Station;
-
-static const Station STATION[STATIONS] = {{96, 20, 97}, {80, 56, 76},  {63, 72, 51},
-                                          {46, 66, 24}, {29, 52, 352}, {14, 36, 310}};
-
-// Turns lightness, chroma and hue into Cartesian CIELAB.
-static Lab station_place(int32_t k)
-{
-    double hue = STATION[k].hue * 3.14159265358979323846 / 180;
-    return (Lab){STATION[k].lightness, STATION[k].chroma * cos(hue), STATION[k].chroma * sin(hue)};
-}
-
-// The cubic from q at s = 0 to r at s = 1 whose slopes there are (r - p) / 2 and (t - q) / 2.
-static double spline(double p, double q, double r, double t, double s)
-{
-    double slope_q = (r - p) / 2, slope_r = (t - q) / 2;
-    double bend = 3 * (r - q) - 2 * slope_q - slope_r, twist = 2 * (q - r) + slope_q + slope_r;
-    return q + s * (slope_q + s * (bend + s * twist));
-}
-
-// The path at `place` stations; beyond the ends it is continued straight.
-static Lab path_at(double place)
-{
-    int32_t k = (int32_t)fmin(fmax(floor(place), 0), STATIONS - 2);
-    double s = place - k;
-    Lab q = station_place(k), r = station_place(k + 1);
-    Lab p = {2 * q.L - r.L, 2 * q.a - r.a, 2 * q.b - r.b};
-    Lab t = {2 * r.L - q.L, 2 * r.a - q.a, 2 * r.b - q.b};
-    if (k > 0) p = station_place(k - 1);
-    if (k < STATIONS - 2) t = station_place(k + 2);
-    return (Lab){spline(p.L, q.L, r.L, t.L, s), spline(p.a, q.a, r.a, t.a, s),
-                 spline(p.b, q.b, r.b, t.b, s)};
-}
-
-// Inverse of CIELAB's cube root with its linear foot.
-static double lab_inverse(double f)
-{
-    const double knee = 6.0 / 29;
-    return f > knee ? f * f * f : 3 * knee * knee * (f - 4.0 / 29);
-}
-
-// CIELAB's cube root with its linear foot.
-static double lab_root(double part)
-{
-    const double knee = 6.0 / 29;
-    return part > knee * knee * knee ? cbrt(part) : part / (3 * knee * knee) + 4.0 / 29;
-}
-
-// The transfer function of sRGB; what is outside its gamut is clipped.
-static double srgb_value(double linear)
-{
-    double value = linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1 / 2.4) - 0.055;
-    return fmin(fmax(value, 0), 1);
-}
-
-static double srgb_linear(double value)
-{
-    return value <= 0.04045 ? value / 12.92 : pow((value + 0.055) / 1.055, 2.4);
-}
-
-static Color color_of_lab(Lab lab)
-{
-    double f = (lab.L + 16) / 116;
-    double x = 0.95047 * lab_inverse(f + lab.a / 500), y = lab_inverse(f);
-    double z = 1.08883 * lab_inverse(f - lab.b / 200);
-    return (Color){(float)srgb_value(3.2404542 * x - 1.5371385 * y - 0.4985314 * z),
-                   (float)srgb_value(-0.9692660 * x + 1.8760108 * y + 0.0415560 * z),
-                   (float)srgb_value(0.0556434 * x - 0.2040259 * y + 1.0572252 * z), 1};
-}
-
-Color color_on_dark(Color color)
-{
-    double red = srgb_linear((double)color.red), green = srgb_linear((double)color.green);
-    double blue = srgb_linear((double)color.blue);
-    double x = lab_root((0.4124564 * red + 0.3575761 * green + 0.1804375 * blue) / 0.95047);
-    double y = lab_root(0.2126729 * red + 0.7151522 * green + 0.0721750 * blue);
-    double z = lab_root((0.0193339 * red + 0.1191920 * green + 0.9503041 * blue) / 1.08883);
-    Lab lab = {116 * y - 16, 500 * (x - y), 200 * (y - z)};
-    lab.L = DARK_INK + (DARK_PAPER - DARK_INK) * lab.L / 100;
-    Color turned = color_of_lab(lab);
-    turned.alpha = color.alpha;
-    return turned;
-}
-
-static double lab_distance(Lab from, Lab to)
-{
-    return sqrt((to.L - from.L) * (to.L - from.L) + (to.a - from.a) * (to.a - from.a) +
-                (to.b - from.b) * (to.b - from.b));
-}
-
-static Lab path_point(int32_t k)
-{
-    return path_at((double)k * (STATIONS - 1) / PATH_POINTS);
-}
-
-// Walks the path twice: for its length, then to drop an entry each 1 / (MAP_SIZE - 1) of it.
 void color_map_fill(uint8_t *colors)
 {
-    double length = 0, walked = 0;
-    for (int32_t k = 0; k < PATH_POINTS; ++k)
-        length += lab_distance(path_point(k), path_point(k + 1));
-    int32_t entry = 0;
-    for (int32_t k = 0; k <= PATH_POINTS && entry < MAP_SIZE; ++k) {
-        Lab here = path_point(k);
-        if (k > 0) walked += lab_distance(path_point(k - 1), here);
-        if (walked < length * entry / (MAP_SIZE - 1) && k < PATH_POINTS) continue;
-        Color color = color_of_lab(here);
-        colors[3 * entry] = (uint8_t)lroundf(255 * color.red);
-        colors[3 * entry + 1] = (uint8_t)lroundf(255 * color.green);
-        colors[3 * entry++ + 2] = (uint8_t)lroundf(255 * color.blue);
-    }
+    for (int32_t k = 0; k < 3 * MAP_SIZE; ++k) sscanf(MAP + 2 * k, "%2hhx", &colors[k]);
+}
+
+// Inverted, then turned by half a circle of hue about the grey axis, by which luma stays.
+Color color_on_dark(Color color)
+{
+    double luma = 0.2126 * (double)color.red + 0.7152 * (double)color.green +
+                  0.0722 * (double)color.blue;
+    double turned[3] = {(double)color.red, (double)color.green, (double)color.blue};
+    for (int32_t k = 0; k < 3; ++k)
+        turned[k] =
+            fmin(fmax(DARK_PAPER + (DARK_INK - DARK_PAPER) * (1 - 2 * luma + turned[k]), 0), 1);
+    return (Color){(float)turned[0], (float)turned[1], (float)turned[2], color.alpha};
 }
