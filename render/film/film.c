@@ -19,7 +19,6 @@
 #include <sys/stat.h>
 
 static const double SECONDS = 20, SECONDS_MAX = 3600;
-static const double EASE = 0.5, EASE_SHARE = 1.0 / 40;   // s of film; of all of it, at most
 
 enum { RATE = 30, RATE_MAX = 240, FRAMES_MAX = 100000 };
 enum { WIDTH = 1920, HEIGHT = 1080, WIDTH_LEAST = 640, HEIGHT_LEAST = 360 };
@@ -131,8 +130,7 @@ amontons_render_film(const char *folder, const FilmRequest *request, Error *err)
                         .low = t[0],
                         .high = t[1],
                         .frames = frames,
-                        .rate = film.rate,
-                        .ease = fmin(EASE, EASE_SHARE * film.seconds)};
+                        .rate = film.rate};
     TRY(film_clock_create(&run, &clock, err));
 
     // The page, the file, and frame by frame from one to the other.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The way there: speed-up of each step; the power; the film's time as a sum over steps; then the
-// ease, on places evenly spaced in that time. The speed-up belongs to times of the run, so easing
-// moves nothing: the film's time is summed anew.
+// The way there: speed-up of each step; the power; the film's time as a sum over steps, on which
+// frames are evenly spaced.
 #include "render/film/film_clock.h"
 
 #include "base/memory.h"
@@ -13,26 +12,13 @@ static const double RAPID = 2;   // V: what record/events calls rapid
 static const double POWER_MAX = 2;
 static const double EXTRA = 1;   // film time that rapid slip adds, over that of the rest
 
-enum { HALVINGS = 60, PLACES_A_FRAME = 64, PLACES_MAX = 1 << 20 };
+enum { HALVINGS = 60 };
 
 // Times of the run, rising, and at each the logarithm of the speed-up to the power 1.
 typedef struct Course {
     int64_t count;
     double *t, *log_fast;   // [count] owned
 } Course;
-
-static bool course_make(Course *course, int64_t count, Error *err)
-{
-    course->count = count;
-    return (course->t = NEW_ARRAY(double, count, err)) &&
-           (course->log_fast = NEW_ARRAY(double, count, err));
-}
-
-static void course_destroy(Course *course)
-{
-    memory_free_all(course->t, course->log_fast);
-    *course = (Course){0};
-}
 
 static double log_fast_at(const FilmClockDef *def, int64_t row)
 {
@@ -53,7 +39,8 @@ static double log_fast_between(const FilmClockDef *def, int64_t row, double t)
 static bool course_create(const FilmClockDef *def, Course *course, Error *err)
 {
     int64_t n = 1, last = 1;
-    if (!course_make(course, def->rows + 2, err)) return false;
+    if (!(course->t = NEW_ARRAY(double, def->rows + 2, err))) return false;
+    if (!(course->log_fast = NEW_ARRAY(double, def->rows + 2, err))) return false;
     course->t[0] = def->low;
     for (int64_t row = 1; row < def->rows; ++row) {
         double t = def->t[row];
@@ -88,43 +75,22 @@ static double length_of(const Course *course, double power)
     return sum;
 }
 
-// A place in the film's time: in step `k` of a course, `part` of the way to its end.
-typedef struct Place {
-    int64_t k;
-    double before, part;   // before: the film's time at the step's beginning
-} Place;
-
-// Led along, from step 1.
-static void place_move(const Course *course, double power, double at, Place *place)
-{
-    double own = stretched(course, place->k, power);
-    while (place->before + own < at && place->k + 1 < course->count) {
-        place->before += own;
-        own = stretched(course, ++place->k, power);
-    }
-    place->part = own > 0 ? fmin((at - place->before) / own, 1) : 0;
-}
-
-static double time_at(const Course *course, const Place *place)
-{
-    const double *t = course->t + place->k;
-    return t[-1] + place->part * (t[0] - t[-1]);
-}
-
 // Frames evenly spaced in the film's time, the first at low, the last at high.
-static bool frames_place(const FilmClockDef *def, const Course *even, double power,
+static bool frames_place(const FilmClockDef *def, const Course *course, double power,
                          FilmClock *clock, Error *err)
 {
     if (!(clock->t = NEW_ARRAY(double, def->frames, err))) return false;
     if (!(clock->speed = NEW_ARRAY(double, def->frames, err))) return false;
-    double seconds = (double)(def->frames - 1) / def->rate, whole = length_of(even, power);
-    Place place = {.k = 1};
+    double seconds = (double)(def->frames - 1) / def->rate, whole = length_of(course, power);
+    double before = 0, own = stretched(course, 1, power);   // film time to step k; of step k
+    int64_t k = 1;
     for (int32_t i = 0; i < def->frames; ++i) {
-        place_move(even, power, whole * i / (def->frames - 1), &place);
-        const double *log_fast = even->log_fast + place.k;
-        double here = log_fast[-1] + place.part * (log_fast[0] - log_fast[-1]);
-        clock->t[i] = time_at(even, &place);
-        clock->speed[i] = whole / seconds * exp(-power * here);
+        double at = whole * i / (def->frames - 1);
+        for (; before + own < at && k + 1 < course->count; own = stretched(course, ++k, power))
+            before += own;
+        double part = own > 0 ? fmin((at - before) / own, 1) : 0;
+        clock->t[i] = course->t[k - 1] + part * (course->t[k] - course->t[k - 1]);
+        clock->speed[i] = whole / seconds * exp(-power * log_fast_of(course, k));
     }
     clock->t[def->frames - 1] = def->high;
     clock->frames = def->frames;
@@ -134,10 +100,8 @@ static bool frames_place(const FilmClockDef *def, const Course *even, double pow
 
 bool film_clock_create(const FilmClockDef *def, FilmClock *clock, Error *err)
 {
-    Course course = {0}, even = {0};
-    int64_t places = (int64_t)PLACES_A_FRAME * def->frames;
+    Course course = {0};
     *clock = (FilmClock){0};
-    if (places > PLACES_MAX) places = PLACES_MAX;
     if (!(def->high > def->low)) FAIL(err, ERROR_INPUT, "the film would show no time");
     TRY(course_create(def, &course, err));
 
@@ -154,39 +118,9 @@ bool film_clock_create(const FilmClockDef *def, FilmClock *clock, Error *err)
         }
         power = (least + most) / 2;
     }
-
-    // The same course at places that are evenly spaced in the film's time.
-    double step = length_of(&course, power) / (double)(places - 1);
-    Place place = {.k = 1};
-    TRY(course_make(&even, places, err));
-    for (int64_t i = 0; i < places; ++i) {
-        place_move(&course, power, (double)i * step, &place);
-        even.t[i] = time_at(&course, &place);
-        even.log_fast[i] = log_fast_of(&course, place.k);
-    }
-    even.t[places - 1] = course.t[course.count - 1];
-
-    // Speed, 1 without slow motion, grows by no more than `slope` a unit of the run's time, before
-    // and behind rapid slip: its logarithm then changes evenly in the film's time. It can only
-    // fall, so that nothing rapid is shown faster than without. With this slope the way from the
-    // slowest to the fastest takes `ease` seconds.
-    if (def->ease > 0) {
-        double largest = 0, seconds = (double)(def->frames - 1) / def->rate;
-        for (int64_t i = 0; i < places; ++i) largest = fmax(largest, even.log_fast[i]);
-        double slope = seconds / length_of(&even, power) * power * largest / def->ease;
-        for (int32_t back = 0; back < 2; ++back)
-            for (int64_t i = 1; i < places; ++i) {
-                int64_t k = back ? places - 1 - i : i, from = back ? k + 1 : k - 1;
-                double fastest = exp(-power * even.log_fast[from]) +
-                                 slope * fabs(even.t[k] - even.t[from]);
-                if (exp(-power * even.log_fast[k]) > fastest)
-                    even.log_fast[k] = -log(fastest) / power;
-            }
-    }
-    TRY(frames_place(def, &even, power, clock, err));
+    TRY(frames_place(def, &course, power, clock, err));
 cleanup:
-    course_destroy(&course);
-    course_destroy(&even);
+    memory_free_all(course.t, course.log_fast);
     if (!error_is_clean(err)) film_clock_destroy(clock);
     return error_is_clean(err);
 }

@@ -4,7 +4,6 @@
 // A second of film is a part of the run that is the shorter the faster the contact slips: by
 // (2 V / v)^p while the fastest node slips at v > 2 V, rapidly, and the same otherwise. The power p
 // is the one with which all rapid slip lasts as long on the film as all the rest (2 at most).
-// Around rapid slip the film slows down and speeds up again within `ease` seconds.
 #ifndef AMONTONS_RENDER_FILM_FILM_CLOCK_H
 #define AMONTONS_RENDER_FILM_FILM_CLOCK_H
 
@@ -17,7 +16,6 @@ typedef struct FilmClockDef {
     double V;   // rod, velocity; 0: nothing counts as rapid
     double low, high;   // of t: the film's first and last frame
     int32_t frames, rate;   // frames: at least 2; a second
-    double ease;   // s of film
 } FilmClockDef;
 
 typedef struct FilmClock {

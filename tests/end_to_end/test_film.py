@@ -189,7 +189,7 @@ class Films(OfHistory):
         self.assertRegex(film(result, self.folder / "none.mp4").stdout, "shows no block.*--set output.fields=film")
         make_fields(result)
         said = re.search(r"stands still for up to (\d\.\d) s .*--set output.fields=film", film(result, self.folder / "sparse.mp4").stdout)
-        self.assertAlmostEqual(float(said[1]), 1 + 1 / 3, delta=0.2)   # eased at both ends
+        self.assertAlmostEqual(float(said[1]), 1 + 1 / 3, delta=0.2)
         self.assertNotIn("output.fields", film(result, self.folder / "early.mp4", "--seconds", "1", "--to", "t=80").stdout)
         self.assertEqual(film(result, self.folder / "quiet.mp4", "--quiet").stdout, "")
 

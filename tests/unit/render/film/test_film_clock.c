@@ -40,7 +40,6 @@ TEST(test_slow_is_even)
     Error err = {0};
     FilmClock clock;
     FilmClockDef def = rapid_between(t, fastest, 1.9);   // not rapid
-    def.ease = 0.25;
     assert_true(film_clock_create(&def, &clock, &err));
     check_rises(&clock, 0, 100);
     for (int32_t k = 0; k < FRAMES; ++k) {
@@ -80,30 +79,6 @@ TEST(test_power_is_bounded)
     assert_true(film_clock_create(&def, &clock, &err));
     assert_near("speed", clock.speed[20] / clock.speed[FRAMES / 2], 4, 1e-6);
     assert_near("speed", clock.speed[20], 10.3, 0.05);
-    film_clock_destroy(&clock);
-}
-
-// Slow motion begins before rapid slip and ends behind it, in steps that the eye follows.
-TEST(test_ease)
-{
-    double t[ROWS], fastest[ROWS];
-    Error err = {0};
-    FilmClock clock;
-    FilmClockDef def = rapid_between(t, fastest, 200);
-    def.ease = 0.5;
-    assert_true(film_clock_create(&def, &clock, &err));
-    check_rises(&clock, 0, 100);
-    double slowest = INFINITY, steepest = 0;
-    for (int32_t k = 1; k < FRAMES; ++k) {
-        slowest = fmin(slowest, clock.speed[k]);
-        steepest = fmax(steepest, fabs(log(clock.speed[k] / clock.speed[k - 1])));
-        if (clock.t[k] > 49.5 && clock.t[k] < 50.5)
-            assert_near("speed", clock.speed[k] / clock.speed[FRAMES / 2], 1, 1e-3);
-    }
-    assert_near("speed", clock.speed[0] / slowest, 101, 0.5);
-    assert_true(steepest < log(101) / 6);   // half a second is ten frames
-    double lasts = film_clock_seconds(&clock, 50.5) - film_clock_seconds(&clock, 49.5);
-    assert_true(lasts > 0.45 * 10);   // of ten seconds: easing takes little of them
     film_clock_destroy(&clock);
 }
 
