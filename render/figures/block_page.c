@@ -5,6 +5,7 @@
 #include "io/mesh/shape_functions.h"
 #include "render/figures/rod_mark.h"
 #include "render/figures/space_page.h"
+#include "render/figures/surface_draw.h"
 #include "render/figures/color_scale.h"
 #include "render/view/space_time.h"
 
@@ -19,12 +20,11 @@ static const double ROOM_ABOVE = 13, ROOM_BELOW = 7;   // points: load; contact
 static const double CONTACT_GAP = 0.6,
                     CONTACT_HEIGHT = 4;   // points: the floor's line to the band, its height
 static const double LOAD_GAP = 1.5, LOAD_LENGTH = 8, LOAD_HEAD = 2;   // points
-static const double OUTLINE_WIDTH = 0.5, CONTOUR_WIDTH = 0.3, EDGE_WIDTH = 0.15;   // points
+static const double OUTLINE_WIDTH = 0.5;   // points
 static const double FACE_SLACK = 1e-3;   // of the rod's width: nodes of the face it pushes
 static const double SAME_PLACE = 1e-5;   // of the contact's length: nodes of fields and contact
 static const double TOP_SHARE = 1e-6;   // of the height: what is less below the top is the top
 
-static const Color CONTOUR = {0.08f, 0.08f, 0.10f, 0.55f};
 static const Color LOAD_COLOR = {0.10f, 0.32f, 0.66f, 1};
 static const char PRESSURE_IN_SPACE[] =
     "pressure \u2212(~{\u03c3}_{xx} + ~{\u03c3}_{yy} + ~{\u03c3}_{zz})/3";
@@ -258,24 +258,9 @@ bool block_page_draw(const Page *page, const BlockPage *map, const Block *block,
 {
     SpacePage space = space_of(page, map, axes);
     if (block->moved) return space_page_draw(page, &space, block, err);
-    double unit = map->share * page->point;
-    Stroke outline = {.color = INK, .width = OUTLINE_WIDTH * unit};
-    Stroke edge = {.color = CONTOUR, .width = EDGE_WIDTH * unit};
-    if (!block_colors_draw(page->canvas, block, axes, map->bar.low / map->bar.factor,
-                           map->bar.high / map->bar.factor, err))
-        return false;
-    if (map->edges) block_edges_draw(page, block, axes, &edge);
-
-    // Contours lie at the numbers of the bar.
-    Stroke stroke = {.color = CONTOUR, .width = CONTOUR_WIDTH * unit};
-    Ticks ticks = colorbar_ticks(&map->bar);
-    for (int32_t k = 0; k < ticks.count; ++k) {
-        double level = tick_value(&ticks, k);
-        if (level > map->bar.low && level < map->bar.high)
-            block_contour_draw(page, block, axes, level / map->bar.factor, &stroke);
-    }
-
-    if (!block_outline_draw(page, block, axes, &outline, err)) return false;
+    const SurfaceDrawing drawing = {block, axes, &map->bar, space.cut, map->edges, space.unit};
+    Stroke outline = {.color = INK, .width = OUTLINE_WIDTH * space.unit};
+    if (!surface_draw(page, &drawing, err)) return false;
     draw_contact(page, map, block, block->row, axes);
     Point left = axes_place(axes, axes->x.low, 0), right = axes_place(axes, axes->x.high, 0);
     draw_segment(page->canvas, &outline, left, right);

@@ -5,7 +5,7 @@
 #define AMONTONS_RENDER_FIGURES_BLOCK_PAGE_H
 
 #include "render/canvas/colorbar.h"
-#include "render/figures/block_mesh.h"
+#include "render/canvas/page.h"
 #include "render/view/surface.h"
 
 typedef struct BlockPage {

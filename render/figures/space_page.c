@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Pixels have the value of what is nearest to the camera; lines are drawn over them as far as
-// nothing hides them. Colours are those of the bar: there is no light.
 #include "render/figures/space_page.h"
 
-#include "base/memory.h"
-#include "render/figures/depth_image.h"
 #include "render/figures/figures.h"
 #include "render/figures/rod_mark.h"
+#include "render/figures/surface_draw.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -14,15 +11,12 @@
 
 enum { ARROWS = 7, STATUSES = 4, TICKS_WANTED = 4 };
 
-static const double OUTLINE_WIDTH = 0.5, CONTOUR_WIDTH = 0.3, EDGE_WIDTH = 0.15;   // points
 static const double SEAM = 0.2, FLOOR_WIDTH = 0.4, STRIP_WIDTH = 1.2;   // points
 static const double LOAD_LENGTH = 8, LOAD_GAP = 1, LOAD_HEAD = 2;   // points
 static const double ROD_LENGTH = 11, ROD_HEAD = 3, ROD_WIDTH = 1;   // points
 static const double TICK = 2.5, NUMBER_GAP = 2, NAME_GAP = 13;   // points
-static const double SLACK = 0.004;   // of the diagonal: a line on the surface is not behind it
 static const double FACE_SLACK = 1e-6;   // of the diagonal
 
-static const Color CONTOUR = {0.08f, 0.08f, 0.10f, 0.55f};
 static const Color LOAD_COLOR = {0.10f, 0.32f, 0.66f, 1};
 
 static double diagonal(const Block *block)
@@ -32,19 +26,10 @@ static double diagonal(const Block *block)
     return sqrt(sum);
 }
 
-// The depth goes from 0 at the camera to 1 at twice the distance of the block's middle.
-static DepthPoint see(const SpacePage *space, const Block *block, const double place[3])
-{
-    double seen[3];
-    camera_see(&block->camera, place, seen);
-    return (DepthPoint){axes_place(&space->axes, seen[0], seen[1]),
-                        seen[2] / (2 * block->camera.distance)};
-}
-
 static Point see_on_page(const SpacePage *space, const Block *block, double x, double y, double z)
 {
     const double place[3] = {x, y, z};
-    return see(space, block, place).at;
+    return surface_see(block, &space->axes, place).at;
 }
 
 static double floor_height(const Block *block)
@@ -60,18 +45,6 @@ void space_page_floor_corners(const Block *block, double corner[4][2])
         double seen[3];
         camera_see(&block->camera, place, seen);
         memcpy(corner[k], seen, sizeof corner[k]);
-    }
-}
-
-// --- the block -----------------------------------------------------------------------------------
-
-static void draw_parts(const Page *page, const SpacePage *space, const Block *block,
-                       const SurfaceParts *lines, const DepthImage *image, const Stroke *stroke)
-{
-    for (int64_t k = 0; k < lines->count; ++k) {
-        const SurfacePoint *two = lines->points + 2 * k;
-        const DepthPoint ends[2] = {see(space, block, two[0].at), see(space, block, two[1].at)};
-        depth_image_line(image, page->canvas, stroke, ends);
     }
 }
 
@@ -234,64 +207,11 @@ void space_page_axes(const Page *page, const SpacePage *space, const Block *bloc
 
 bool space_page_draw(const Page *page, const SpacePage *space, const Block *block, Error *err)
 {
-    Surface surface = {.with_edges = false};
-    GlCorner *corners = NULL;
-    const Box *box = &space->axes.box;
-    const Colorbar *bar = space->bar;
-    DepthImage image = {.box = *box,
-                        .columns = (int32_t)lround(box->right - box->left),
-                        .rows = (int32_t)lround(box->bottom - box->top),
-                        .slack = SLACK * diagonal(block) / (2 * block->camera.distance)};
     double unit = space->unit, top = -INFINITY;
-    Stroke outline = {.color = INK, .width = OUTLINE_WIDTH * unit};
-    Stroke edge = {.color = CONTOUR, .width = EDGE_WIDTH * unit};
-    TRY(surface_build(block, space->cut, space->edges, &surface, err));
+    const SurfaceDrawing drawing = {block,      &space->axes, space->bar,
+                                    space->cut, space->edges, unit};
     space_page_floor(page, space, block, block->row);
-
-    // Colours: at each pixel those of the nearest triangle. What has no place or no number is left
-    // out.
-    int64_t count = 0, pixels = (int64_t)image.rows * image.columns;
-    TRY(corners = NEW_ARRAY(GlCorner, 3 * (int64_t)surface.triangles.count, err));
-    TRY(image.depth = NEW_ARRAY(float, pixels, err));
-    for (int64_t t = 0; t < surface.triangles.count; ++t) {
-        bool whole = true;
-        for (int32_t k = 0; k < 3; ++k) {
-            const SurfacePoint *point = &surface.triangles.points[3 * t + k];
-            DepthPoint seen = see(space, block, point->at);
-            double part = (bar->factor * point->value - bar->low) / (bar->high - bar->low);
-            whole = whole && isfinite(seen.at.x + seen.at.y + part);
-            corners[count + k] = (GlCorner){(float)(seen.at.x - box->left),
-                                            (float)(seen.at.y - box->top), (float)part,
-                                            (float)seen.depth};
-        }
-        if (whole) count += 3;
-    }
-    canvas_heat_triangles(page->canvas, box, corners, count, image.depth);
-    draw_parts(page, space, block, &surface.edges, &image, &edge);
-
-    // Contours at the numbers of the bar: where a triangle has the value, a line between two of its
-    // sides.
-    Stroke contour = {.color = CONTOUR, .width = CONTOUR_WIDTH * unit};
-    Ticks ticks = colorbar_ticks(bar);
-    for (int32_t n = 0; n < ticks.count; ++n) {
-        double number = tick_value(&ticks, n), value = number / bar->factor;
-        if (!(number > bar->low && number < bar->high)) continue;
-        for (int64_t t = 0; t < surface.triangles.count; ++t) {
-            const SurfacePoint *corner = surface.triangles.points + 3 * t;
-            DepthPoint ends[3];
-            int32_t found = 0;
-            for (int32_t k = 0; k < 3; ++k) {
-                const SurfacePoint *a = &corner[k], *b = &corner[(k + 1) % 3];
-                double place[3];
-                if ((a->value < value) == (b->value < value)) continue;
-                double part = (value - a->value) / (b->value - a->value);
-                for (int32_t d = 0; d < 3; ++d) place[d] = a->at[d] + part * (b->at[d] - a->at[d]);
-                ends[found++] = see(space, block, place);
-            }
-            if (found == 2) depth_image_line(&image, page->canvas, &contour, ends);
-        }
-    }
-    draw_parts(page, space, block, &surface.outline, &image, &outline);
+    if (!surface_draw(page, &drawing, err)) return false;
 
     // The load: arrows on the far edge of the top.
     Stroke load = {.color = LOAD_COLOR, .width = 0.6 * unit};
@@ -303,8 +223,5 @@ bool space_page_draw(const Page *page, const SpacePage *space, const Block *bloc
         arrow_draw(page, &load, (Point){tip.x, tip.y - LOAD_LENGTH * unit}, tip, LOAD_HEAD * unit);
     }
     draw_rod(page, space, block);
-cleanup:
-    surface_destroy(&surface);
-    memory_free_all(corners, image.depth);
-    return error_is_clean(err);
+    return true;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The boundary of a block in space, cut open where that is asked, and the cut itself, as small
-// triangles and lines. Numbers only; called by block_page and space_page.
+// The boundary of a block in space, cut open where that is asked, and the cut itself, or a block in
+// the plane, as small triangles and lines. Numbers only; called by surface_draw.
 #ifndef AMONTONS_RENDER_VIEW_SURFACE_H
 #define AMONTONS_RENDER_VIEW_SURFACE_H
 
@@ -26,16 +26,17 @@ typedef struct SurfaceParts {
 
 typedef struct Surface {
     SurfaceParts triangles;   // three points each
-    SurfaceParts outline;   // two: where faces meet at an angle, and around the cut
-    bool with_edges;
+    SurfaceParts outline;   // two: where faces meet at an angle, around the cut and in the plane
     SurfaceParts edges;   // two: of elements, where they were asked for
 } Surface;
 
 // "y=0.25", or several, as in "x=0.2,y=0.25"; NULL: none. ERROR_INPUT: not so.
 bool space_cut_read(const char *words, SpaceCut *cut, Error *err);
 
-bool surface_build(const Block *block, const SpaceCut *cut, bool edges, Surface *surface,
-                   Error *err);
+// parts: along a side of a face, but a T3 stays whole; 0: as many as its kind asks for.
+enum { SURFACE_PARTS_MAX = 16 };
+bool surface_build(const Block *block, const SpaceCut *cut, bool edges, int32_t parts,
+                   Surface *surface, Error *err);
 void surface_destroy(Surface *surface);   // zeroed is fine
 
 #endif

@@ -88,7 +88,7 @@ static void check_with(double distortion, ElementKind kind, const char *words, d
     Block block = make_block(kind, distortion);
     bool cracks = kind == ELEMENT_WEDGE6 && distortion > 0;
     assert_true(space_cut_read(words, &cut, &err));
-    assert_true(surface_build(&block, &cut, false, &surface, &err));
+    assert_true(surface_build(&block, &cut, false, 0, &surface, &err));
     assert_near(ELEMENTS[kind].name, area_of(&surface.triangles), area, cracks ? 2e-3 : 1e-12);
     assert_near(ELEMENTS[kind].name, length_of(&surface.outline), outline, cracks ? 1e-2 : 1e-12);
     for (int64_t k = 0; k < 3 * (int64_t)surface.triangles.count; ++k) {

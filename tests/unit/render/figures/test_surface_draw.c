@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Known fields on every kind of element, drawn and read back through the colour map; contours and
-// edges where they belong; energies of a known strain.
-#include "render/figures/block_mesh.h"
+// Known fields on every kind of element in the plane, drawn and read back through the colour map;
+// contours and edges where they belong; energies of a known strain.
+#include "render/figures/surface_draw.h"
 
 #include "plane.h"
 
@@ -79,6 +79,15 @@ static Axes square_axes(void)
     return (Axes){.box = {0, 0, SIZE, SIZE}, .x = {.high = 1}, .y = {.high = 1}};
 }
 
+// With edges; the axes last as long as the surface is drawn.
+static SurfaceDrawing surface_of(const Block *block, const Axes *axes, Surface *surface)
+{
+    static const SpaceCut whole = {0};
+    Error err = {0};
+    assert_true(surface_build(block, &whole, true, surface_parts(block, axes), surface, &err));
+    return (SurfaceDrawing){.block = block, .axes = axes};
+}
+
 // The place in the map of the colour that is nearest to this one.
 static double invert(const uint8_t *map, const uint8_t *pixel)
 {
@@ -115,7 +124,10 @@ static void draw_and_read(ElementKind kind)
     Canvas *canvas = canvas_create(&def, &err);
     assert_non_null(canvas);
     color_map_fill(map);
-    assert_true(block_colors_draw(canvas, &block, &axes, 0, 1, &err));
+    Surface surface;
+    SurfaceDrawing drawing = surface_of(&block, &axes, &surface);
+    assert_true(surface_colors(canvas, &drawing, &surface, 0, 1, NULL, &err));
+    surface_destroy(&surface);
     assert_true(canvas_read(canvas, &pixels, &err));
     for (int32_t row = 0; row < SIZE; row++)
         for (int32_t column = 0; column < SIZE; column++) {
@@ -155,7 +167,10 @@ TEST(contours_follow_the_level)
     for (int32_t i = 0; i < block.frame.node_count; i++)
         patch.value[i] = field_at(ELEMENT_T6, patch.place[i][0], patch.place[i][1]);
     assert_true(page_begin(&page, &def, &err));
-    block_contour_draw(&page, &block, &axes, 0.3, &stroke);
+    Surface surface;
+    SurfaceDrawing drawing = surface_of(&block, &axes, &surface);
+    surface_contour(page.canvas, &drawing, &surface, 0.3, &stroke, NULL);
+    surface_destroy(&surface);
     assert_true(canvas_read(page.canvas, &pixels, &err));
     for (int32_t row = 0; row < SIZE; row++) {
         bool inked = false;
@@ -180,11 +195,12 @@ TEST(the_outline_is_what_one_element_has)
                                         {0.1, 0.9}, {0.5, 0.9}, {0.9, 0.9}};
     int32_t first[3] = {0, 4, 8}, nodes[8] = {0, 1, 4, 3, 1, 2, 5, 4};
     uint8_t kinds[2] = {ELEMENT_Q4, ELEMENT_Q4}, *pixels = NULL;
-    double place[6][2], value[6] = {0};
+    double place[6][2], value[6] = {0}, position[18] = {0};
     memcpy(place, places, sizeof place);
     Block block = {.frame = {.dim = 2,
                              .stresses = 3,
                              .node_count = 6,
+                             .position = position,
                              .element_count = 2,
                              .kind = kinds,
                              .first_node = first,
@@ -198,12 +214,15 @@ TEST(the_outline_is_what_one_element_has)
     Page page = {0};
     Error err = {0};
     assert_true(page_begin(&page, &def, &err));
-    assert_true(block_outline_draw(&page, &block, &axes, &stroke, &err));
+    Surface surface;
+    SurfaceDrawing drawing = surface_of(&block, &axes, &surface);
+    surface_lines(page.canvas, &drawing, &surface.outline, &stroke, NULL);
     assert_true(canvas_read(page.canvas, &pixels, &err));
     const uint8_t *middle = pixels + 3 * SIZE * (SIZE / 2);
     assert_true(middle[3 * 30] < 50 && middle[3 * 150] == 255 && middle[3 * 270] < 50);
     memory_free(pixels);
-    block_edges_draw(&page, &block, &axes, &stroke);
+    surface_lines(page.canvas, &drawing, &surface.edges, &stroke, NULL);
+    surface_destroy(&surface);
     assert_true(canvas_read(page.canvas, &pixels, &err));
     assert_true(pixels[3 * (SIZE * (SIZE / 2) + 150)] < 50);
     memory_free(pixels);

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Pixels have the value of what is nearest to the camera; lines are drawn over them as far as
+// nothing hides them. Colours are those of the bar: there is no light.
+#include "render/figures/surface_draw.h"
+
+#include "base/memory.h"
+#include "io/mesh/shape_functions.h"
+
+#include <math.h>
+
+enum { PARTS_LEAST = 2, CELLS_MAX = 50000 };
+
+static const double PART_SIZE = 12;   // pixels: a part's side, half a millimetre in print
+static const double OUTLINE_WIDTH = 0.5, CONTOUR_WIDTH = 0.3, EDGE_WIDTH = 0.15;   // points
+static const double SLACK = 0.004;   // of the diagonal: a line on the surface is not behind it
+
+static const Color CONTOUR = {0.08f, 0.08f, 0.10f, 0.55f};
+static const Color EDGE_IN_PLANE = {0.08f, 0.08f, 0.10f, 0.80f};
+
+// The depth goes from 0 at the camera to 1 at twice the distance of the block's middle.
+DepthPoint surface_see(const Block *block, const Axes *axes, const double place[3])
+{
+    double seen[3] = {place[0], place[1], 0};
+    if (block->moved) camera_see(&block->camera, place, seen);
+    return (DepthPoint){axes_place(axes, seen[0], seen[1]),
+                        block->moved ? seen[2] / (2 * block->camera.distance) : 0};
+}
+
+// As many of all elements: those side by side leave no crack.
+int32_t surface_parts(const Block *block, const Axes *axes)
+{
+    const FieldFrame *frame = &block->frame;
+    double longest = 0;
+    if (block->moved) return 0;
+    for (int32_t e = 0; e < frame->element_count; ++e) {
+        const int32_t *nodes = frame->element_nodes + frame->first_node[e];
+        int32_t corners = element_corner_count((ElementKind)frame->kind[e]);
+        for (int32_t k = 0; k < corners; ++k) {
+            const double *from = block->place[nodes[k]],
+                         *to = block->place[nodes[(k + 1) % corners]];
+            Point a = axes_place(axes, from[0], from[1]), b = axes_place(axes, to[0], to[1]);
+            longest = fmax(longest, hypot(b.x - a.x, b.y - a.y));
+        }
+    }
+    double most = fmin(SURFACE_PARTS_MAX, sqrt((double)CELLS_MAX / frame->element_count));
+    return (int32_t)fmax(fmin(ceil(longest / PART_SIZE), most), PARTS_LEAST);
+}
+
+// What has no place or no number is left out.
+bool surface_colors(Canvas *canvas, const SurfaceDrawing *drawing, const Surface *surface,
+                    double low, double high, const DepthImage *image, Error *err)
+{
+    const Box *box = &drawing->axes->box;
+    int64_t count = 0;
+    GlCorner *corners = NEW_ARRAY(GlCorner, 3 * (int64_t)surface->triangles.count, err);
+    if (!corners) return false;
+    for (int64_t t = 0; t < surface->triangles.count; ++t) {
+        bool whole = true;
+        for (int32_t k = 0; k < 3; ++k) {
+            const SurfacePoint *point = &surface->triangles.points[3 * t + k];
+            DepthPoint seen = surface_see(drawing->block, drawing->axes, point->at);
+            double part = (point->value - low) / (high - low);
+            whole = whole && isfinite(seen.at.x + seen.at.y + part);
+            corners[count + k] = (GlCorner){(float)(seen.at.x - box->left),
+                                            (float)(seen.at.y - box->top), (float)part,
+                                            (float)seen.depth};
+        }
+        if (whole) count += 3;
+    }
+    canvas_heat_triangles(canvas, box, corners, count, image ? image->depth : NULL);
+    memory_free(corners);
+    return true;
+}
+
+static void draw_between(Canvas *canvas, LinePen *pen, const Stroke *stroke,
+                         const DepthImage *image, const DepthPoint ends[2])
+{
+    if (image) {
+        depth_image_line(image, canvas, stroke, ends);
+        return;
+    }
+    line_add(pen, ends[0].at);
+    line_add(pen, ends[1].at);
+    pen->down = false;
+}
+
+void surface_lines(Canvas *canvas, const SurfaceDrawing *drawing, const SurfaceParts *lines,
+                   const Stroke *stroke, const DepthImage *image)
+{
+    LinePen pen = line_begin(canvas, stroke);
+    for (int64_t k = 0; k < lines->count; ++k) {
+        const SurfacePoint *two = lines->points + 2 * k;
+        const DepthPoint ends[2] = {surface_see(drawing->block, drawing->axes, two[0].at),
+                                    surface_see(drawing->block, drawing->axes, two[1].at)};
+        draw_between(canvas, &pen, stroke, image, ends);
+    }
+    line_end(&pen);
+}
+
+// Where a triangle has the value, a line between two of its sides.
+void surface_contour(Canvas *canvas, const SurfaceDrawing *drawing, const Surface *surface,
+                     double level, const Stroke *stroke, const DepthImage *image)
+{
+    LinePen pen = line_begin(canvas, stroke);
+    for (int64_t t = 0; t < surface->triangles.count; ++t) {
+        const SurfacePoint *corner = surface->triangles.points + 3 * t;
+        DepthPoint ends[3];
+        int32_t found = 0;
+        for (int32_t k = 0; k < 3; ++k) {
+            const SurfacePoint *a = &corner[k], *b = &corner[(k + 1) % 3];
+            double place[3];
+            if ((a->value < level) == (b->value < level)) continue;
+            double part = (level - a->value) / (b->value - a->value);
+            for (int32_t d = 0; d < 3; ++d) place[d] = a->at[d] + part * (b->at[d] - a->at[d]);
+            ends[found++] = surface_see(drawing->block, drawing->axes, place);
+        }
+        if (found == 2) draw_between(canvas, &pen, stroke, image, ends);
+    }
+    line_end(&pen);
+}
+
+bool surface_draw(const Page *page, const SurfaceDrawing *drawing, Error *err)
+{
+    const Block *block = drawing->block;
+    const Box *box = &drawing->axes->box;
+    const Colorbar *bar = drawing->bar;
+    Canvas *canvas = page->canvas;
+    Surface surface = {.outline = {0}};
+    DepthImage depths = {.box = *box,
+                         .columns = (int32_t)lround(box->right - box->left),
+                         .rows = (int32_t)lround(box->bottom - box->top)};
+    const DepthImage *image = block->moved ? &depths : NULL;
+    Stroke outline = {.color = INK, .width = OUTLINE_WIDTH * drawing->unit};
+    Stroke edge = {.color = image ? CONTOUR : EDGE_IN_PLANE, .width = EDGE_WIDTH * drawing->unit};
+    Stroke contour = {.color = CONTOUR, .width = CONTOUR_WIDTH * drawing->unit};
+    if (image) {
+        double sum = 0;
+        for (int32_t d = 0; d < 3; ++d) sum += pow(block->high[d] - block->low[d], 2);
+        depths.slack = SLACK * sqrt(sum) / (2 * block->camera.distance);
+        TRY(depths.depth = NEW_ARRAY(float, (int64_t)depths.rows *depths.columns, err));
+    }
+    TRY(surface_build(block, drawing->cut, drawing->edges, surface_parts(block, drawing->axes),
+                      &surface, err));
+    TRY(surface_colors(canvas, drawing, &surface, bar->low / bar->factor, bar->high / bar->factor,
+                       image, err));
+    surface_lines(canvas, drawing, &surface.edges, &edge, image);
+    Ticks ticks = colorbar_ticks(bar);
+    for (int32_t n = 0; n < ticks.count; ++n) {
+        double number = tick_value(&ticks, n);
+        if (number > bar->low && number < bar->high)
+            surface_contour(canvas, drawing, &surface, number / bar->factor, &contour, image);
+    }
+    surface_lines(canvas, drawing, &surface.outline, &outline, image);
+cleanup:
+    surface_destroy(&surface);
+    memory_free(depths.depth);
+    return error_is_clean(err);
+}
