@@ -351,11 +351,11 @@ class Sweep(unittest.TestCase):
         self.assertRegex(done.stderr, r":9:\d+: against: no point of the study has these values")
 
     def test_maps(self):
-        """A map, its panels, formulas and sweeps side by side hold the table's numbers; others are drawn afterwards."""
+        """A map, its panels and formulas hold the table's numbers; others are drawn afterwards."""
         text = HEAD + "vary: {mesh.set.length: [1, 2], load.pressure: [0.003, 0.006], rod.kind: [push, bonded]}\n"
         self.sweep(study=self.study(text + "plot:\n"
                    "  - {x: load.pressure, y: mesh.set.length, color: mu_M, contours: l_c, panels: rod.kind}\n"
-                   "  - {x: = load.pressure * mesh.set.length, y: mu_M, panels: mesh.set.length, with: out, name: both}\n"))
+                   "  - {x: = load.pressure * mesh.set.length, y: mu_M, panels: mesh.set.length, name: both}\n"))
         rows, figures = self.table(), self.folder / "out/figures"
         plot = json.loads((figures / "map.json").read_text())
         self.assertEqual([panel["title"] for panel in plot["panels"]], ["kind = push", "kind = bonded"])
@@ -367,7 +367,7 @@ class Sweep(unittest.TestCase):
         plot = json.loads((figures / "both.json").read_text())
         for panel, length in zip(plot["panels"], (1, 2)):
             self.assertEqual({x / length for s in panel["series"] for x in s["x"]}, {0.003, 0.006})
-            self.assertEqual({s["marker"] for s in panel["series"]}, {"circle", "square"})   # the sweep, and itself beside it
+            self.assertEqual({s["marker"] for s in panel["series"]}, {"circle"})
         for name in ("map", "both"):
             self.assertGreater((figures / f"{name}.png").stat().st_size, 10000)
         self.assertEqual(self.call("render", self.folder / "out", "--format", "svg").returncode, 0)
@@ -394,7 +394,7 @@ class Sweep(unittest.TestCase):
         for words, said in ("{x: mu_M, y: load.presure}", "did you mean `load.pressure`"), \
                            ("{x: load.pressure, y: mesh.set.length, color: mu_M}", "name the key in which they differ"), \
                            ("{x: mu_M}", "`y` must be given"), ("{x: mu_M, y: = l_c +}", "the formula ends"), \
-                           ("{x: mu_M, y: l_c, with: /proc/none}", "no sweep.h5 in it"):
+                           ("{x: mu_M, y: l_c, with: /proc/none}", "in `vary`, and as `series` of its plot"):
             done = self.call(*draw, words)
             self.assertEqual((done.returncode, said in done.stderr), (2, True), done.stderr)
 

@@ -61,12 +61,7 @@ enum {
 #define STUDY_STANDARD                                                                             \
     "{time.until.periodic: true, output.history: false, output.fields: none, output.figures: []}"
 
-enum {
-    STUDY_NAME_SIZE = SCENE_KEY_SIZE,
-    PLOT_TEXT_SIZE = 200,
-    PLOT_FOLDER_SIZE = 512,
-    PLOT_WITH_MAX = 6
-};
+enum { STUDY_NAME_SIZE = SCENE_KEY_SIZE, PLOT_TEXT_SIZE = 200, PLOT_FOLDER_SIZE = 512 };
 
 typedef enum PlotKey {
     PLOT_X,
@@ -83,10 +78,8 @@ typedef struct StudyPlot {
     char text[PLOT_KEYS][PLOT_TEXT_SIZE];   // empty: not given
     YamlNode node[PLOT_KEYS];   // where it stands
     bool log_given, log_x, log_y;
-    int32_t with_count;
-    char with[PLOT_WITH_MAX][PLOT_FOLDER_SIZE];   // other sweeps to show beside: their folders, as
-        // seen from the file's, or from the working folder where there is none
-    char compare[PLOT_FOLDER_SIZE];   // a table of measurements, seen likewise; empty: none
+    char compare[PLOT_FOLDER_SIZE];   // a table of measurements, as seen from the file's folder, or
+        // from the working folder where there is none; empty: none
 } StudyPlot;
 
 typedef enum SearchScale { SEARCH_LINEAR, SEARCH_LOG, SEARCH_WHOLE } SearchScale;

@@ -214,6 +214,10 @@ bool plot_read(const YamlDocument *file, YamlNode map, StudyPlot *plot, Error *e
     *plot = (StudyPlot){0};
     for (int32_t k = 0; k < PLOT_WORDS; k++) keys[k] = (WantedKey){.name = PLOT_NAMES[k]};
     if (!wanted_find(file, map, "plot", keys, PLOT_WORDS, err)) return false;
+    if (keys[WORD_WITH].node != YAML_NO_NODE)
+        return yaml_error(file, keys[WORD_WITH].node, err,
+                          "plot: `with` is gone: one study with the key in which the sweeps differ "
+                          "in `vary`, and as `series` of its plot, draws them in one frame");
     for (int32_t k = 0; k < PLOT_KEYS; k++) {
         plot->node[k] = keys[k].node;
         if (!read_plot_text(file, &keys[k], plot->text[k], PLOT_TEXT_SIZE, err)) return false;
@@ -233,17 +237,6 @@ bool plot_read(const YamlDocument *file, YamlNode map, StudyPlot *plot, Error *e
         return yaml_refuse(file, keys[WORD_NAME].node, "name",
                            "a name of letters, digits, - and _, but not `ranking`", err);
 
-    // with: one folder, or a list of them.
-    YamlNode with = keys[WORD_WITH].node;
-    bool is_list = with != YAML_NO_NODE && yaml_kind(file, with) == YAML_LIST;
-    YamlNode item = is_list ? yaml_first(file, with) : with;
-    for (; item != YAML_NO_NODE; item = is_list ? yaml_next(file, item) : YAML_NO_NODE) {
-        WantedKey one = {"with", item};
-        if (plot->with_count == PLOT_WITH_MAX)
-            return yaml_refuse(file, item, "with", "at most 6 folders of sweeps", err);
-        if (!read_plot_text(file, &one, plot->with[plot->with_count++], PLOT_FOLDER_SIZE, err))
-            return false;
-    }
     if (!read_plot_text(file, &keys[WORD_COMPARE], plot->compare, PLOT_FOLDER_SIZE, err))
         return false;
 

@@ -54,10 +54,11 @@ bool plot_table_open(const char *folder, PlotTable *table, Error *err)
     if (access(table->path, R_OK) != 0)
         return REFUSE(err, "%s: there is no sweep.h5 in it: no sweep has ended there", folder);
     if (!(table->file = array_file_open(table->path, err))) return false;
-    const char *slash = strrchr(folder, '/');
-    snprintf(table->name, sizeof table->name, "%.90s", slash && slash[1] ? slash + 1 : folder);
     array_file_get_text(table->file, "title", table->title, sizeof table->title, &missing);
-    if (!table->title[0]) snprintf(table->title, sizeof table->title, "%s", table->name);
+    const char *slash = strrchr(folder, '/');
+    if (!table->title[0])
+        snprintf(table->title, sizeof table->title, "%.90s",
+                 slash && slash[1] ? slash + 1 : folder);
     if (!read_values(table, "result/warned", &table->warned, err)) return false;
     if (!table->warned || !array_file_get_text(table->file, "units", units, sizeof units, &missing))
         return REFUSE(err,

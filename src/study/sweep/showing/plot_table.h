@@ -23,7 +23,6 @@ typedef struct Quantity {
 
 typedef struct PlotTable {
     char title[PLOT_FOLDER_SIZE];   // the study's, or else the folder's name
-    char name[STUDY_NAME_SIZE];   // of the folder
     int32_t count;   // points
     bool is_si;
     double *warned;   // [count] bit k: the run has a warning of kind k; owned

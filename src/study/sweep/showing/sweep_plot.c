@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Curves: one for each value of `series` and each sweep, told apart by colours and marks. Maps: one
-// for each sweep. `panels` draws each value of a key in a frame of its own. Bars are the errors of
-// the table; open marks are points whose runs warned, marks without a bar (of a map: squares) those
-// whose error is not known.
+// Curves, one for each value of `series`, told apart by colours and marks, or a map. `panels` draws
+// each value of a key in a frame of its own. Bars are the errors of the table; open marks are
+// points whose runs warned, marks without a bar (of a map: squares) those whose error is not known.
 #include "study/sweep/showing/sweep_plot.h"
 
 #include "base/memory.h"
@@ -19,8 +18,7 @@
 #include <string.h>
 
 enum { CURVES_MAX = 15, COLORS = 7, MARKERS = 4 };
-enum { SOURCES_MAX = 1 + PLOT_WITH_MAX, VALUES_MAX = 24, GROUP_LABEL_SIZE = 96 };
-enum { DOUBTS_MAX = 31 };   // names; the last one stands for all that are more
+enum { VALUES_MAX = 24, GROUP_LABEL_SIZE = 96 };
 
 static const double LOG_SUITS = 0.75;   // scatter of ratios (their logarithms) over that of steps
 
@@ -31,44 +29,34 @@ typedef struct Values {
     double value[VALUES_MAX];
 } Values;
 
-// One sweep.
-typedef struct Source {
-    PlotTable table;   // owned, as the next
-    Quantity made[PLOT_KEYS];   // of formulas
-    const Quantity *quantity[PLOT_KEYS];   // NULL: not asked for
-    Values series, panels;
-    uint32_t *doubts;   // [table.count] bits: of the names in PlotFigure, and the last one: error
-        // not known; owned
-} Source;
-
 typedef struct PlotFigure {
     Figure figure;
     const StudyPlot *plot;
     bool is_map;
-    int32_t source_count;
-    Source *sources;   // [SOURCES_MAX]; owned, as the next two
-    WordList doubts;   // of all sweeps
-    WordList curves, panels;   // their labels; one empty one where no key tells them apart
-    uint32_t found;   // of `doubts`, among what is drawn
+    PlotTable table;   // owned, as the next
+    Quantity made[PLOT_KEYS];   // of formulas
+    const Quantity *quantity[PLOT_KEYS];   // NULL: not asked for
+    Values series, panels;
+    uint32_t found;   // doubts about what is drawn: kinds of warning, and DOUBT_NO_ERROR
     bool some_missing;   // points of a map have no value
-    double *work;   // [6 * points of the largest table]; owned
+    double *work;   // [6 * points of the table]; owned
 } PlotFigure;
 
-// --- sweeps -------------------------------------------------------------------------------------
+// --- the table ----------------------------------------------------------------------------------
 
 // Lists the different values of a key, which are told apart by curves or panels.
-static bool find_values(const Source *source, const Quantity *key, const char *name, Values *values,
-                        Error *err)
+static bool find_values(const PlotFigure *self, PlotKey which, Values *values, Error *err)
 {
+    const Quantity *key = self->quantity[which];
     *values = (Values){.key = key};
     values->count = key ? 0 : 1;
-    for (int32_t k = 0; key && k < source->table.count; k++) {
+    for (int32_t k = 0; key && k < self->table.count; k++) {
         int32_t at = 0;
         while (at < values->count && values->value[at] != key->values[k]) at++;
         if (at < values->count || isnan(key->values[k])) continue;
         if (values->count == VALUES_MAX)
-            return REFUSE(err, "plot: %s has more than %d values: too many curves or panels", name,
-                          VALUES_MAX);
+            return REFUSE(err, "plot: %s has more than %d values: too many curves or panels",
+                          self->plot->text[which], VALUES_MAX);
         values->value[values->count++] = key->values[k];
     }
     return true;
@@ -101,100 +89,37 @@ static void values_label(const Values *values, int32_t which, const char *name,
     }
 }
 
-static bool folder_of(const char *beside, const char *given, char folder[AMONTONS_PATH_SIZE],
-                      Error *err)
-{
-    return folder_beside(beside, given, folder, AMONTONS_PATH_SIZE) ||
-           REFUSE(err, "plot: the path %.60s is too long", given);
-}
-
-// The sweep's name, where it is needed, and the value of the key that tells panels or curves apart.
-static void value_label(const PlotFigure *self, const Source *source, PlotKey key, int32_t which,
-                        char label[GROUP_LABEL_SIZE])
-{
-    char value[GROUP_LABEL_SIZE];
-    bool names_sweep = self->source_count > 1 && (self->is_map || key == PLOT_SERIES);
-    values_label(key == PLOT_SERIES ? &source->series : &source->panels, which,
-                 self->plot->text[key], value);
-
-    // A sweep has the title of its study; where another sweep has the same, the name of its folder.
-    const char *name = names_sweep ? source->table.title : "";
-    for (int32_t k = 0; names_sweep && k < self->source_count; k++) {
-        const PlotTable *other = &self->sources[k].table;
-        if (other != &source->table && strcmp(other->title, source->table.title) == 0)
-            name = source->table.name;
-    }
-    snprintf(label, GROUP_LABEL_SIZE, "%.40s%s%.50s", name, names_sweep && value[0] ? ", " : "",
-             value);
-}
-
-// Reads the quantities of all sweeps, which of their points are doubtful, and labels of panels and
-// curves. ERROR_INPUT: a name that a table does not have, words where numbers are needed, too many
-// values of a key.
-static bool open_sources(PlotFigure *self, const char *folder, const char *beside, Error *err)
+// Reads the quantities of the plot. ERROR_INPUT: a name that the table does not have, words where
+// numbers are needed, too many values of a key.
+static bool open_table(PlotFigure *self, const char *folder, Error *err)
 {
     const StudyPlot *plot = self->plot;
-    int32_t largest = 0, curves = 0;
-    if (!(self->sources = NEW_ARRAY(Source, SOURCES_MAX, err))) return false;
-    self->source_count = 1 + plot->with_count;
-    for (int32_t k = 0; k < self->source_count; k++) {
-        char path[AMONTONS_PATH_SIZE];   // of another sweep (k > 0); the first is in `folder`
-        Source *source = &self->sources[k];
-        if (k > 0 && !folder_of(beside, plot->with[k - 1], path, err)) return false;
-        PlotTable *table = &source->table;
-        double place[DOUBTS_MAX];
-        if (!plot_table_open(k > 0 ? path : folder, table, err)) return false;
-        for (PlotKey key = PLOT_X; key < PLOT_KEYS; key++) {
-            if (!plot->text[key][0]) continue;
-            source->quantity[key] =
-                plot_table_find(table, plot->text[key], &source->made[key], err);
-            if (!source->quantity[key]) return false;
-            if (key < PLOT_SERIES && source->quantity[key]->words.count > 0)
-                return REFUSE(
-                    err, "plot: %s has words, not numbers: it can be the `series` or the `panels`",
-                    plot->text[key]);
-        }
-
-        // Bits of the sweep's own names of warnings become those of all sweeps' names. The errors
-        // that count are those of what is shown: of y, or of a map's colour.
-        const Quantity *shown = source->quantity[plot->text[PLOT_COLOR][0] ? PLOT_COLOR : PLOT_Y];
-        int32_t kinds = table->kinds.count < DOUBTS_MAX ? table->kinds.count : DOUBTS_MAX;
-        if (!(source->doubts = NEW_ARRAY(uint32_t, table->count, err))) return false;
-        for (int32_t kind = 0; kind < kinds; kind++)
-            if (!words_index(&self->doubts, table->kinds.words[kind], &place[kind], err))
-                return false;
-        for (int32_t i = 0; i < table->count; i++) {
-            for (int32_t kind = 0; kind < kinds; kind++)
-                if ((uint32_t)table->warned[i] >> kind & 1)
-                    source->doubts[i] |= (uint32_t)1 << (int32_t)fmin(place[kind], DOUBTS_MAX - 1);
-            if (shown->errors && isnan(shown->errors[i])) source->doubts[i] |= DOUBT_NO_ERROR;
-        }
-
-        // Finds the values that curves and panels tell apart.
-        if (!find_values(source, source->quantity[PLOT_SERIES], plot->text[PLOT_SERIES],
-                         &source->series, err) ||
-            !find_values(source, source->quantity[PLOT_PANELS], plot->text[PLOT_PANELS],
-                         &source->panels, err))
-            return false;
-        if (source->table.count > largest) largest = source->table.count;
-        curves += source->series.count;
+    if (!plot_table_open(folder, &self->table, err)) return false;
+    for (PlotKey key = PLOT_X; key < PLOT_KEYS; key++) {
+        if (!plot->text[key][0]) continue;
+        self->quantity[key] = plot_table_find(&self->table, plot->text[key], &self->made[key], err);
+        if (!self->quantity[key]) return false;
+        if (key < PLOT_SERIES && self->quantity[key]->words.count > 0)
+            return REFUSE(err,
+                          "plot: %s has words, not numbers: it can be the `series` or the `panels`",
+                          plot->text[key]);
     }
-    for (int32_t k = 0; k < self->source_count; k++) {
-        const Source *source = &self->sources[k];
-        char label[GROUP_LABEL_SIZE];
-        double ignored = 0;
-        for (int32_t i = 0; i < source->panels.count; i++) {
-            value_label(self, source, PLOT_PANELS, i, label);
-            if (!words_index(&self->panels, label, &ignored, err)) return false;
-        }
-        for (int32_t i = 0; i < source->series.count; i++) {
-            values_label(&source->series, i, plot->text[PLOT_SERIES], label);
-            if (!words_index(&self->curves, label, &ignored, err)) return false;
-        }
-    }
-    if (!self->is_map && curves > CURVES_MAX)
-        return REFUSE(err, "plot: %d curves: more than %d are too many", curves, CURVES_MAX);
-    return (self->work = NEW_ARRAY(double, 6 * (int64_t)largest, err)) != NULL;
+    if (!find_values(self, PLOT_SERIES, &self->series, err) ||
+        !find_values(self, PLOT_PANELS, &self->panels, err))
+        return false;
+    if (!self->is_map && self->series.count > CURVES_MAX)
+        return REFUSE(err, "plot: %d curves: more than %d are too many", self->series.count,
+                      CURVES_MAX);
+    return (self->work = NEW_ARRAY(double, 6 * (int64_t)self->table.count, err)) != NULL;
+}
+
+// Kinds of warning of a point, and DOUBT_NO_ERROR. The error that counts is that of what is shown:
+// of y, or of a map's colour.
+static uint32_t doubts_of(const PlotFigure *self, int32_t point)
+{
+    const double *errors = self->quantity[self->is_map ? PLOT_COLOR : PLOT_Y]->errors;
+    uint32_t warned = (uint32_t)self->table.warned[point] & ~DOUBT_NO_ERROR;
+    return warned | (errors && isnan(errors[point]) ? DOUBT_NO_ERROR : 0);
 }
 
 // --- curves -------------------------------------------------------------------------------------
@@ -207,20 +132,20 @@ typedef struct PlotPoint {
 // Points of one curve in one panel, along x: a line with marks and bars, and over it the open marks
 // of points that are doubtful. points: [count of the table], work. A curve without points is not
 // written.
-static bool write_points(PlotFigure *self, const Source *source, int32_t which, int32_t panel,
-                         PlotPoint *points, Curve curve, Error *err)
+static bool write_points(PlotFigure *self, int32_t which, int32_t panel, PlotPoint *points,
+                         Curve curve, Error *err)
 {
-    const Quantity *key_x = source->quantity[PLOT_X], *key_y = source->quantity[PLOT_Y];
+    const Quantity *key_x = self->quantity[PLOT_X], *key_y = self->quantity[PLOT_Y];
     uint32_t found = 0;
     int32_t count = 0;
-    for (int32_t k = 0; k < source->table.count; k++) {
-        if (!values_hold(&source->series, which, k) || !values_hold(&source->panels, panel, k))
+    for (int32_t k = 0; k < self->table.count; k++) {
+        if (!values_hold(&self->series, which, k) || !values_hold(&self->panels, panel, k))
             continue;
         if (!isfinite(key_x->values[k]) || !isfinite(key_y->values[k])) continue;
         points[count++] = (PlotPoint){.x = key_x->values[k],
                                       .y = key_y->values[k],
                                       .error = key_y->errors ? key_y->errors[k] : (double)NAN,
-                                      .doubts = source->doubts[k]};
+                                      .doubts = doubts_of(self, k)};
     }
     if (count == 0) return true;
     qsort(points, (size_t)count, sizeof *points, order_doubles);
@@ -247,44 +172,27 @@ static bool write_points(PlotFigure *self, const Source *source, int32_t which, 
     return figure_write_curve(&self->figure, &curve, err);
 }
 
-// Colours and marks tell curves apart, for print in grey too. Where there are several sweeps
-// colours tell values of `series` apart, marks sweeps; without `series` colours do that, too.
-static Curve curve_style(PlotFigure *self, int32_t source, int32_t which, const char *label)
+// Colours and marks tell curves apart, for print in grey too. The colours of two curves with the
+// same mark differ in lightness.
+static Curve curve_style(int32_t which, const char *label)
 {
     static const char *const marker[MARKERS] = {"circle", "square", "triangle", "down"};
-    char value[GROUP_LABEL_SIZE];
-    const Values *series = &self->sources[source].series;
-    double color = source;
-    Error ignored = {0};
-    values_label(series, which, self->plot->text[PLOT_SERIES], value);
-    if (series->key) words_index(&self->curves, value, &color, &ignored);   // is there
-    // The colours of two curves with the same mark differ in lightness.
-    int32_t mark = self->source_count > 1 ? source : (int32_t)color;
     return (Curve){.label = label,
                    .line = "thin",
-                   .marker = marker[(mark + mark / MARKERS) % MARKERS],
-                   .color = 1 + (int32_t)color % COLORS,
+                   .marker = marker[(which + which / MARKERS) % MARKERS],
+                   .color = 1 + which % COLORS,
                    .filled = true};
 }
 
-// All curves of the panel called `panel`; labelled where there is but one.
-static bool write_curves(PlotFigure *self, const char *panel, bool labelled, Error *err)
+// All curves of a panel; labelled where there is but one.
+static bool write_curves(PlotFigure *self, int32_t panel, bool labelled, Error *err)
 {
-    PlotPoint *points = NULL;
-    for (int32_t s = 0; s < self->source_count; s++) {
-        Source *source = &self->sources[s];
-        memory_free(points);
-        TRY(points = NEW_ARRAY(PlotPoint, source->table.count, err));
-        for (int32_t p = 0; p < source->panels.count; p++) {
-            char label[GROUP_LABEL_SIZE];
-            value_label(self, source, PLOT_PANELS, p, label);
-            if (strcmp(label, panel) != 0) continue;
-            for (int32_t k = 0; k < source->series.count; k++) {
-                value_label(self, source, PLOT_SERIES, k, label);
-                Curve curve = curve_style(self, s, k, labelled ? label : "");
-                TRY(write_points(self, source, k, p, points, curve, err));
-            }
-        }
+    char label[GROUP_LABEL_SIZE];
+    PlotPoint *points = NEW_ARRAY(PlotPoint, self->table.count, err);
+    TRY(points);
+    for (int32_t k = 0; k < self->series.count; k++) {
+        values_label(&self->series, k, self->plot->text[PLOT_SERIES], label);
+        TRY(write_points(self, k, panel, points, curve_style(k, labelled ? label : ""), err));
     }
 cleanup:
     memory_free(points);
@@ -300,24 +208,24 @@ static int compare_places(const void *left, const void *right)
     return a[1] < b[1] ? -1 : a[1] > b[1];
 }
 
-// Writes the points of one panel of a sweep as a map. ERROR_INPUT: two points are at one place, of
-// which a map could show one.
-static bool write_map(PlotFigure *self, const Source *source, int32_t panel, Error *err)
+// Writes the points of one panel as a map. ERROR_INPUT: two points are at one place, of which a map
+// could show one.
+static bool write_map(PlotFigure *self, int32_t panel, Error *err)
 {
-    const Quantity *const *quantity = source->quantity;
+    const Quantity *const *quantity = self->quantity;
     const Quantity *lines = quantity[PLOT_CONTOURS];
-    int32_t all = source->table.count, count = 0;
+    int32_t all = self->table.count, count = 0;
     double *x = self->work, *y = x + all, *value = y + all, *contour = value + all;
     double *open = contour + all, *places = NULL;
     for (int32_t k = 0; k < all; k++) {
         double at_x = quantity[PLOT_X]->values[k], at_y = quantity[PLOT_Y]->values[k];
-        if (!values_hold(&source->panels, panel, k) || !isfinite(at_x + at_y)) continue;
+        if (!values_hold(&self->panels, panel, k) || !isfinite(at_x + at_y)) continue;
         x[count] = at_x;
         y[count] = at_y;
         value[count] = quantity[PLOT_COLOR]->values[k];
         contour[count] = lines ? lines->values[k] : 0;
         bool has_value = isfinite(value[count]);
-        uint32_t doubts = has_value ? source->doubts[k] : 0, warned = doubts & ~DOUBT_NO_ERROR;
+        uint32_t doubts = has_value ? doubts_of(self, k) : 0, warned = doubts & ~DOUBT_NO_ERROR;
         open[count++] = warned ? 1 : doubts ? 2 : 0;
         self->found |= warned ? warned : doubts;
         self->some_missing |= !has_value;
@@ -348,19 +256,6 @@ static bool write_map(PlotFigure *self, const Source *source, int32_t panel, Err
 cleanup:
     memory_free(places);
     return error_is_clean(err);
-}
-
-// Writes the map of the panel called `panel`, of whichever sweep has it.
-static bool write_maps(PlotFigure *self, const char *panel, Error *err)
-{
-    for (int32_t s = 0; s < self->source_count; s++)
-        for (int32_t p = 0; p < self->sources[s].panels.count; p++) {
-            char label[GROUP_LABEL_SIZE];
-            value_label(self, &self->sources[s], PLOT_PANELS, p, label);
-            if (strcmp(label, panel) == 0 && !write_map(self, &self->sources[s], p, err))
-                return false;
-        }
-    return true;
 }
 
 // --- the whole ----------------------------------------------------------------------------------
@@ -403,59 +298,58 @@ static bool write_figure(PlotFigure *self, Error *err)
 {
     JsonWriter *json = NULL;
     const StudyPlot *plot = self->plot;
-    const Source *source = &self->sources[0];
     bool has_panels = self->panels.count > 1, is_log[2] = {plot->log_x, plot->log_y};
     TRY(figure_begin(&self->figure, err));
     for (PlotKey key = PLOT_X; key <= PLOT_Y; key++) {
-        const Quantity *quantity = source->quantity[key];
+        const Quantity *quantity = self->quantity[key];
         if (self->is_map && !plot->log_given)
-            TRY(values_suit_log(quantity->values, source->table.count, &is_log[key], err));
+            TRY(values_suit_log(quantity->values, self->table.count, &is_log[key], err));
         QuantityLabel label = quantity->label;
         const char *equals = strchr(plot->text[key], '=');
         label.column = equals ? equals + strspn(equals, "= ") : plot->text[key];
         figure_write_axis(&self->figure, plot_key_name(key), &label,
                           is_log[key] ? "log" : "linear");
     }
-    if (source->quantity[PLOT_COLOR])
-        figure_write_axis(&self->figure, "color", &source->quantity[PLOT_COLOR]->label, NULL);
-    if (source->quantity[PLOT_CONTOURS])
-        figure_write_axis(&self->figure, "contours", &source->quantity[PLOT_CONTOURS]->label, NULL);
+    if (self->quantity[PLOT_COLOR])
+        figure_write_axis(&self->figure, "color", &self->quantity[PLOT_COLOR]->label, NULL);
+    if (self->quantity[PLOT_CONTOURS])
+        figure_write_axis(&self->figure, "contours", &self->quantity[PLOT_CONTOURS]->label, NULL);
 
     // Panels, each with its map or its curves.
     json = self->figure.json;
     if (has_panels) json_begin_list(json, "panels");
     for (int32_t k = 0; has_panels && k < self->panels.count; k++) {
-        const char *panel = self->panels.words[k];
+        char panel[GROUP_LABEL_SIZE];
+        values_label(&self->panels, k, plot->text[PLOT_PANELS], panel);
         json_begin_object(json, NULL);
         json_text(json, "title", panel);
         if (self->is_map) {
-            TRY(write_maps(self, panel, err));
+            TRY(write_map(self, k, err));
         } else {
             json_begin_list(json, "series");
-            TRY(write_curves(self, panel, false, err));
+            TRY(write_curves(self, k, false, err));
             json_end(json);
         }
         json_end(json);
     }
     if (has_panels) json_end(json);
-    if (!has_panels && self->is_map) TRY(write_maps(self, self->panels.words[0], err));
+    if (!has_panels && self->is_map) TRY(write_map(self, 0, err));
 
     // Curves without panels; with panels the entries of the legend, once for all of them.
     json_begin_list(json, "series");
-    if (!self->is_map && !has_panels) TRY(write_curves(self, self->panels.words[0], true, err));
-    for (int32_t s = 0; !self->is_map && has_panels && s < self->source_count; s++)
-        for (int32_t k = 0; k < self->sources[s].series.count; k++) {
-            char name[GROUP_LABEL_SIZE];
-            value_label(self, &self->sources[s], PLOT_SERIES, k, name);
-            Curve curve = curve_style(self, s, k, name);
-            if (name[0]) TRY(figure_write_entry(&self->figure, &curve, err));
-        }
+    if (!self->is_map && !has_panels) TRY(write_curves(self, 0, true, err));
+    for (int32_t k = 0; !self->is_map && has_panels && k < self->series.count; k++) {
+        char name[GROUP_LABEL_SIZE];
+        values_label(&self->series, k, plot->text[PLOT_SERIES], name);
+        Curve curve = curve_style(k, name);
+        if (name[0]) TRY(figure_write_entry(&self->figure, &curve, err));
+    }
 
     // The legend of a map: its contours, and points that have no value.
     char words[QUANTITY_LABEL_SIZE + 40];
-    const Quantity *color = source->quantity[PLOT_COLOR], *lines = source->quantity[PLOT_CONTOURS];
+    const Quantity *color = self->quantity[PLOT_COLOR], *lines = self->quantity[PLOT_CONTOURS];
     if (self->is_map && lines) {
-        bool many = source->table.count / self->panels.count > MAP_MANY;
+        bool many = self->table.count / self->panels.count > MAP_MANY;
         snprintf(words, sizeof words, many ? "%s, medians of %d x %d points" : "%s",
                  lines->label.words, MAP_MEDIANS, MAP_MEDIANS);
         Curve line = {.label = words, .line = "solid"};
@@ -467,7 +361,7 @@ static bool write_figure(PlotFigure *self, Error *err)
         Curve missing = {.label = words, .line = "none", .marker = "cross"};
         TRY(figure_write_entry(&self->figure, &missing, err));
     }
-    TRY(figure_write_doubts(&self->figure, &self->doubts, self->found, self->is_map, err));
+    TRY(figure_write_doubts(&self->figure, &self->table.kinds, self->found, self->is_map, err));
     json_end(json);
 cleanup:
     return error_is_clean(err);
@@ -480,25 +374,18 @@ bool sweep_plot_draw(const char *folder, const char *beside, const StudyPlot *pl
     PlotFigure self = {.figure = {.folder = folder, .name = plot->name, .style = style},
                        .plot = plot,
                        .is_map = plot->text[PLOT_COLOR][0]};
-    TRY(open_sources(&self, folder, beside, err));
+    TRY(open_table(&self, folder, err));
     if (plot->compare[0]) {
-        TRY(folder_of(beside, plot->compare, compare, err));
+        if (!folder_beside(beside, plot->compare, compare, sizeof compare))
+            FAIL(err, ERROR_INPUT, "plot: the path %.60s is too long", plot->compare);
         self.figure.compare = compare;
     }
-    bool of_study = beside && plot->with_count == 0;   // else its title says something else
-    self.figure.title = of_study ? self.sources[0].table.title : "";
+    self.figure.title = beside ? self.table.title : "";   // else it says something else
     write_figure(&self, err);
     figure_end(&self.figure, err);
 cleanup:
-    for (int32_t s = 0; self.sources && s < self.source_count; s++) {
-        Source *source = &self.sources[s];
-        for (int32_t k = 0; k < PLOT_KEYS; k++) quantity_destroy(&source->made[k]);
-        memory_free(source->doubts);
-        plot_table_close(&source->table);
-    }
-    memory_free_all(self.sources, self.work);
-    words_destroy(&self.doubts);
-    words_destroy(&self.curves);
-    words_destroy(&self.panels);
+    for (int32_t k = 0; k < PLOT_KEYS; k++) quantity_destroy(&self.made[k]);
+    memory_free(self.work);
+    plot_table_close(&self.table);
     return error_is_clean(err);
 }

@@ -224,15 +224,13 @@ TEST(test_several_plots)
         "record: [period]\n"
         "plot:\n"
         "  - {x: load.pressure, y: mesh.set.length, color: mu_M, contours: = l_c * load.pressure,\n"
-        "     panels: rod.kind, with: [other, /far]}\n"
+        "     panels: rod.kind}\n"
         "  - {x: = load.pressure * mesh.set.length, y: mu_hold, name: hold}\n");
     assert_int_equal(study->plot_count, 2);
     const StudyPlot *map = &study->plots[0], *curves = &study->plots[1];
     assert_string_equal(map->name, "map");
     assert_string_equal(map->text[PLOT_CONTOURS], "= l_c * load.pressure");
     assert_false(map->log_given);
-    assert_int_equal(map->with_count, 2);
-    assert_string_equal(map->with[1], "/far");
     assert_string_equal(curves->name, "hold");
     assert_int_equal(study->record_count, 4);   // period, mu_M, l_c, mu_hold
     for (int32_t k = 0; k < 4; k++) {

@@ -81,8 +81,7 @@ TEST(test_words)
          "again by `vary`"},
         {"vary: {load.pressure: [1]}\ncases: [{load.pressure: = 2 * rod.width}]\n",
          "again by `vary`"},
-        {"plot: {x: mu_M, y: l_c, with: ['']}\n", "with: found ``"},
-        {"plot: {x: mu_M, y: l_c, with: [a, b, c, d, e, f, g]}\n", "at most 6 folders of sweeps"},
+        {"plot: {x: mu_M, y: l_c, with: other}\n", "in `vary`, and as `series` of its plot"},
         {"vary: {rod.kind: [push]}\nplot: {x: mu_M, y: l_c, color: mu_hold, series: rod.kind}\n",
          "series: a map has none"},
     };

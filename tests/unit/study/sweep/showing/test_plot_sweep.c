@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Plots of a table written by hand: curves and maps with panels, formulas, points without a value
-// or with a warning, two sweeps; what their descriptions hold, and what is refused.
+// or with a warning; what their descriptions hold, and what is refused.
 #include "amontons_pictures.h"
 
 #include "io/files/own_list.h"
@@ -68,17 +68,13 @@ static void write_table(Table table)
     if (!array_file_close(file, &err)) fail_msg("%s", err.message);
 }
 
-// WITH in `plot`: the second sweep.
 static bool draw(const char *name, const char *plot, Error *err)
 {
-    char folder[2 * PLACE_SIZE], other[2 * PLACE_SIZE], words[4 * PLACE_SIZE];
+    char folder[2 * PLACE_SIZE];
     const PictureStyle style = {.format = "svg", .width = 120};
     snprintf(folder, sizeof folder, "%s/%s", place, name);
-    snprintf(other, sizeof other, "%s/untitled", place);
-    const char *at = plot ? strstr(plot, "WITH") : NULL;
-    if (at) snprintf(words, sizeof words, "%.*s%s%s", (int)(at - plot), plot, other, at + 4);
     *err = (Error){0};
-    return amontons_render_sweep(folder, at ? words : plot, &style, err);
+    return amontons_render_sweep(folder, plot, &style, err);
 }
 
 // The description that `plot` makes, in figures/NAME.json.
@@ -123,9 +119,8 @@ TEST(test_curves)
     assert_says(said, "\"y\": [4, 6, 8]");
     said = description("one", "{x: load.pressure, y: mu_hold, series: rod.kind, name: b}", "b");
     assert_says(said, "\"x\": [2, 3]");   // the first has no value
-    said = description("one", "{x: load.pressure, y: mu_M, series: rod.kind, with: WITH}", "plot");
-    assert_says(said, "First, kind = push");
-    assert_says(said, "untitled, kind = push");
+    said = description("untitled", "{x: load.pressure, y: mu_M, series: rod.kind}", "plot");
+    assert_says(said, "\"label\": \"kind = push\"");
 }
 
 TEST(test_maps)
@@ -135,11 +130,10 @@ TEST(test_maps)
     assert_says(said, "\"contour\": [2, 3, 4, 3, 4, 5]");
     assert_says(said, "\"value\": [null, 0.5, 1, null, 1, 1.5]");
     assert_says(said, "\"label\": \"no ");
-    said = description("one",
-                       "{x: load.pressure, y: mesh.set.length, color: mu_M, panels: rod.kind, "
-                       "with: [WITH], log: none}",
-                       "map");
-    assert_says(said, "First, kind = push");
+    said = description(
+        "one", "{x: load.pressure, y: mesh.set.length, color: mu_M, panels: rod.kind, log: none}",
+        "map");
+    assert_says(said, "\"title\": \"kind = push\"");
     // A number a point is written into the text while it is short, else into an array file.
     said = description("large", "{x: load.pressure, y: mesh.set.length, color: mu_M}", "map");
     assert_says(said, "\"value\": \"map.h5:value_");
