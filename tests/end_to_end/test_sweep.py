@@ -514,7 +514,7 @@ class Sweep(unittest.TestCase):
         for name, value in ("plot", "y"), ("ranking", "x"):
             series = json.loads((self.folder / f"out/figures/{name}.json").read_text())["series"]
             self.assertEqual([c["label"] for c in series if c["label"].startswith("open")],
-                             ["open: slip is not resolved, or strains are not small"], "one symbol, one entry")
+                             ["open: warned"], "one symbol, one entry")
             # Where cells are too long for slip nothing is known of the error, which the plot draws: no bar is its sign.
             self.assertEqual(sum(c["label"] == "without a bar: error not known" for c in series), int(name == "plot"))
             drawn = [v for c in series if c["line"] == "none" and not c["filled"] and not c["label"] for v in c[value]]

@@ -67,8 +67,7 @@ def make_sweep(folder, scattered):
     columns = {"scene/load.pressure": pressure, "scene/mesh.set.length": length, "result/mu_M": mu,
                "result/mu_M_error": 0 * mu + 0.001, "result/l_c": np.minimum(1, 0.03 / np.sqrt(pressure * length)),
                "result/warned": (pressure * length > 0.05).astype(float)}
-    words = {"title": "1e5 points", "units": "normalised", "columns": "load.pressure|mesh.set.length|mu_M|l_c",
-             "warned words": "slip is not resolved"}
+    words = {"title": "1e5 points", "units": "normalised", "columns": "load.pressure|mesh.set.length|mu_M|l_c"}
     folder.mkdir()
     with h5py.File(folder / "sweep.h5", "w") as file:
         for name, text in words.items():

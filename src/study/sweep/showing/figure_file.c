@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { TEXT_NUMBERS_MAX = 8000, NAME_SIZE = 24, DOUBTS_SHOWN = 2, LABEL_SIZE = 96 };
+enum { TEXT_NUMBERS_MAX = 8000, NAME_SIZE = 24 };
 
 static bool figure_path(const Figure *figure, const char *ending, char path[AMONTONS_PATH_SIZE],
                         Error *err)
@@ -134,25 +134,13 @@ bool figure_write_entry(Figure *figure, const Curve *curve, Error *err)
     return figure_write_curve(figure, &entry, err);
 }
 
-// One entry: one symbol has one meaning, of which there may be several reasons.
-bool figure_write_doubts(Figure *figure, const WordList *names, uint32_t doubts, bool map,
-                         Error *err)
+bool figure_write_doubts(Figure *figure, int32_t doubts, bool map, Error *err)
 {
-    uint32_t warned = doubts & ~DOUBT_NO_ERROR;
-    int32_t all = __builtin_popcount(warned), shown = 0;
-    char label[LABEL_SIZE] = "open: ";
-    for (int32_t k = 0; k < names->count && shown < DOUBTS_SHOWN; k++) {
-        size_t used = strlen(label);
-        if (!(warned >> k & 1)) continue;
-        bool has_more = ++shown == DOUBTS_SHOWN && all > DOUBTS_SHOWN;
-        snprintf(label + used, sizeof label - used, "%s%.70s%s", shown > 1 ? ", or " : "",
-                 names->words[k], has_more ? ", others" : "");
-    }
-    Curve entry = {.label = label, .line = "none", .marker = "circle"};
+    Curve open = {.label = "open: warned", .line = "none", .marker = "circle"};
     Curve bare = {.label = map ? "error not known" : "without a bar: error not known",
                   .line = "none",
                   .marker = map ? "square" : NULL};
-    if (shown > 0 && !figure_write_entry(figure, &entry, err)) return false;
+    if (doubts & DOUBT_WARNED && !figure_write_entry(figure, &open, err)) return false;
     if (doubts & DOUBT_NO_ERROR && !figure_write_entry(figure, &bare, err)) return false;
     return true;
 }

@@ -10,7 +10,6 @@
 #include "io/hdf5/array_file.h"
 #include "io/text/json_writer.h"
 #include "study/sweep/showing/quantity_label.h"
-#include "study/sweep/showing/words.h"
 
 typedef struct Figure {
     const char *folder, *name, *title;   // of the sweep; "ranking"; of the study
@@ -44,12 +43,9 @@ bool figure_write_numbers(Figure *figure, const char *key, const double *values,
 bool figure_write_curve(Figure *figure, const Curve *curve, Error *err);
 // A curve without a point: its words and its sample stand in the legend.
 bool figure_write_entry(Figure *figure, const Curve *curve, Error *err);
-// Writes the legend's entries for doubtful points. Points whose runs have warnings have open marks;
-// their entry names at most two kinds of warning, where bit k of `doubts` is the k-th of `names`.
-// The last bit, DOUBT_NO_ERROR, is another thing: the error is not known. Such a point has a mark
-// without a bar, and in a map a square.
-#define DOUBT_NO_ERROR ((uint32_t)1 << 31)
-bool figure_write_doubts(Figure *figure, const WordList *names, uint32_t doubts, bool map,
-                         Error *err);
+// Writes the legend's entries for doubtful points; doubts: bits. Points whose runs have warnings
+// have open marks. A point whose error is not known has a mark without a bar, in a map a square.
+enum { DOUBT_WARNED = 1, DOUBT_NO_ERROR = 2 };
+bool figure_write_doubts(Figure *figure, int32_t doubts, bool map, Error *err);
 
 #endif

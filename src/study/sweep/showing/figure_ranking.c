@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A row a point. Bars: the errors of the table. Open marks: points whose runs warned, or whose
-// error is not known; the legend says which.
+// A row a point. Bars: the errors of the table, none where the error is not known. Open marks:
+// points whose runs warned.
 #include "study/sweep/showing/figure_ranking.h"
 
 #include "study/sweep/reading/study_point.h"
@@ -19,12 +19,12 @@ static void join(char *text, size_t size, const char *word)
     snprintf(text + used, size - used, "%s%.50s", used ? ", " : "", word);
 }
 
-// Why the mark of a row is open, as bits.
-static uint32_t doubts_of(const SweepTable *table, const Ranking *ranking, int32_t k)
+// Doubts about a row, as bits.
+static int32_t doubts_of(const SweepTable *table, const Ranking *ranking, int32_t k)
 {
     const RankRow *row = &ranking->rows[k];
-    uint32_t warned = (uint32_t)table->kinds->values[row->point];
-    return warned | (ranking->has_error && isnan(row->error) ? DOUBT_NO_ERROR : 0);
+    return (table->doubtful->values[row->point] > 0 ? DOUBT_WARNED : 0) |
+           (ranking->has_error && isnan(row->error) ? DOUBT_NO_ERROR : 0);
 }
 
 // Nothing is drawn where no point has a value.
@@ -35,7 +35,7 @@ bool figure_of_ranking(const Sweep *sweep, const SweepTable *table, const Rankin
     Figure figure = {.folder = sweep->folder, .name = "ranking", .title = study->title};
     double x[ROWS_MAX], y[ROWS_MAX], error[ROWS_MAX], ignored = 0;
     char words[QUANTITY_LABEL_SIZE] = "", cell[SCENE_TEXT_SIZE];
-    uint32_t found = 0;
+    int32_t found = 0;
     int32_t shown = ranking->ranked;
     if (shown > study->rank.top) shown = study->rank.top;
     if (shown > ROWS_MAX) shown = ROWS_MAX;
@@ -97,11 +97,11 @@ bool figure_of_ranking(const Sweep *sweep, const SweepTable *table, const Rankin
                    .lying = true};
     TRY(figure_write_curve(&figure, &marks, err));
     for (int32_t k = 0; k < shown; k++)
-        if (!(doubts_of(table, ranking, k) & ~DOUBT_NO_ERROR)) x[k] = NAN;
+        if (!(doubts_of(table, ranking, k) & DOUBT_WARNED)) x[k] = NAN;
     marks.filled = false;
     marks.error = NULL;
     if (found) TRY(figure_write_curve(&figure, &marks, err));
-    TRY(figure_write_doubts(&figure, &table->kinds->words, found, false, err));
+    TRY(figure_write_doubts(&figure, found, false, err));
     json_end(json);
 cleanup:
     return figure_end(&figure, err);

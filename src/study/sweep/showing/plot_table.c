@@ -66,7 +66,7 @@ bool plot_table_open(const char *folder, PlotTable *table, Error *err)
                       "it anew, and computes nothing again",
                       table->path);
     table->is_si = strcmp(units, "si") == 0;
-    return read_words(table, "warned words", &table->kinds, err);
+    return true;
 }
 
 void quantity_destroy(Quantity *quantity)
@@ -81,7 +81,6 @@ void plot_table_close(PlotTable *table)
     Error ignored = {0};
     array_file_close(table->file, &ignored);
     memory_free(table->warned);
-    words_destroy(&table->kinds);
     for (int32_t k = 0; k < table->column_count; k++) quantity_destroy(&table->columns[k]);
     *table = (PlotTable){0};
 }

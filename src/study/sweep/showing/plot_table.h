@@ -25,8 +25,7 @@ typedef struct PlotTable {
     char title[PLOT_FOLDER_SIZE];   // the study's, or else the folder's name
     int32_t count;   // points
     bool is_si;
-    double *warned;   // [count] bit k: the run has a warning of kind k; owned
-    WordList kinds;   // of warnings, their names
+    double *warned;   // [count] 0: the point has no warning; owned
     ArrayFile *file;   // owned
     char path[AMONTONS_PATH_SIZE];
     int32_t column_count;   // read so far

@@ -37,7 +37,7 @@ typedef struct PlotFigure {
     Quantity made[PLOT_KEYS];   // of formulas
     const Quantity *quantity[PLOT_KEYS];   // NULL: not asked for
     Values series, panels;
-    uint32_t found;   // doubts about what is drawn: kinds of warning, and DOUBT_NO_ERROR
+    int32_t found;   // doubts about what is drawn, bits
     bool some_missing;   // points of a map have no value
     double *work;   // [6 * points of the table]; owned
 } PlotFigure;
@@ -113,20 +113,20 @@ static bool open_table(PlotFigure *self, const char *folder, Error *err)
     return (self->work = NEW_ARRAY(double, 6 * (int64_t)self->table.count, err)) != NULL;
 }
 
-// Kinds of warning of a point, and DOUBT_NO_ERROR. The error that counts is that of what is shown:
-// of y, or of a map's colour.
-static uint32_t doubts_of(const PlotFigure *self, int32_t point)
+// Doubts about a point, as bits. The error that counts is that of what is shown: of y, or of a
+// map's colour.
+static int32_t doubts_of(const PlotFigure *self, int32_t point)
 {
     const double *errors = self->quantity[self->is_map ? PLOT_COLOR : PLOT_Y]->errors;
-    uint32_t warned = (uint32_t)self->table.warned[point] & ~DOUBT_NO_ERROR;
-    return warned | (errors && isnan(errors[point]) ? DOUBT_NO_ERROR : 0);
+    return (self->table.warned[point] > 0 ? DOUBT_WARNED : 0) |
+           (errors && isnan(errors[point]) ? DOUBT_NO_ERROR : 0);
 }
 
 // --- curves -------------------------------------------------------------------------------------
 
 typedef struct PlotPoint {
     double x, y, error;
-    uint32_t doubts;
+    int32_t doubts;
 } PlotPoint;
 
 // Points of one curve in one panel, along x: a line with marks and bars, and over it the open marks
@@ -136,7 +136,7 @@ static bool write_points(PlotFigure *self, int32_t which, int32_t panel, PlotPoi
                          Curve curve, Error *err)
 {
     const Quantity *key_x = self->quantity[PLOT_X], *key_y = self->quantity[PLOT_Y];
-    uint32_t found = 0;
+    int32_t found = 0;
     int32_t count = 0;
     for (int32_t k = 0; k < self->table.count; k++) {
         if (!values_hold(&self->series, which, k) || !values_hold(&self->panels, panel, k))
@@ -154,7 +154,7 @@ static bool write_points(PlotFigure *self, int32_t which, int32_t panel, PlotPoi
         x[k] = points[k].x;
         y[k] = points[k].y;
         error[k] = points[k].error;
-        open[k] = points[k].doubts & ~DOUBT_NO_ERROR ? y[k] : NAN;
+        open[k] = points[k].doubts & DOUBT_WARNED ? y[k] : NAN;
         found |= points[k].doubts;
     }
     curve.count = count;
@@ -163,7 +163,7 @@ static bool write_points(PlotFigure *self, int32_t which, int32_t panel, PlotPoi
     curve.error = error;
     if (!figure_write_curve(&self->figure, &curve, err)) return false;
     self->found |= found;
-    if (!(found & ~DOUBT_NO_ERROR)) return true;
+    if (!(found & DOUBT_WARNED)) return true;
     curve.label = "";
     curve.line = "none";
     curve.filled = false;
@@ -225,7 +225,7 @@ static bool write_map(PlotFigure *self, int32_t panel, Error *err)
         value[count] = quantity[PLOT_COLOR]->values[k];
         contour[count] = lines ? lines->values[k] : 0;
         bool has_value = isfinite(value[count]);
-        uint32_t doubts = has_value ? doubts_of(self, k) : 0, warned = doubts & ~DOUBT_NO_ERROR;
+        int32_t doubts = has_value ? doubts_of(self, k) : 0, warned = doubts & DOUBT_WARNED;
         open[count++] = warned ? 1 : doubts ? 2 : 0;
         self->found |= warned ? warned : doubts;
         self->some_missing |= !has_value;
@@ -361,7 +361,7 @@ static bool write_figure(PlotFigure *self, Error *err)
         Curve missing = {.label = words, .line = "none", .marker = "cross"};
         TRY(figure_write_entry(&self->figure, &missing, err));
     }
-    TRY(figure_write_doubts(&self->figure, &self->table.kinds, self->found, self->is_map, err));
+    TRY(figure_write_doubts(&self->figure, self->found, self->is_map, err));
     json_end(json);
 cleanup:
     return error_is_clean(err);

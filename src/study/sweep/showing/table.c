@@ -104,9 +104,9 @@ static bool make_columns(const Sweep *sweep, SweepTable *table, Error *err)
     table->status = add_column(table, "result", "status", "", "0 pending, 1 done, 2 failed");
     table->warnings = add_column(table, "result", "warnings", "",
                                  "0 none; else an index in the attribute `warnings words`");
-    table->kinds = add_column(table, "result", "warned", "",
-                              "bit k: the run has a warning of the kind that is the k-th in the "
-                              "attribute `warned words`");
+    table->doubtful =
+        add_column(table, "result", "warned", "",
+                   "1: the run has warnings, or has not what is ranked or drawn; 0: neither");
     for (int32_t c = 0; c < table->count; c++)
         TRY((table->columns[c].values = NEW_ARRAY(double, study->point_count, err)));
     TRY(words_index(&table->warnings->words, "", &none, err));
@@ -309,7 +309,8 @@ bool table_write(const Sweep *sweep, SweepTable *table, Error *err)
     csv_end_row(writer.csv);
 
     for (int32_t k = 0; k < sweep->study.point_count; k++) TRY(write_row(&writer, k, err));
-    TRY(warned_bits(&table->warned, &table->kinds->words, table->kinds->values, err));
+    for (int32_t k = 0; k < sweep->study.point_count; k++)
+        table->doubtful->values[k] = table->warned.of[k] != 0;
 cleanup:
     memory_free(writer.cell);
     if (error_is_clean(err)) return csv_finish(writer.csv, err) && write_h5(sweep, table, err);

@@ -72,35 +72,6 @@ void warned_add(Warned *warned, int32_t point, const char *sentence)
     }
 }
 
-void warned_name(const Warned *warned, int32_t kind, char name[WARNED_NAME_SIZE])
-{
-    const char *text = warned->kinds[kind].text;
-    size_t length = strcspn(text, ":");
-    if (length < WARNED_NAME_SIZE) {
-        snprintf(name, WARNED_NAME_SIZE, "%.*s", (int)length, text);
-        return;
-    }
-    for (length = WARNED_NAME_SIZE - 4; length > 0 && text[length] != ' ';) length--;
-    snprintf(name, WARNED_NAME_SIZE, "%.*s...", (int)length, text);
-}
-
-bool warned_bits(const Warned *warned, WordList *names, double *bits, Error *err)
-{
-    double place[WARNED_KINDS_MAX];
-    for (int32_t k = 0; k < warned->count; k++) {
-        char name[WARNED_NAME_SIZE];
-        warned_name(warned, k, name);
-        if (!words_index(names, name, &place[k], err)) return false;
-    }
-    for (int32_t point = 0; point < warned->all; point++) {
-        uint32_t found = 0;
-        for (int32_t k = 0; k < warned->count; k++)
-            if (warned->of[point] >> k & 1) found |= (uint32_t)1 << (int32_t)place[k];
-        bits[point] = found;
-    }
-    return true;
-}
-
 // --- on the terminal ----------------------------------------------------------------------------
 
 void warned_print(const Warned *warned, FILE *out)

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The warnings of many runs, told together: sentences that differ in their numbers alone are of one
-// kind. Filled by table, told on the terminal and in pictures.
+// kind. Filled by table, printed on the terminal.
 #ifndef AMONTONS_STUDY_SWEEP_SHOWING_WARNED_H
 #define AMONTONS_STUDY_SWEEP_SHOWING_WARNED_H
 
 #include "amontons.h"
-#include "study/sweep/showing/words.h"
 
-enum { WARNED_KINDS_MAX = 16, WARNED_NUMBERS_MAX = 8, WARNED_NAME_SIZE = 48 };
+enum { WARNED_KINDS_MAX = 16, WARNED_NUMBERS_MAX = 8 };
 
 typedef struct WarnedKind {
     char text[RUN_WARNING_SIZE];   // as the first run says it
@@ -25,11 +24,6 @@ typedef struct Warned {
 
 bool warned_make(int32_t points, Warned *warned, Error *err);
 void warned_add(Warned *warned, int32_t point, const char *sentence);
-// Name of a kind of warning: the words before the first colon of its sentence.
-void warned_name(const Warned *warned, int32_t kind, char name[WARNED_NAME_SIZE]);
-// The names of all kinds, each once, added to `names`; bits[point]: bit k where the point has a
-// warning of the k-th of them. [warned->all]
-bool warned_bits(const Warned *warned, WordList *names, double *bits, Error *err);
 // "8 of 36 points: slip is not resolved: ..." for each kind, and which points.
 void warned_print(const Warned *warned, FILE *out);
 void warned_destroy(Warned *warned);   // zeroed is fine
