@@ -272,7 +272,6 @@ typedef struct SweepOptions {
 } SweepOptions;
 typedef struct SweepSummary {
     int32_t points, computed, reused, failed, pending;
-    int32_t refined;   // of those computed: again, with a smaller error, for their rank
     double seconds;
 } SweepSummary;
 

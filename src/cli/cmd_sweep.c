@@ -151,7 +151,6 @@ int command_sweep(const Command *command, int argc, char **argv)
     if (done && !run.quiet) {
         char points[AMONTONS_PATH_SIZE + 8];
         say("%d points: %d computed in %.1f s", summary.points, summary.computed, summary.seconds);
-        if (summary.refined) say(" (%d again, to decide ranks)", summary.refined);
         if (summary.reused) say(", %d computed before", summary.reused);
         if (summary.failed) say(", %d failed", summary.failed);
         snprintf(points, sizeof points, "%s/points", folder);

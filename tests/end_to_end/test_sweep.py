@@ -459,38 +459,10 @@ class Sweep(unittest.TestCase):
         done = self.sweep(study=self.study(STUDY + "rank: {by: l_c, against: first}\n"))   # run.json has no l_c_error
         self.assertRegex(done.stdout, r"l_c, highest first; gain over .*; no errors are known of it\n.* l_c +gain\n")
 
-    def test_refined_ranks(self):
-        """Points that a sweep without `refine` leaves open are computed again, and only those; known ones are found again."""
-        text = HEAD + "  \nvary: {load.pressure: [0.0056, 0.00561, 0.03]}\nrank: {by: mu_M, refine: 1.2%}\n"
-        text = text.replace("{mesh.set.nx: 10, mesh.set.nz: 10,", "{accuracy.mu: 8%, mesh.set.nx: 20, mesh.set.nz: 20, mesh.set.length: 1,")
-        self.sweep(study=self.study(text.replace(", refine: 1.2%", "")))
-        with open(self.folder / "out/ranking.csv", newline="") as file:
-            plain = {row["point"]: row for row in csv.DictReader(file)}
-        left_open = {k for k, row in plain.items() if row["rank_from"] != row["rank_to"]
-                     and float(row["mu_M_error"]) > 0.012 * float(row["mu_M"])}
-        self.assertIn(len(left_open), (1, 2))
-        done = self.sweep(study=self.study(text))
-        self.assertTrue(all(row["mu_M_error"] == row["mu_M_known_to"] for row in plain.values()))
-        self.assertNotIn("there is no error bar", done.stdout)   # mu_max, which never has one, does not count
-        again = int(re.search(r"\((\d+) again, to decide ranks\)", done.stdout)[1])
-        self.assertGreaterEqual(again, len(left_open))
-        self.assertRegex(done.stdout, r"\n  \d of 3 points were computed again with smaller error bars, and moved by up to \d\.\d of those before")
-        self.assertEqual(len(list((self.folder / "out/points").iterdir())), 3 + again)
-        with open(self.folder / "out/ranking.csv", newline="") as file:
-            refined = {row["point"]: row for row in csv.DictReader(file)}
-        for k, row in refined.items():
-            error, before = float(row["mu_M_error"]), float(plain[k]["mu_M_error"])
-            self.assertLessEqual(error, before)
-            if k not in left_open:
-                self.assertEqual((row["mu_M"], row["accuracy.mu"]), (plain[k]["mu_M"], "0.08"))
-            elif float(row["accuracy.mu"]) < 0.08:
-                self.assertLess(error, before)
-        table = (self.folder / "out/sweep.csv").read_bytes()
-        found = self.sweep(study=self.study(text))
-        self.assertIn("3 points: 0 computed", found.stdout)
-        self.assertEqual((self.folder / "out/sweep.csv").read_bytes(), table)
-        done = self.sweep(study=self.study(text.replace("accuracy.mu: 8%, ", "")), status=2)
-        self.assertIn("`refine` halves accuracy.mu, which must be given to begin with", done.stderr)
+    def test_refine_is_of_a_search(self):
+        done = self.sweep(study=self.study(STUDY + "rank: {by: mu_M, refine: 1%}\n"), status=2)
+        self.assertIn("set a smaller accuracy.mu, or search by `amontons optimise`", done.stderr)
+        self.assertFalse((self.folder / "out").exists())
 
     def test_warnings(self):
         """On the terminal, in both tables and in both pictures, of the points whose run.json has them."""

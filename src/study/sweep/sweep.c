@@ -27,7 +27,6 @@
 
 // Points of a sweep that was killed die with it, and leave its lock a moment later; s.
 static const double LOCK_WAIT = 1;
-static const double SMALLER = 0.9;   // of the error before: a round of refinement was of use
 
 // Makes the sweep's folder and takes its lock, which the system removes when the process ends,
 // however it ends. A file of somebody's with the name of one of the sweep's tables or figures is
@@ -170,123 +169,6 @@ bool sweep_compute(Sweep *sweep, Error *err)
     return whole;
 }
 
-// --- ranks that errors leave open ---------------------------------------------------------------
-
-// A refined point is an ordinary point with another accuracy.mu: it has a hash and a folder of its
-// own, so that the same command finds it again, and goes the same way to the same table.
-
-// Gives the point of a row a smaller accuracy.mu, and looks for what an earlier sweep left of it.
-// *chosen: there is a next accuracy.
-static bool choose_accuracy(Sweep *sweep, const RankRow *row, bool *chosen, Error *err)
-{
-    int32_t k = row->point;
-    SweepPoint *point = &sweep->points[k];
-    char *report = NULL;
-    const Scene *scene = point_scene(sweep, k, err);
-    TRY(scene);
-
-    // Half the error bar that was asked for or, where that is smaller, of the one that came out,
-    // relative; two digits read well in a table. Not below the limit; 0: the point is there
-    // already.
-    double asked = scene->accuracy.mu;
-    double came_out = row->error / fabs(row->value);
-    char digits[20];
-    if (came_out < asked) asked = came_out;
-    snprintf(digits, sizeof digits, "%.2g", asked / 2);
-    double accuracy =
-        asked > sweep->study.rank.refine ? fmax(strtod(digits, NULL), sweep->study.rank.refine) : 0;
-
-    *chosen = accuracy > 0;
-    if (!*chosen) goto cleanup;
-    point->accuracy = accuracy;
-    TRY((scene = point_scene(sweep, k, err)));   // with it
-    TRY(point_hash(sweep, scene, point->hash, err));
-    report = point_report(sweep, k, err);
-    TRY(error_is_clean(err));
-    point->status = sweep->options->fresh ? POINT_PENDING : point_status(report);
-    point->reused = point->status != POINT_PENDING;
-cleanup:
-    memory_free(report);
-    return error_is_clean(err);
-}
-
-// Reads the ranked result from a point's run.json.
-static PointValue read_ranked(const Sweep *sweep, int32_t k, Error *err)
-{
-    char *report = point_report(sweep, k, err);
-    PointValue ranked = point_value(report, sweep->study.records[sweep->study.rank.record].path);
-    memory_free(report);
-    return ranked;
-}
-
-// Points whose rank is open are computed again with half the error bar, round by round, until the
-// order is decided or the study's limit (`rank.refine`) is reached. Of a round that is not computed
-// whole, as of any, a point that came to no result with a smaller error keeps the one it had, and
-// is not chosen again. ERROR_INTERRUPT: stopped in a round.
-static bool decide_ranks(Sweep *sweep, Error *err)
-{
-    SweepTable table = {0};
-    Ranking ranking = {0};
-    SweepPoint *before = NULL;   // the points as they were
-    int32_t points = sweep->study.point_count, count = 1;
-    while (sweep->study.rank.refine > 0 && count > 0) {
-        int32_t computed = sweep->computed;
-        memory_free(before);
-        TRY((before = NEW_ARRAY(SweepPoint, points, err)));
-        memcpy(before, sweep->points, (size_t)points * sizeof *before);
-
-        // Points that are shown, and others that might be among them.
-        ranking_destroy(&ranking);
-        table_destroy(&table);
-        TRY(table_write(sweep, &table, err));
-        TRY(ranking_make(sweep, &table, &ranking, err));
-        sweep->mesh = (PointMesh){0};
-        count = 0;
-        for (int32_t k = 0; k < ranking.ranked; k++) {
-            const RankRow *row = &ranking.rows[k];
-            bool chosen = false;
-            if (row->from >= row->to || row->from > sweep->study.rank.top ||
-                sweep->points[row->point].settled)
-                continue;
-            TRY(choose_accuracy(sweep, row, &chosen, err));
-            count += chosen;
-        }
-        TRY(points_find_same(sweep, err));   // those of an earlier round count
-        for (int32_t k = 0; k < points; k++) sweep->planned += sweep_is_waiting(sweep, k);
-
-        sweep_compute(sweep, err);
-        sweep->refined += sweep->computed - computed;
-        Error ended = {0};
-        for (int32_t k = 0; k < points && error_is_clean(&ended); k++) {
-            SweepPoint *point = &sweep->points[k];
-            SweepPoint refined = *point;
-            PointValue found = point_value(NULL, "");
-            if (strcmp(refined.hash, before[k].hash) == 0) continue;
-            if (refined.status == POINT_DONE) found = read_ranked(sweep, k, &ended);
-            *point = before[k];
-            PointValue last = read_ranked(sweep, k, &ended);
-            if (!error_is_clean(&ended)) continue;
-            double error = isnan(last.error) ? INFINITY : last.error;
-            if (found.error < error) {
-                double moved = fabs(found.value - last.value) / error;
-                *point = refined;
-                point->refined = true;
-                point->moved =
-                    fmax(before[k].moved, moved);   // fmax of NaN and a number is the number
-            }
-            point->settled = !(found.error < SMALLER * error);
-        }
-        if (error_is_clean(&ended)) points_find_same(sweep, &ended);
-        if (error_is_clean(err)) *err = ended;
-        TRY(error_is_clean(err));
-    }
-cleanup:
-    memory_free(before);
-    ranking_destroy(&ranking);
-    table_destroy(&table);
-    return error_is_clean(err);
-}
-
 // --- the whole ----------------------------------------------------------------------------------
 
 bool sweep_open(const char *path, const SweepOptions *options, Sweep **opened, Error *err)
@@ -345,8 +227,13 @@ bool amontons_sweep(const char *path, const SweepOptions *options, SweepSummary 
                        sweep->study.search.fits ? "fit" : "optimise");
         goto cleanup;
     }
+    if (sweep->study.rank.refine > 0)
+        FAIL(err, ERROR_INPUT,
+             "%s: rank: `refine` is of `amontons optimise`; a sweep computes all points with the "
+             "same bar: set a smaller accuracy.mu, or search by `amontons optimise`",
+             sweep->study.path);
     TRY(sweep_plan(sweep, err));
-    bool whole = sweep_compute(sweep, &stopped) && decide_ranks(sweep, &stopped);
+    bool whole = sweep_compute(sweep, &stopped);
     sweep_summarise(sweep, summary);
     if (!whole && stopped.code != ERROR_INTERRUPT) {
         *err = stopped;

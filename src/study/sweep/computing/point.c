@@ -103,11 +103,9 @@ void points_note_place(void *context, const char *hash, ReportPlace place)
 
 const Scene *point_scene(const Sweep *sweep, int32_t point, Error *err)
 {
-    Scene *scene = sweep->scene;
-    double accuracy = sweep->points[point].accuracy;
-    if (!study_scene(&sweep->study, &(PointChoice){.point = point}, scene, err)) return NULL;
-    if (accuracy > 0) scene->accuracy.mu = accuracy;
-    return scene;
+    return study_scene(&sweep->study, &(PointChoice){.point = point}, sweep->scene, err)
+               ? sweep->scene
+               : NULL;
 }
 
 // Points are found by hash, not by number, so that a study that is changed finds its old points

@@ -29,10 +29,6 @@ typedef struct SweepPoint {
     int32_t baseline;   // the point that `rank` measures it against; -1: none
     bool reused;   // was finished when the sweep began
     ReportPlace place;   // of its report, with `keep: table`
-    double accuracy;   // accuracy.mu that its rank called for; 0: as the study has it
-    bool settled;   // a smaller accuracy is of no use
-    bool refined;   // its result has that accuracy,
-    double moved;   // and its value moved by so many of the error bars before, the most of a round
     double seconds;   // in this sweep
 } SweepPoint;
 
@@ -55,16 +51,13 @@ typedef struct Sweep {
     void *by_hash;   // tree of points (tsearch), the first of each hash; owned
     double started;   // wall clock, s
     bool checked;   // what the study records is in run.json
-    int32_t planned;   // points to compute or to find: all, and those computed again; of a search
-        // those so far
+    int32_t planned;   // points to compute or to find: all; of a search those so far
     int32_t computed, failed, finished;
-    int32_t refined;   // of those computed: again, for their rank
 } Sweep;
 
 enum { POINT_PATH_SIZE = AMONTONS_PATH_SIZE + 64, POINT_WORDS_SIZE = 512 };
 
-// The scene of a point as it is to be computed: the study's, with the point's accuracy and runs. It
-// stands until the next is asked for. NULL: the error says why.
+// The scene of a point. It stands until the next is asked for. NULL: the error says why.
 const Scene *point_scene(const Sweep *sweep, int32_t point, Error *err);
 // A name for all that decides what a point comes to: version, mesh file, every key but the title.
 bool point_hash(Sweep *sweep, const Scene *scene, char hash[HASH_TEXT_SIZE], Error *err);

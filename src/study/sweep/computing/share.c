@@ -35,7 +35,7 @@ bool share_write(const Sweep *sweep, int32_t share, const int32_t *points, int32
     TRY(text_writer_open(&text, path, false, err));
     for (int32_t k = share; k < count; k += step) {
         const SweepPoint *point = &sweep->points[points[k]];
-        fprintf(text.out, "%d %s %.17g\n", points[k], point->hash, point->accuracy);
+        fprintf(text.out, "%d %s\n", points[k], point->hash);
     }
     TRY(text_writer_finish(&text, err));
 cleanup:
@@ -81,13 +81,11 @@ bool share_run(Sweep *sweep, int32_t share, Error *err)
     for (const char *line = strtok_r(text, "\n", &rest); line; line = strtok_r(NULL, "\n", &rest)) {
         char hash[HASH_TEXT_SIZE] = "";
         int point = -1;
-        double accuracy = 0;
-        if (sscanf(line, "%d %32s %lf", &point, hash, &accuracy) < 2 || point < 0 ||
+        if (sscanf(line, "%d %32s", &point, hash) < 2 || point < 0 ||
             point >= sweep->study.point_count)
             FAIL(err, ERROR_INPUT, "%s has fewer points than when the sweep began",
                  sweep->study.path);
         SweepPoint *at = &sweep->points[point];
-        at->accuracy = accuracy;
         const Scene *scene = point_scene(sweep, point, err);
         TRY(scene && point_hash(sweep, scene, at->hash, err));
         if (strcmp(hash, at->hash) != 0)

@@ -4,7 +4,7 @@
 //
 //     DIR/slurm/designs           of a search: the cases that it has added to the study, round by
 //                                 round, each text with a zero byte at its end
-//     DIR/slurm/share-7.points    a line a point: its number, hash, runs and accuracy
+//     DIR/slurm/share-7.points    a line a point: its number and hash
 //     DIR/slurm/share-7.reports   what it has computed, as DIR/reports, with `keep: table`
 #ifndef AMONTONS_STUDY_SWEEP_COMPUTING_SHARE_H
 #define AMONTONS_STUDY_SWEEP_COMPUTING_SHARE_H

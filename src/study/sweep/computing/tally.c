@@ -204,7 +204,6 @@ void sweep_summarise(const Sweep *sweep, SweepSummary *summary)
 {
     *summary = (SweepSummary){.points = sweep->study.point_count,
                               .computed = sweep->computed,
-                              .refined = sweep->refined,
                               .seconds = clock_seconds() - sweep->started};
     for (int32_t k = 0; k < sweep->study.point_count; k++) {
         const SweepPoint *point = &sweep->points[k];

@@ -11,7 +11,7 @@
 //       load.pressure: {log: [1e-4, 1e-2], points: 7}
 //     keep: table                               # of points nothing but their numbers
 //     record: [mu_M, period, results.mu_max]
-//     rank: {by: mu_M, order: highest, top: 10, against: {rod.kind: push}, refine: 0.5%}
+//     rank: {by: mu_M, order: highest, top: 10, against: {rod.kind: push}}
 //     plot: {x: load.pressure, y: mu_M, series: mesh.set.length, log: x}   # or a list of plots
 //
 // One that searches (study/search) has `search`, and `where` and `best` where they are wanted, in
@@ -160,7 +160,7 @@ typedef struct StudyRank {
     int32_t top;   // rows to show
     RankAgainst against;   // what a gain is measured from: the first point, the best, or ...
     YamlNode baseline;   // ... the same point with these keys, a map; YAML_NO_NODE else
-    double refine;   // smallest accuracy.mu that points without a decided rank may get; 0: none
+    double refine;   // of a search: smallest accuracy.mu that designs may get; 0: none is smaller
 } StudyRank;
 
 typedef struct Study {

@@ -146,7 +146,7 @@ static bool read_rank(Study *study, Error *err)
         }
     }
 
-    // refine: a share such as 0.005 or 0.5%. Points that are computed again differ in accuracy.mu:
+    // refine: a share such as 0.005 or 0.5%. Designs that are computed again differ in accuracy.mu:
     // a column.
     if (refine != YAML_NO_NODE) {
         const char *text = yaml_text(file, refine);

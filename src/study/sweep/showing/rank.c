@@ -88,20 +88,6 @@ static bool find_places(Ranking *ranking, Error *err)
     return error_is_clean(err);
 }
 
-// How far each is known, beside those that were refined.
-static RankRow row_of(const Sweep *sweep, const SweepTable *table, const Ranking *ranking,
-                      int32_t point)
-{
-    int32_t record = sweep->study.rank.record;
-    double error = table_error(table, record, point);
-    double known_to = table_known_to(table, record, point);
-    double times = sweep->points[point].refined ? 1 : fmax(ranking->moved, 1);
-    return (RankRow){.point = point,
-                     .value = table_value(table, record, point),
-                     .error = times * known_to,
-                     .bar = error == known_to ? error : (double)NAN};
-}
-
 // `lowest` is sorted as `highest` of the negative values, which are turned back afterwards.
 bool ranking_make(const Sweep *sweep, const SweepTable *table, Ranking *ranking, Error *err)
 {
@@ -111,14 +97,12 @@ bool ranking_make(const Sweep *sweep, const SweepTable *table, Ranking *ranking,
     *ranking = (Ranking){.count = study->point_count, .has_error = table->error[record] >= 0};
     if (!(ranking->rows = NEW_ARRAY(RankRow, study->point_count, err))) return false;
     for (int32_t k = 0; k < ranking->count; k++) {
-        const SweepPoint *point = &sweep->points[k];
-        if (!point->refined || point->same_as != k) continue;
-        ranking->refined++;
-        ranking->moved = fmax(ranking->moved, point->moved);
-    }
-    for (int32_t k = 0; k < ranking->count; k++) {
-        ranking->rows[k] = row_of(sweep, table, ranking, k);
-        ranking->rows[k].value *= sign;
+        double error = table_error(table, record, k);
+        double known_to = table_known_to(table, record, k);
+        ranking->rows[k] = (RankRow){.point = k,
+                                     .value = sign * table_value(table, record, k),
+                                     .error = known_to,
+                                     .bar = error == known_to ? error : (double)NAN};
         ranking->ranked += !isnan(ranking->rows[k].value);
     }
     qsort(ranking->rows, (size_t)ranking->count, sizeof *ranking->rows, compare);
@@ -132,7 +116,7 @@ bool ranking_make(const Sweep *sweep, const SweepTable *table, Ranking *ranking,
         base = baseline_of(sweep, ranking, row->point);
         if (base < 0) continue;
         double value = table_value(table, record, base);
-        double error = row_of(sweep, table, ranking, base).error;
+        double error = table_known_to(table, record, base);
         bool itself = sweep->points[base].same_as == sweep->points[row->point].same_as;
         row->gain = row->value / value - 1;
         row->gain_error = itself ? 0 * row->error
@@ -175,7 +159,6 @@ static bool rank_notes(const Sweep *sweep, const Ranking *ranking, const RankRow
     if (row->from < row->to) add_note(note, text);
     if (ranking->has_error && !isnan(row->value) && isnan(row->error))
         add_note(note, "error not known");
-    if (sweep->points[row->point].refined) add_note(note, "refined");
     if (period == 0) add_note(note, "not periodic");
     if (report && by_mu_hold && json_find_number(report, "results.drops.enough", &enough) &&
         enough == 0)
@@ -376,17 +359,6 @@ bool ranking_print(const Sweep *sweep, const SweepTable *table, const Ranking *r
     }
     if (ranking->count > shown)
         fprintf(out, "  ... %d more in ranking.csv\n", ranking->count - shown);
-    if (ranking->refined > 0) {
-        bool longer = ranking->moved > 1 && ranking->refined < ranking->ranked;
-        fprintf(out,
-                "  %d of %d points were computed again with smaller error bars, and moved by up to "
-                "%.1f of those before",
-                ranking->refined, ranking->ranked, ranking->moved);
-        if (longer)
-            fprintf(out, ": bars of the others count as %.1f times as long in ranks",
-                    ranking->moved);
-        fprintf(out, "\n");
-    }
     if (ranking->ranked > 0) print_edges(sweep, table, ranking, out);
 cleanup:
     memory_free(rows);

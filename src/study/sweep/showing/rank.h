@@ -18,12 +18,6 @@ typedef struct Ranking {
     RankRow *rows;   // [count] the best first; points without a value last; owned
     int32_t count, ranked;   // all points; those with a value
     bool has_error;   // the result has an error in run.json
-    // So many points were computed again with smaller bars (decide_ranks in study/sweep/sweep), and
-    // moved by up to so many of their bars before. Where that is more than 1 those of the others
-    // count as so many times as long: what coarse meshes have in common would else stand on one
-    // side alone.
-    int32_t refined;
-    double moved;
     double base;   // the value that gains are measured from; NaN: each row has its own
 } Ranking;
 

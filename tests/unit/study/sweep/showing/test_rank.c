@@ -74,32 +74,3 @@ TEST(test_ranks)
         memory_free(made);
     }
 }
-
-// Three points, one computed again: it moved by 2.5 of its bars before, so those of the others
-// count 2.5 times, and what they decided alone is open.
-TEST(test_refined)
-{
-    Error err = {0};
-    Ranking ranking = {0};
-    double values[] = {0.30, 0.29, 0.25}, errors[] = {0.002, 0.004, 0.004};
-    SweepPoint points[3] = {{.same_as = 0}, {.same_as = 1}, {.same_as = 2}};
-    Sweep sweep = {.points = points, .study = {.point_count = 3, .rank.against = AGAINST_FIRST}};
-    TableColumn columns[] = {{.values = values}, {.values = errors}};
-    SweepTable table = {.columns = columns, .error = {1}, .known_to = {1}};
-    assert_true(ranking_make(&sweep, &table, &ranking, &err));
-    assert_int_equal(ranking.rows[0].to, 1);
-    ranking_destroy(&ranking);
-    points[0].refined = true;
-    points[0].moved = 2.5;
-    assert_true(ranking_make(&sweep, &table, &ranking, &err));
-    assert_int_equal(ranking.refined, 1);
-    assert_true(ranking.rows[0].error == 0.002 && ranking.rows[1].error == 0.01);
-    assert_true(ranking.rows[1].bar == 0.004);   // as it is told
-    assert_int_equal(ranking.rows[0].to, 2);
-    assert_int_equal(ranking.rows[2].from, 3);
-    ranking_destroy(&ranking);
-    points[0].moved = 0.5;   // within its bar: bars count as they are
-    assert_true(ranking_make(&sweep, &table, &ranking, &err));
-    assert_int_equal(ranking.rows[0].to, 1);
-    ranking_destroy(&ranking);
-}
