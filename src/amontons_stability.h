@@ -39,8 +39,6 @@ typedef struct StabilityPad {
         // cannot run away alone
     double l_c;   // how much of it, from its trailing edge on, may slip before it
         // runs away alone, length; NaN: all of it
-    double mu_fall;   // what F_T / F_N loses when the pad slides alone, down to mu_K, and the
-        // others hold; NaN: nothing else holds the block
     double drag;   // viscous shear of its softest slip over the slip rate,
         // stress / velocity: eta1/2 over H for a layer of height H
     double stiffness;   // elastic shear of its softest slip over the slip, stress/length

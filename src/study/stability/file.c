@@ -53,8 +53,7 @@ static bool write_numbers(const StabilityPath *path, const StabilitySummary *sum
         json_numbers_of(json, {"length", pad->length}, {"pressure", pad->pressure},
                         {"slipping_over_length", pad->slipping / pad->length}, {"mode", pad->mode},
                         {"load", pad->load}, {"l_c_over_length", pad->l_c / pad->length},
-                        {"mu_fall", pad->mu_fall}, {"drag", pad->drag},
-                        {"stiffness", pad->stiffness},
+                        {"drag", pad->drag}, {"stiffness", pad->stiffness},
                         {"critical_stiffness", pad->critical_stiffness});
         json_end(json);
     }

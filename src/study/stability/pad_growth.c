@@ -13,9 +13,6 @@
 // in contact, the rest of its face free; the longest part at which no disturbance grows
 // (stepping/growth, growth_rates, at its mean pressure) is the steady contact.
 //
-// A pad that slides alone lets its shear fall to mu_K p. With S_K its tangents then move by
-// S_K[T,T]^-1 (shear - mu_K p w), and the rod's force falls by what S_K hands on to it: mu_fall.
-//
 // Drag is what a geometry has of viscosity against slip: eta1/2 over H for a layer of height H that
 // shears, about eta over the length for a short pad on a large block. Weakening over drag,
 // (mu_S - mu_K) p / (v_c drag), decides where slip begins to oscillate; elasticity and inertia
@@ -24,7 +21,6 @@
 
 #include "algebra/dense.h"
 #include "base/memory.h"
-#include "friction/friction.h"
 #include "contact/slip.h"
 #include "record/pad_sums.h"
 
@@ -39,7 +35,6 @@ typedef struct PadWork {
     int32_t *nodes;   // [contact_count] of the pad, ascending x
     int32_t count;
     double pressure;   // mean of the pad's, stress
-    int32_t *pivots;   // [contact_count]
     double *matrix, *values, *work;   // [contact_count^2], [contact_count], DENSE_EIGEN_WORK
 } PadWork;
 
@@ -158,41 +153,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// Fall of mu when the shear of all of the pad falls to mu_K p and everything else holds.
-static double fall_of_mu(PadWork *work)
-{
-    const StabilityPath *path = work->path;
-    const Interface *interface = work->interface;
-    const Friction *friction = &path->model->friction;
-    const double *schur = interface_operator_schur(work->stiffness);
-    int64_t size = interface->count;
-    double fall = 0, load = 0;
-    for (int32_t a = 0; a < work->count; a++) {
-        int32_t i = work->nodes[a];
-        const FrictionNode *node = friction_at(friction, i);
-        double kinetic = node->law->remembers
-                             ? friction_kinetic(node)
-                             : fmax(friction_coefficient(node, 0) - friction_drop(node), 0);
-        if (node->law->creeps) return NAN;   // nothing ends its fall
-        work->values[a] = fabs(path->runaway.reaction[interface_tangent(interface, i)]) -
-                          kinetic * path->runaway.reaction[interface_normal(interface, i)];
-        for (int32_t b = 0; b < work->count; b++)
-            work->matrix[(int64_t)work->count * b + a] =
-                schur[size * interface_tangent(interface, work->nodes[b]) +
-                      interface_tangent(interface, i)];
-    }
-    if (!dense_lu(work->matrix, work->count, work->pivots)) return NAN;   // it floats
-    dense_lu_solve(work->matrix, work->count, work->pivots, work->values);
-    for (int32_t a = 0; a < work->count; a++)
-        for (int32_t j = 0; j < interface->rod_count; j++)
-            fall -= schur[size * interface_tangent(interface, work->nodes[a]) +
-                          interface_rod(interface, j)] *
-                    work->values[a];
-    for (int32_t i = 0; i < interface->contact_count; i++)
-        load += path->runaway.reaction[interface_normal(interface, i)];
-    return fall / load;
-}
-
 // The work is on pad p from here on.
 static void take_pad(PadWork *work, int32_t p)
 {
@@ -221,7 +181,6 @@ bool stability_measure_pads(StabilityPath *path, StabilitySummary *summary, Erro
     TRY((work.stiffness = interface_operator_create(system, terms, err)));
     TRY(state_create(system, interface, &work.trial, err));
     TRY((work.nodes = NEW_ARRAY(int32_t, count, err)));
-    TRY((work.pivots = NEW_ARRAY(int32_t, count, err)));
     TRY((work.matrix = NEW_ARRAY(double, count *count, err)));
     TRY((work.values = NEW_ARRAY(double, count, err)));
     TRY((work.work = NEW_ARRAY(double, DENSE_EIGEN_WORK(count), err)));
@@ -258,7 +217,6 @@ bool stability_measure_pads(StabilityPath *path, StabilitySummary *summary, Erro
         pad->load = ratio_of(&work, work.count);
         pad->critical_stiffness = spring / pad->length;
         pad->l_c = critical_length(&work);
-        pad->mu_fall = fall_of_mu(&work);
         double breadth = pad_size(interface, p).breadth;
         pad->length /= breadth;
         pad->slipping /= breadth;
@@ -287,6 +245,6 @@ bool stability_measure_pads(StabilityPath *path, StabilitySummary *summary, Erro
 cleanup:
     interface_operator_destroy(work.stiffness);
     state_destroy(&work.trial);
-    memory_free_all(work.nodes, work.pivots, work.matrix, work.values, work.work);
+    memory_free_all(work.nodes, work.matrix, work.values, work.work);
     return error_is_clean(err);
 }

@@ -110,14 +110,6 @@ void stability_explain(const StabilityPath *path, StabilitySummary *summary)
             "it slips fast at once, whatever grows, and a run may slide there.",
             summary->mu_snap, name_of(summary, interface->pad[path->snap_node]),
             interface->x[path->snap_node]);
-
-    // A pad that slides alone need not be a drop of the load, and no sliding of the block.
-    bool alone = path->grows && summary->pad_count > 1 && pad->load >= 1;
-    if (alone && pad->mu_fall < LEAST_DROP * summary->mu_rod)
-        say(summary,
-            "If the other pads hold, mu falls by %.1f %% at most, less than the %.0f %% of a load "
-            "drop: then the load rises on, and mu_M and mu_hold of a run are higher than this mu.",
-            100 * pad->mu_fall / summary->mu_rod, 100 * LEAST_DROP);
     if (summary->l_c_scan < summary->l_sc - summary->element)
         say(summary, "l_c (scan) is shorter than l_sc as it leaves out that slip shifts pressure, "
                      "which here steadies it.");

@@ -8,17 +8,17 @@ static void decide(Rig *rig)
     start(rig);
     rig->path.grows = true;
     rig->pads[NODES - 1] = 1;
-    rig->summary = (StabilitySummary){
-        .pad_count = 2,
-        .pad = 1,
-        .pads = {{.name = "left", .length = 1, .mode = 0.05, .mu_fall = NAN},
-                 {.name = "right", .length = 1, .slipping = 1, .load = 2, .mu_fall = 0.2}},
-        .l_c_rod = 0.3,
-        .mu_rod = 0.3,
-        .mu_sc = NAN,
-        .mu_snap = NAN,
-        .l_c_scan = 0.3,
-        .l_sc = 0.3};
+    rig->summary =
+        (StabilitySummary){.pad_count = 2,
+                           .pad = 1,
+                           .pads = {{.name = "left", .length = 1, .mode = 0.05},
+                                    {.name = "right", .length = 1, .slipping = 1, .load = 2}},
+                           .l_c_rod = 0.3,
+                           .mu_rod = 0.3,
+                           .mu_sc = NAN,
+                           .mu_snap = NAN,
+                           .l_c_scan = 0.3,
+                           .l_sc = 0.3};
 }
 
 static void expect(Rig *rig, int32_t count, const char *words)
@@ -64,30 +64,28 @@ TEST(test_what_else_is_said)
 {
     Rig rig;
     decide(&rig);
-    rig.summary.pads[1].mu_fall = 0.003;   // of a mu of 0.3
-    expect(&rig, 2, "mu falls by 1.0 % at most");
     rig.summary.mu_sc = 0.25;
-    expect(&rig, 3, "From mu 0.2500 on (l_sc) oscillations grow");
+    expect(&rig, 2, "From mu 0.2500 on (l_sc) oscillations grow");
     rig.summary.mu_snap = 0.28;
     rig.path.snap_node = NODES - 1;
-    expect(&rig, 4, "At mu 0.2800 a node of right, at x = 2, reaches mu_S");
+    expect(&rig, 3, "At mu 0.2800 a node of right, at x = 2, reaches mu_S");
     rig.path.snap_node = 0;
-    expect(&rig, 4, "a node of left, at x = 0,");
+    expect(&rig, 3, "a node of left, at x = 0,");
     rig.summary.l_c_scan = 0.1;
-    expect(&rig, 5, "l_c (scan) is shorter than l_sc");
+    expect(&rig, 4, "l_c (scan) is shorter than l_sc");
     rig.summary.steady_contact = 1;   // as much as can be said without memory
-    expect(&rig, 6, "would be steady");
+    expect(&rig, 5, "would be steady");
     FrictionNode nodes[NODES] = {0};
     rig.path.nodes = nodes;
     rig.summary.pads[1].critical_stiffness = 1.25;
     rig.summary.pads[1].stiffness = 0.5;
     rig.summary.nucleation_length = NAN;
-    expect(&rig, 6,
+    expect(&rig, 5,
            "steady on a stiffness above 1.25 (critical); that of right, all else held, is 0.5.");
     rig.summary.nucleation_length = 0.75;
-    expect(&rig, 6, "grows on a part longer than 0.75 (nucleation length)");
+    expect(&rig, 5, "grows on a part longer than 0.75 (nucleation length)");
     rig.summary.pads[1].critical_stiffness = NAN;
-    expect(&rig, 5, "l_c (scan) is shorter than l_sc");
+    expect(&rig, 4, "l_c (scan) is shorter than l_sc");
 }
 
 TEST(test_nothing_runs_away)
