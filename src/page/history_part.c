@@ -3,22 +3,14 @@
 
 #include "base/memory.h"
 #include "base/module.h"
-#include "base/text.h"
-#include "io/files/file_lock.h"
-#include "io/files/open_file.h"
 #include "io/hdf5/result_file.h"
 #include "record/events.h"
 
-#include <dirent.h>
-#include <errno.h>
 #include <limits.h>
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum { EVENTS_SHOWN_MAX = 300, COLUMNS = 8, DIGITS = 5 };
 
-static const int64_t FILM_MOST = 4 << 20;   // bytes: of a film inside of the page
 static const double SLACK = 1e-9;   // of U: a time at the border of an event belongs to it
 
 // Nothing of the history may cost the page: a picture that cannot be drawn is told in its place.
@@ -170,86 +162,4 @@ cleanup:
     if (file) array_file_close(file, err);
     memory_free_list((void *const *)column, COLUMNS);
     return go_on_without(html, "events", err);
-}
-
-// --- film ----------------------------------------------------------------------------------------
-
-// Kind of film; the kinds that browsers play best come first. begins: bytes of such a file from
-// byte `at` on.
-typedef struct FilmKind {
-    const char *ending, *type, *begins;
-    int32_t at;
-} FilmKind;
-
-static const FilmKind FILMS[] = {{".mp4", "video/mp4", "ftyp", 4},
-                                 {".webm", "video/webm", "\x1a\x45\xdf\xa3", 0},
-                                 {".gif", "image/gif", "GIF8", 0}};
-enum { FILM_KINDS = sizeof FILMS / sizeof *FILMS };
-
-void film_find(PageSource *source)
-{
-    struct dirent **entries = NULL;
-    int32_t best = FILM_KINDS;
-    int count = scandir(source->runs->folder, &entries, NULL, alphasort);
-    for (int i = 0; i < count; ++i) {
-        for (int32_t k = 0; k < best; ++k) {
-            if (!text_ends_with(entries[i]->d_name, FILMS[k].ending)) continue;
-            snprintf(source->film, sizeof source->film, "%s", entries[i]->d_name);
-            best = k;
-        }
-        free(entries[i]);
-    }
-    if (count >= 0) free(entries);
-}
-
-// The page may be sent to somebody: of a stranger's result nothing goes into it but a film that
-// lies there, no file of ours that a link of that name leads to.
-bool film_write(HtmlWriter *html, PageSource *source, Error *err)
-{
-    const char *name = source->film;
-    char path[PATH_MAX], head[8] = "";
-    uint8_t *bytes = NULL;   // NULL: the film is too large to be inside of the page
-    int64_t size = 0;
-    FILE *file = NULL;
-    const FilmKind *kind = FILMS;
-    while (kind < FILMS + FILM_KINDS - 1 && !text_ends_with(name, kind->ending)) ++kind;
-    if (!folder_holds(source->runs->folder, name, path)) return true;
-    TRY(file = open_stream(path, err));
-    if (!file_is_named(path, fileno(file)))
-        FAIL(err, ERROR_INPUT, "%s is a link: what it leads to is not put into a page", path);
-    if (fread(head, 1, sizeof head, file) < sizeof head ||
-        memcmp(head + kind->at, kind->begins, strlen(kind->begins)) != 0)
-        FAIL(err, ERROR_INPUT, "%s does not begin as %s does", path, kind->type);
-    if (fseek(file, 0, SEEK_END) != 0 || (size = ftell(file)) < 0)
-        FAIL(err, ERROR_FILE, "cannot read %s: %s", path, strerror(errno));
-    if (size <= FILM_MOST) {
-        rewind(file);
-        TRY(bytes = memory_bytes(size, err));
-        if (fread(bytes, 1, (size_t)size, file) != (size_t)size)
-            FAIL(err, ERROR_FILE, "cannot read %s", path);
-    }
-
-    // The film itself, then a link to its file.
-    if (bytes) {
-        bool moves = strncmp(kind->type, "video", 5) == 0;
-        html_markup(html, moves ? "<video controls preload='metadata' src='"
-                                : "<img class='paper' alt='The run as a film' src='");
-        html_data(html, kind->type, bytes, size);
-        html_markup(html, moves ? "'></video>\n" : "'>\n");
-    }
-    html_markup(html, "<p class='note'>%s <a href='./",
-                bytes ? "The film beside this page:" : "It lies beside this page:");
-    for (const char *at = name; *at; ++at) {
-        // A relative address: what is not plain in a name is written as %XX (RFC 3986).
-        static const char letters[] =
-            "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789._-";
-        html_markup(html, strchr(letters, *at) ? "%c" : "%%%02X", (unsigned char)*at);
-    }
-    html_markup(html, "'>");
-    html_text(html, name);
-    html_markup(html, "</a> (%.1f MB)</p>\n", (double)size / (1 << 20));
-cleanup:
-    if (file) fclose(file);
-    memory_free(bytes);
-    return go_on_without(html, "film", err);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Writes the parts of a page that show a history: the slider's frames, the table of events that
-// leads to them, the figures, and a film if one lies in the folder. Called by run_page.
+// leads to them, and the figures. Called by run_page.
 #ifndef AMONTONS_PAGE_HISTORY_PART_H
 #define AMONTONS_PAGE_HISTORY_PART_H
 
@@ -9,9 +9,5 @@
 bool figures_write(HtmlWriter *html, PageSource *source, Error *err);
 bool frames_write(HtmlWriter *html, PageSource *source, Error *err);   // sets source->frames
 bool events_write(HtmlWriter *html, PageSource *source, Error *err);
-
-// Sets source->film: *.mp4, *.webm or *.gif, if there is one.
-void film_find(PageSource *source);
-bool film_write(HtmlWriter *html, PageSource *source, Error *err);
 
 #endif

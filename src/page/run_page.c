@@ -11,7 +11,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { PARTS_MAX = 9, WORDS_SIZE = 700 };
+enum { PARTS_MAX = 8, WORDS_SIZE = 700 };
 
 // The scene's mesh is named as seen from the result folder, so the scene is to be saved there.
 static bool write_again(HtmlWriter *html, PageSource *source, Error *err)
@@ -40,12 +40,10 @@ bool run_page_write(HtmlWriter *html, const char *folder, const char *cycle, Err
     const char *unit = "\u202f<i>L</i><sub>0</sub>";
     int32_t count = 0;
     TRY(run_source_open(folder, &run, err));
-    film_find(&source);
     if (run.si) unit = "\u202fm";
     bool ended = run.state != RUN_UNFINISHED, history = run.has_history;
     if (ended) parts[count++] = (SheetPart){"numbers", "Key numbers", numbers_write};
     if (history) parts[count++] = (SheetPart){"frames-part", "Frames", frames_write};
-    if (source.film[0]) parts[count++] = (SheetPart){"film", "Film", film_write};
     if (history) parts[count++] = (SheetPart){"figures", "Figures", figures_write};
     if (history) parts[count++] = (SheetPart){"events", "Events", events_write};
     if (ended) parts[count++] = (SheetPart){"scene", "Scene", scene_write};

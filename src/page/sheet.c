@@ -25,7 +25,7 @@ void sheet_begin(HtmlWriter *html, const char *title, const char *kind, const Sh
     html_markup(html, "<!DOCTYPE html>\n<html lang='en'>\n<head>\n<meta charset='utf-8'>\n");
     html_markup(html,
                 "<meta http-equiv='Content-Security-Policy' content=\"default-src 'none'; img-src "
-                "data:; media-src data:; style-src 'sha256-%s'; script-src 'sha256-%s'; base-uri "
+                "data:; style-src 'sha256-%s'; script-src 'sha256-%s'; base-uri "
                 "'none'; form-action 'none'\">\n",
                 style, script);
     html_markup(html, "<meta name='viewport' content='width=device-width, initial-scale=1'>\n"

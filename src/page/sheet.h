@@ -8,8 +8,6 @@
 #include "page/run_source.h"
 #include "render/render.h"
 
-#include <limits.h>
-
 // Subject of a page, and what one part of it has found for another.
 typedef struct PageSource {
     const RunSource
@@ -17,7 +15,6 @@ typedef struct PageSource {
     int32_t count;
     const char *cycle;   // that figures of one cycle show; NULL: as they choose
     RenderFrames frames;   // the table of events leads to them
-    char film[NAME_MAX + 1];   // in the run's folder; "": there is none
     const struct SweepSource *sweep;   // NULL: it is no sweep
 } PageSource;
 

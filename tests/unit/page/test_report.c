@@ -75,7 +75,7 @@ TEST_BETWEEN(test_refused, begin, end)
     assert_true(place_has(place, "page.html.part"));
 }
 
-// A report alone: its numbers, its scene, the film beside it; nothing of a history.
+// A report alone: its numbers, its scene; nothing of a history.
 TEST_BETWEEN(test_run_of_a_report_alone, begin, end)
 {
     place_write(place, "run.json",
@@ -84,36 +84,14 @@ TEST_BETWEEN(test_run_of_a_report_alone, begin, end)
                 "\"none\": []},\n    \"friction\": {\"law\": \"coulomb\", \"mu_static\": 0.5},\n"
                 "    \"output\": {\"history\": false, \"end\": null}\n  },\n"
                 "  \"results\": {\"mu_M\": -0.25, \"mu_M_error\": 0.003}\n}\n");
-    place_write(place, "b.webm", "\x1a\x45\xdf\xa3 a film");   // EBML's first bytes (RFC 8794)
-    place_write(place, "c.gif", "GIF89a");
     const char *page = page_here();
     expect(page, "By &lt;hand&gt;");
     expect_not(page, "<hand>");
-    expect(page, "<video controls");
-    expect(page, "data:video/webm;base64,GkXfoyBhIGZpbG0=");   // coreutils' base64 of it
     expect(page, "\u22120.250<");   // a digit below what is known
     expect(page, "there is no error bar");
     expect_not(page, "&nbsp;\u00b1");
     expect(page, "[&quot;a&quot;, &quot;b&quot;]");   // of a list of several lines one
     expect_not(page, "id='events'");
-}
-
-// The page is meant to be sent.
-TEST_BETWEEN(test_films_that_are_none, begin, end)
-{
-    char link[2 * PLACE_SIZE];
-    place_write(place, "run.json", "{\"status\": \"done\"}");
-    place_write(place, "secret", "GIF89a but mine");
-    snprintf(link, sizeof link, "%s", place_path(place, "film.gif"));
-    assert_int_equal(symlink(place_path(place, "secret"), link), 0);
-    const char *page = page_here();
-    expect(page, "is a link");
-    expect_not(page, "data:image/gif");
-    assert_int_equal(unlink(link), 0);
-    place_write(place, "film.gif", "my diary");
-    page = page_here();
-    expect(page, "does not begin as image/gif does");
-    expect_not(page, "data:image/gif");
 }
 
 TEST_BETWEEN(test_run_that_failed, begin, end)
