@@ -20,9 +20,8 @@ enum {
     BAR_MAX = 40,
 };
 
-// A time left is told from this part of the way after the first rapid event on, at the latest, and
-// not before so many s.
-static const double CYCLE_MAX = 0.25, SECONDS_LEAST = 0.2;
+// A time left is told once so much of the way and so many s are behind what counts.
+static const double GONE_LEAST = 0.02, SECONDS_LEAST = 0.2;
 
 static const double LOG_INTERVAL = 10;   // s between lines in a log, of runs behind an error bar
 static const double draw_interval = 0.1;   // s: the eye sees no more, and a terminal costs time
@@ -52,26 +51,6 @@ void progress_format_left(double seconds, char *text, size_t size)
         snprintf(text, size, "%ld:%02ld:%02ld", whole / 3600, whole / 60 % 60, whole % 60);
     else
         snprintf(text, size, "%ld:%02ld", whole / 60, whole % 60);
-}
-
-// The part of the way after which slidings repeat: they come at equal distances, each after as much
-// loading as the first one, or less.
-static double cycle_of(const ProgressRate *rate)
-{
-    return rate->begun.fraction < CYCLE_MAX ? rate->begun.fraction : CYCLE_MAX;
-}
-
-// Seconds left; NaN while that is not known. Once so much of the way has been gone again as before
-// the first event, the cost of slidings is known; measured from the start the time left would jump
-// with the first sliding. The later half of the time counts, or somewhat more, as runs grow dearer
-// or cheaper.
-static double seconds_left(const Progress *progress, double fraction, double elapsed)
-{
-    const ProgressRate *rate = &progress->rate;
-    double gone = fraction - rate->begun.fraction;
-    bool known = rate->uneven ? rate->counts && gone >= cycle_of(rate) : gone >= 1e-3;
-    if (!known || elapsed < SECONDS_LEAST) return NAN;
-    return (elapsed - rate->older.elapsed) / (fraction - rate->older.fraction) * (1 - fraction);
 }
 
 // Writes over the line that stands there; its end is cut off in a narrow terminal.
@@ -185,29 +164,23 @@ void progress_step(const StepView *view, void *context)
         return;
     }
 
-    // Follows the rate of a run. The clock counts from its first rapid event on, as loading up to
-    // that takes next to nothing; while steps are all alike, from the start.
+    // The time left follows from the way since the first rapid event, as loading up to that takes
+    // next to nothing; while steps are all alike, from the way since the start.
     double elapsed = begin_clock(progress, &now);
-    ProgressRate *rate = &progress->rate;
-    Mark mark = {elapsed, view->fraction};
-    if (view->step_size > 0 && rate->step == 0) rate->step = view->step_size;
-    if (view->step_size > 0 && view->step_size != rate->step) rate->uneven = true;
-    if (!rate->counts && view->events > 0) {
-        rate->counts = true;
-        rate->begun = rate->older = rate->newer = mark;
-    }
-    double doubled = 2 * rate->newer.elapsed - rate->begun.elapsed;
-    if (rate->counts && elapsed >= doubled &&
-        mark.fraction - rate->newer.fraction >= cycle_of(rate)) {
-        rate->older = rate->newer;
-        rate->newer = mark;
+    if (view->step_size > 0 && progress->step == 0) progress->step = view->step_size;
+    if (view->step_size > 0 && view->step_size != progress->step) progress->uneven = true;
+    if (!progress->slipped && view->events > 0) {
+        progress->slipped = true;
+        progress->elapsed_then = elapsed;
+        progress->fraction_then = view->fraction;
     }
     if (!is_due(progress, view->fraction, &now)) return;
 
     // "U 0.00123/0.006  mu 0.2034  dt 0.012  3 events  0:12 left", the last where it is known.
-    double seconds = seconds_left(progress, view->fraction, elapsed);
-    progress_format_left(seconds, time, sizeof time);
-    if (!isnan(seconds)) snprintf(left, sizeof left, "  %s left", time);
+    double gone = view->fraction - progress->fraction_then, took = elapsed - progress->elapsed_then;
+    bool known = (progress->slipped || !progress->uneven) && gone >= GONE_LEAST;
+    progress_format_left(took / gone * (1 - view->fraction), time, sizeof time);
+    if (known && took >= SECONDS_LEAST) snprintf(left, sizeof left, "  %s left", time);
     if (view->fraction > 0) snprintf(end, sizeof end, "/%.4g", view->U / view->fraction);
     snprintf(state, sizeof state, "U %.4g%s  mu %.4f  dt %.2g  %d event%s%s", view->U, end,
              view->mu, view->step_size, view->events, view->events == 1 ? "" : "s", left);

@@ -9,27 +9,16 @@
 
 typedef enum ProgressStyle { PROGRESS_QUIET, PROGRESS_LINES, PROGRESS_BAR } ProgressStyle;
 
-// A moment of a run: s since the first step, part of the way.
-typedef struct Mark {
-    double elapsed, fraction;
-} Mark;
-
-// Time that a run has taken since its first rapid event, and lately.
-typedef struct ProgressRate {
-    bool counts;   // there was one
-    bool uneven;   // steps were not all alike
-    double step;   // the first one's, time
-    Mark begun;   // then
-    Mark older, newer;   // each when twice as much time was gone as at the one before
-} ProgressRate;
-
 typedef struct Progress {
     ProgressStyle style;
     struct timespec started;   // at the first step
     struct timespec drawn;   // the bar, last
     bool running;   // a step was seen
     bool bar_stands;   // the cursor is in the line of the bar
-    ProgressRate rate;
+    bool uneven;   // steps were not all alike
+    double step;   // the first one's, time
+    bool slipped;   // there was a rapid event; the next two are of the first one, else 0
+    double elapsed_then, fraction_then;   // s since the first step; part of the way
     int32_t tenths;   // lines: tenths of the run already printed
 } Progress;
 
