@@ -3,7 +3,6 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
-#include "base/text.h"
 #include "io/text/json_reader.h"
 
 #include <math.h>
@@ -61,39 +60,6 @@ static void report_point(Sweep *sweep, int32_t k, const char *report)
     sweep->options->on_point(&view, sweep->options->context);
 }
 
-enum { KEYS_MAX = 64 };
-
-// `path` word by word as run.json spells it, each the nearest of the keys there; false: no such
-// path is near.
-static bool nearest_path(const char *report, const char *path, char nearest[STUDY_NAME_SIZE])
-{
-    char keys[KEYS_MAX][STUDY_NAME_SIZE];
-    const char *names[KEYS_MAX];
-    *nearest = 0;
-    while (*path) {
-        char word[STUDY_NAME_SIZE];
-        const char *key = word;
-        size_t length = strcspn(path, "."), used = strlen(nearest);
-        snprintf(word, sizeof word, "%.*s", (int)length, path);
-        bool is_index = length > 0 && strspn(word, "0123456789") == length;
-        if (!is_index) {
-            int32_t count = 0;
-            while (count < KEYS_MAX &&
-                   json_find_key(report, nearest, count, keys[count], STUDY_NAME_SIZE)) {
-                names[count] = keys[count];
-                count++;
-            }
-            int32_t found = text_nearest(word, names, count);
-            if (found < 0) return false;
-            key = keys[found];
-        }
-        int more = snprintf(nearest + used, STUDY_NAME_SIZE - used, "%s%s", used ? "." : "", key);
-        if (more < 0 || (size_t)more >= STUDY_NAME_SIZE - used) return false;
-        path += length + (path[length] == '.');
-    }
-    return json_may_hold(report, nearest);
-}
-
 // Looks up what the study records in the first run.json of a finished point: a mistyped path must
 // not cost a whole sweep, and run.json has no schema in which to look it up before.
 static bool check_records(Sweep *sweep, int32_t point, const char *report, Error *err)
@@ -103,16 +69,14 @@ static bool check_records(Sweep *sweep, int32_t point, const char *report, Error
     sweep->checked = true;
     for (int32_t k = 0; k < study->record_count; k++) {
         const StudyRecord *record = &study->records[k];
-        char known[STUDY_NAME_SIZE], first[STUDY_NAME_SIZE];
+        char first[STUDY_NAME_SIZE];
         if (record->node == YAML_NO_NODE || json_may_hold(report, record->path)) continue;
         if (json_find_key(report, record->path, 0, first, sizeof first))
             return yaml_error(study->file, record->node, err,
                               "%s: `%s` of run.json has many values: name one, as in %s.%s",
                               record->given_by, record->path, record->path, first);
-        bool near = nearest_path(report, record->path, known);
-        return yaml_error(study->file, record->node, err, "%s: run.json has no `%s`%s%s%s",
-                          record->given_by, record->path, near ? "; did you mean `" : "",
-                          near ? known : "", near ? "`?" : "");
+        return yaml_error(study->file, record->node, err, "%s: run.json has no `%s`",
+                          record->given_by, record->path);
     }
     return true;
 }
