@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A file of unknown content is read in a child process, with limits of time and memory: gmsh and
 // HDF5 crash or hang on some damaged files, and who called them must still say which file it was. A
-// child that only reads can be shut in besides (base/shut_in). Called by io/mesh/mesh_read,
-// run/info/info_result, and whatever draws: run/result/pictures, page/report,
-// study/sweep/showing/render_sweep.
+// child that only reads can be shut in besides (base/shut_in). Called by io/mesh/mesh_read and
+// whatever draws: run/result/pictures, page/report, study/sweep/showing/render_sweep.
 //
 // Only where whoever owns the process has said so (amontons_use_child_processes, or the user by the
 // variable AMONTONS_APART): a library does not fork in a process that it does not know.

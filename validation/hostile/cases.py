@@ -214,7 +214,7 @@ def geometries(stock):
 
 def results(stock):
     for name, data in flips((stock.result / "history.h5").read_bytes(), 70, 2, reach=20000):
-        yield Try("history", name, ["info", "out"], {"out/history.h5": data,
+        yield Try("history", name, ["render", "out"], {"out/history.h5": data,
                   "out/run.json": stock.result / "run.json"}, says="out")
     for name, data in flips((stock.result / "history.h5").read_bytes(), 10, 3, reach=20000):
         yield Try("history", f"drawn, {name}", ["render", "out", "--figure", "force"],
@@ -283,7 +283,7 @@ READ = {
     "compared.csv": (["render", "out", "--figure", "force", "--compare", "compared.csv"], "U,F_T/F_N\n0,0\n1e-4,0.1\n", True),
     "out/run.json": (["info", "out"], "run.json", True),
     "out/history.h5": (["render", "out", "--figure", "force"], "history.h5", False),
-    "out/history.h5.part": (["info", "out"], None, False),
+    "out/history.h5.part": (["render", "out"], None, False),
     "out/checkpoint.bin": (["run", "scene.yaml", "-o", "out", "--extend", "U=0.0009"], "checkpoint.bin", False),
     "out/fields.pvd": (["film", "out", "-o", "film.mp4", "--of", "velocity"], None, True),
 }
@@ -377,7 +377,7 @@ def histories(stock):
         files = {"out/history.h5": made} | {f"out/{beside}": stock.result / beside
                                             for beside in ("run.json", "checkpoint.bin")}
         leads = number < 5
-        asked = {"info": ["info", "out"], "report": ["report", "out", "-o", "page.html"], "render": ["render", "out"]}
+        asked = {"report": ["report", "out", "-o", "page.html"], "render": ["render", "out"]}
         if leads:
             asked["extend"] = ["run", "scene.yaml", "-o", "out", "--extend", "U=0.0009"]
         for what, words in asked.items():

@@ -32,7 +32,7 @@ def pipes_in_place(folder):
     """5. A pipe in the place of a file that is read."""
     put_scene(folder)
     call(folder, *cases.RUN)
-    for name, words in (("out/history.h5", ["info", "out"]), ("out/history.h5", ["render", "out"]),
+    for name, words in (("out/history.h5", ["render", "out"]),
                         ("out/run.json", ["report", "out"]), ("out/checkpoint.bin", [*cases.RUN, "--resume"]),
                         ("scene.yaml", ["run", "scene.yaml", "-o", "new"]), ("block.geo", ["info", "block.geo"])):
         path = folder / name

@@ -1,23 +1,18 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A result in text: run.json says how the run ended, history.h5 what happened.
+// A result in text: how the run ended, from run.json.
 #include "run/info/info.h"
 
-#include "base/child_process.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "io/files/text_file.h"
-#include "io/hdf5/result_file.h"
 #include "io/text/json_reader.h"
-#include "record/events.h"
 #include "run/result/result_folder.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-enum { PATH_SIZE = 1100, EVENTS_SHOWN_MAX = 200, REPORT_BYTES_MAX = 1 << 28 };
-enum { HISTORY_SECONDS_MAX = 5 };   // of processor time
+enum { PATH_SIZE = 1100, REPORT_BYTES_MAX = 1 << 28 };
 
 // "  label   value" for each of these entries of run.json that is there.
 static const struct {
@@ -98,78 +93,17 @@ cleanup:
     return error_is_clean(err);
 }
 
-enum { KIND, U_START, U_STOP, REACH, PEAK_RATE, EVENT_COLUMNS };
-
-// Reads history.h5, or history.h5.part where the run was killed: io/hdf5/result_file opens
-// whichever is there. context is the folder's name. Also called in a child process, whose reply is
-// `out`.
-static bool write_history(void *context, FILE *out, Error *err)
-{
-    const char *folder = context;
-    static const ResultTable tables[EVENT_COLUMNS] = {EVENTS_KIND, EVENTS_U_START, EVENTS_U_STOP,
-                                                      EVENTS_REACH, EVENTS_PEAK_RATE};
-    double *rod = NULL, *mu = NULL, *column[EVENT_COLUMNS] = {0};
-    int64_t rows = 0, mu_rows = 0;
-    int32_t width = 0, nodes = 0, events = 0;
-    double *x = NULL;
-    char title[600] = "";
-    ArrayFile *file = result_file_open(folder, err);
-    TRY(file);
-    TRY(result_file_text(file, "title", title, sizeof title, err));
-    TRY(result_file_read_series(file, SERIES_ROD, &rod, &rows, &width, err));
-    TRY(result_file_read_series(file, SERIES_MU, &mu, &mu_rows, &width, err));
-    TRY(result_file_read_nodes(file, NODES_X, &x, &nodes, err));
-    TRY(result_file_read_tables(file, tables, EVENT_COLUMNS, column, &events, err));
-    double mu_max = -INFINITY;
-    for (int64_t i = 0; i < mu_rows; i++) mu_max = fmax(mu_max, mu[i]);
-    fprintf(out, "  %-18s %s\n  %-18s %lld states at %d contact nodes", "title", title, "history",
-            (long long)rows, nodes);
-    if (rows > 0) fprintf(out, ", U from %.6g to %.6g", rod[0], rod[rows - 1]);
-    if (mu_rows > 0) fprintf(out, ", largest mu %.6g", mu_max);
-    fprintf(out, "\n");
-    if (events > 0)
-        fprintf(out, "\n  %-14s %12s %12s %12s %14s\n", "event", "U start", "U stop", "reach",
-                "peak slip rate");
-    for (int32_t i = 0; i < events && i < EVENTS_SHOWN_MAX; i++)
-        fprintf(out, "  %-14s %12.6g %12.6g %12.6g %14.4g\n", event_words(column[KIND][i]),
-                column[U_START][i], column[U_STOP][i], column[REACH][i], column[PEAK_RATE][i]);
-    if (events > EVENTS_SHOWN_MAX) fprintf(out, "  ... and %d more\n", events - EVENTS_SHOWN_MAX);
-cleanup:
-    if (file) array_file_close(file, err);
-    memory_free_all(rod, mu, x);
-    for (int32_t k = 0; k < EVENT_COLUMNS; k++) memory_free(column[k]);
-    return error_is_clean(err);
-}
-
-// The history is missing where the scene did not ask for it.
 bool info_result(const char *folder, FILE *out, Error *err)
 {
-    static const char *const histories[] = {"history.h5", "history.h5.part", "run.json"};
-    bool there[3];
+    static const char *const files[] = {"history.h5", "history.h5.part", "run.json"};
+    bool there = false;
     for (int32_t k = 0; k < 3; k++) {
         char path[PATH_SIZE];
-        snprintf(path, sizeof path, "%s/%s", folder, histories[k]);
-        there[k] = access(path, F_OK) == 0;
+        snprintf(path, sizeof path, "%s/%s", folder, files[k]);
+        there = there || access(path, F_OK) == 0;
     }
-    if (!there[0] && !there[1] && !there[2])
+    if (!there)
         return REFUSE(err, "%s: not a result folder: no run.json and no history.h5 in it", folder);
     fprintf(out, "result %s\n", folder);
-    if (!write_run(folder, out, err)) return false;
-    if (!there[0] && !there[1]) return true;
-    if (!child_is_wanted()) return write_history((void *)folder, out, err);
-
-    // A stranger's history may crash HDF5, or keep it busy for ever. Ours takes milliseconds: only
-    // columns of one number a state are read.
-    ChildReply reply = {0};
-    ChildWork work = {.path = folder,
-                      .reader = "HDF5",
-                      .seconds = HISTORY_SECONDS_MAX,
-                      .advice = "its history is damaged",
-                      .read = write_history,
-                      .context = (void *)folder};
-    TRY(child_read(&work, &reply, err));
-    fwrite(reply.bytes, 1, (size_t)reply.size, out);   // the caller looks at the stream's state
-cleanup:
-    child_destroy(&reply);
-    return error_is_clean(err);
+    return write_run(folder, out, err);
 }
