@@ -82,14 +82,8 @@ typedef struct RunCounters {
     int64_t certificates;   // factorisations to judge states
     int64_t loop_allocations;   // arrays allocated in the time loop (0 but levels of dt, output)
 } RunCounters;
-typedef struct RunPhase {   // of a run, for --profile
-    const char *name;   // "contact"; static storage
-    double seconds;   // wall time
-    int64_t count;   // of what `note` names
-    char note[96];   // "Newton steps"; or why it was skipped
-} RunPhase;
 
-enum { RUN_PHASES_MAX = 16, RUN_WARNINGS_MAX = 8, RUN_WARNING_SIZE = 400, MESH_MOVED_SIZE = 160 };
+enum { RUN_WARNINGS_MAX = 8, RUN_WARNING_SIZE = 400, MESH_MOVED_SIZE = 160 };
 typedef struct RunWarnings {   // what makes an answer doubtful, a sentence each
     int32_t count;
     char text[RUN_WARNINGS_MAX][RUN_WARNING_SIZE];
@@ -143,9 +137,6 @@ typedef struct RunSummary {
     char mesh_moved[MESH_MOVED_SIZE];   // how the mesh was scaled and moved; empty: not at all
     int32_t field_files, figures;   // VTU files written, pictures drawn
     RunWarnings warnings;   // also where the run failed
-    int32_t phase_count;
-    RunPhase phases[RUN_PHASES_MAX];   // levels of dt (making them), contact, certificate,
-        // bulk: of relax and solve
     char folder[AMONTONS_PATH_SIZE];   // where everything lies
 } RunSummary;
 

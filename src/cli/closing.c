@@ -354,16 +354,3 @@ void closing_print(const char *title, const RunSummary *summary)
 
     if (*summary->folder) print_files(summary);
 }
-
-// Phases as amontons.h has them; some are parts of others, so that their shares do not add up to
-// 100.
-void closing_print_profile(const RunSummary *summary)
-{
-    say("%-18s %10s %6s %10s\n", "Where time went", "seconds", "%", "count");
-    double total = summary->seconds_total > 0 ? summary->seconds_total : 1;
-    for (int32_t k = 0; k < summary->phase_count; k++) {
-        const RunPhase *phase = &summary->phases[k];
-        say("  %-16s %10.4f %6.1f %10lld  %s\n", phase->name, phase->seconds,
-            100 * phase->seconds / total, (long long)phase->count, phase->note);
-    }
-}

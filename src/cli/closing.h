@@ -7,7 +7,4 @@
 
 void closing_print(const char *title, const RunSummary *summary);
 
-// Prints where the time went, a line for each phase.
-void closing_print_profile(const RunSummary *summary);
-
 #endif

@@ -66,7 +66,7 @@ int command_run(const Command *command, int argc, char **argv)
     SceneWords words = {0};
     OptionWords *settings = &words.settings;
     const char *to = NULL, *within = NULL, *extend = NULL, *checkpoint = NULL;   // NULL: not given
-    bool resume = false, profile = false, dry = false;
+    bool resume = false, dry = false;
     Scene *scene = NULL;
     Error err = {0};
     char folder[256], own_settings[3][SETTING_SIZE] = {"", "", ""};
@@ -83,8 +83,6 @@ int command_run(const Command *command, int argc, char **argv)
         {"dry-run", 0, NULL, "Make the mesh, say how large the run would be, and end",
          .flag = &dry},
         {"checkpoint", 0, "TIME", "Between two checkpoints (10s)", .word = &checkpoint},
-        {"profile", 0, NULL, "Print at the end where the time went, and what was skipped and why",
-         .flag = &profile},
         {0}};
     int status = scene_words_read(command, own, argc, argv, &words);
     if (status != 0) return status;
@@ -146,7 +144,6 @@ int command_run(const Command *command, int argc, char **argv)
     progress_end(&progress);
     report_warnings(&summary.warnings);
     if (done && !words.quiet) closing_print(amontons_scene_title(scene), &summary);
-    if (done && profile) closing_print_profile(&summary);
     if (!done) status = report_error(&err);
     amontons_scene_destroy(scene);
     return status;

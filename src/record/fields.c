@@ -8,7 +8,6 @@
 // is idle whenever fields_flush has returned, and before the first time is handed over.
 #include "record/fields.h"
 
-#include "base/clock.h"
 #include "base/memory.h"
 #include "contact/slip.h"
 #include "fem/floor.h"
@@ -44,13 +43,12 @@ static bool write_time(void *self, int32_t slot, int32_t waiting, Error *err)
                         .velocity = copy->whole[1],
                         .relaxing = (const double *const *)copy->whole + 2,
                         .time = copy->time};
-    double started = clock_seconds();
 
     // The mesh in all times that wait: its modes, tens of megabytes, come from memory once for
     // them.
     if (fields->recovered == 0) {
-        const double *unknowns[(2 + SPECTRUM_SHAPES_MAX) * FIELD_SLOTS];
-        double *whole[(2 + SPECTRUM_SHAPES_MAX) * FIELD_SLOTS];
+        const double *unknowns[(2 + SPECTRUM_SHAPES_MAX) * FIELD_SLOTS] = {NULL};
+        double *whole[(2 + SPECTRUM_SHAPES_MAX) * FIELD_SLOTS] = {NULL};
         int32_t each = vectors_of(fields), all = each * waiting;
         for (int32_t k = 0; k < all; k++) {
             const FieldTimeCopy *one = &fields->slots[(slot + k / each) % FIELD_SLOTS];
@@ -74,7 +72,6 @@ static bool write_time(void *self, int32_t slot, int32_t waiting, Error *err)
     if (waiting == 1 || fields->listed % LIST_EVERY == 0)
         TRY(field_file_write_pvd(path, fields->times, fields->listed, err));
 cleanup:
-    fields->seconds_beside += clock_seconds() - started;
     return error_is_clean(err);
 }
 
@@ -105,10 +102,7 @@ void fields_destroy(Fields *fields)
 
 bool fields_flush(Fields *fields, Error *err)
 {
-    double started = clock_seconds();
-    bool done = worker_wait(fields->writer, err);
-    fields->seconds += clock_seconds() - started;
-    return done;
+    return worker_wait(fields->writer, err);
 }
 
 // Makes room for one more time. The writer must be idle where there is none.
@@ -158,7 +152,6 @@ bool fields_record(void *self, const Observation *seen, Error *err)
     size_t bytes = (size_t)state->dof_count * sizeof(double);
     int32_t slot;
     if (!is_due(fields, seen)) return true;
-    double started = clock_seconds();
 
     // The writer starts at the first time that is written: until then nobody knows the system.
     if (!fields->writer) {
@@ -224,7 +217,6 @@ bool fields_record(void *self, const Observation *seen, Error *err)
     }
     worker_submit(fields->writer);
     fields->written++;
-    fields->seconds += clock_seconds() - started;
     return true;
 }
 

@@ -43,8 +43,6 @@ typedef struct Fields {
     double *times;   // [listed] of the files that are written
     int32_t listed, room;   // room: times there is room for
     int32_t written;   // times written or handed to the writer
-    double seconds;   // wall time the run spent on them
-    double seconds_beside;   // and the writer
     double next_U, next_t;   // when the next is due
     double slipped;   // of the fastest point, since the last; length
 } Fields;

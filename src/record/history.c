@@ -123,20 +123,17 @@ static void fill_rows(History *history, const Observation *seen, double *row[RES
     for (int32_t i = 0; i < contact->count; i++) history->status[i] = contact->status[i];
 }
 
-// The time of a flush is not counted in `seconds`: it is the disk's.
 bool history_record(void *self, const Observation *seen, Error *err)
 {
     History *history = self;
-    double started = clock_seconds(), *row[RESULT_SERIES_COUNT];
+    double *row[RESULT_SERIES_COUNT];
     fill_rows(history, seen, row);
     for (ResultSeries s = 0; s < RESULT_SERIES_COUNT; s++)
         if (history->written[s] &&
             !array_file_append(history->file, result_series_name(s), row[s], 1, err))
             return false;
     history->end.rows++;
-    double now = clock_seconds();
-    history->seconds += now - started;
-    return now < history->flush_at || history_sync(history, err);
+    return clock_seconds() < history->flush_at || history_sync(history, err);
 }
 
 void history_end_archive(HistoryEnd *end, Archive *archive)

@@ -20,7 +20,6 @@ typedef struct History {
     ArrayFile *file;   // NULL: no history is kept; owned
     HistoryEnd end;
     bool written[RESULT_SERIES_COUNT];   // which series there are
-    double seconds;   // wall time spent
     double flush_at;   // wall time of the next flush, s
     double *status;   // [contact_count] as numbers, of the step under way; owned
     double *pad;   // [contact_count] the nodes' pads as stored; owned

@@ -3,7 +3,6 @@
 // finished history.
 #include "run/output.h"
 
-#include "base/clock.h"
 #include "base/memory.h"
 #include "base/module.h"
 #include "friction/friction.h"
@@ -232,7 +231,6 @@ bool output_draw_figures(Simulation *simulation, Error *err)
 
     // All at once; else one after the other. What this result has nothing for is a warning: what
     // was computed is there.
-    double started = clock_seconds();
     bool drawn = pictures_draw(simulation->folder.path, &request, err);
     simulation->figures = count;
     if (!drawn) {
@@ -252,7 +250,6 @@ bool output_draw_figures(Simulation *simulation, Error *err)
         warnings_add(&simulation->warnings, "a picture is not drawn: %.300s", err->message);
         *err = (Error){0};
     }
-    simulation->figures_seconds = clock_seconds() - started;
     return true;
 }
 

@@ -215,13 +215,18 @@ static void write_all(JsonWriter *json, const char *folder, const RunReport *rep
     }
     json_end(json);
 
-    // Wall seconds by stage; outside_loop_cpu is processor time, of all but the loop of steps and
-    // relaxing.
+    // Wall seconds by stage; bulk is what is left of relaxing and solving, its products and
+    // substitutions. outside_loop_cpu is processor time, of all but the loop of steps and relaxing.
     const RunTiming *timing = &simulation->timing;
+    const StepControl *control = &simulation->control;
+    double levels = control->dt_levels.seconds, contact = control->scheme.solver.seconds;
+    double certificate = control->certificate.seconds;
+    double bulk = fmax(timing->relax + timing->solve - levels - contact - certificate, 0);
     json_object_of(json, "timing_s", {"mesh", simulation->model.seconds_mesh},
                    {"reduce", simulation->model.seconds_reduce}, {"relax", timing->relax},
-                   {"solve", timing->solve}, {"output", timing->output}, {"total", timing->total},
-                   {"outside_loop_cpu", timing->outside});
+                   {"solve", timing->solve}, {"levels", levels}, {"contact", contact},
+                   {"certificate", certificate}, {"bulk", bulk}, {"output", timing->output},
+                   {"total", timing->total}, {"outside_loop_cpu", timing->outside});
 
     write_model(json, simulation);
     write_results(json, report);

@@ -85,7 +85,6 @@ struct Simulation {
     double deadline;   // of it, when the run ends as if it were stopped; INFINITY: never
     int64_t allocations_before;   // simulation_allocations() when the time loop began
     int32_t figures;   // drawn
-    double figures_seconds;
 };
 
 // Arrays allocated so far, but for those of levels.

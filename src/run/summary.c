@@ -50,59 +50,6 @@ StepView step_view(const Observation *seen, const Events *events, const ContactA
                                   .states = contact->states}};
 }
 
-// There are fewer phases than RUN_PHASES_MAX: the list below is fixed. A note that is too long is
-// cut.
-static void add_phase(RunSummary *summary, const char *name, double seconds, int64_t count,
-                      const char *note)
-{
-    RunPhase *phase = &summary->phases[summary->phase_count++];
-    *phase = (RunPhase){.name = name, .seconds = seconds, .count = count};
-    snprintf(phase->note, sizeof phase->note, "%s", note);
-}
-
-// Lists where the time went, in the order of a run, and why parts were skipped. `bulk` is the rest
-// of relaxing and solving: products and substitutions.
-static void list_phases(const Simulation *simulation, RunSummary *summary)
-{
-    const RunTiming *timing = &simulation->timing;
-    const StepControl *control = &simulation->control;
-    const ContactSolver *solver = &control->scheme.solver;
-    const Certificate *certificate = &control->certificate;
-    const Model *model = &simulation->model;
-    bool cached = model->from_cache, reduced = model->reduced.count > 0;
-    bool fields = simulation->fields.written > 0;
-    double inside = solver->seconds + certificate->seconds + control->dt_levels.seconds;
-    char note[96], written[96];
-    add_phase(summary, "mesh", model->seconds_mesh, model->mesh.element_count,
-              model->mesh_origin == MESH_OF_CACHE ? "elements, from the cache"
-                                                  : "elements, read through gmsh");
-    snprintf(note, sizeof note, "unknowns for %d%s%s", model->bulk.dof_count,
-             model->reduced.part_count > 1 ? ", by halves" : "",
-             cached    ? ", from the cache"
-             : reduced ? ""
-                       : ": not reduced");
-    add_phase(summary, "assemble, reduce", model->seconds_reduce, model->system.dof_count, note);
-    add_phase(summary, "relax", timing->relax, simulation->relaxation_steps, "steps before t = 0");
-    add_phase(summary, "levels of dt", control->dt_levels.seconds,
-              simulation->model.system.factorisations, "factorisations, each when first used");
-    add_phase(summary, "contact", solver->seconds, solver->iterations, "Newton steps");
-    add_phase(summary, "certificate", certificate->seconds, certificate->checks,
-              simulation->scene.time.certificate ? "small factorisations"
-                                                 : "skipped: switched off");
-    add_phase(summary, "bulk", fmax(timing->solve + timing->relax - inside, 0),
-              simulation->model.system.solves, "stages: products and substitutions");
-    add_phase(summary, "history", simulation->history.seconds, simulation->history.end.rows,
-              simulation->history.end.rows > 0 ? "rows" : "skipped: output.history is false");
-    snprintf(written, sizeof written, "times, recovered and written by VTK beside it in %.4f s",
-             simulation->fields.seconds_beside);
-    add_phase(summary, "fields", simulation->fields.seconds, simulation->fields.written,
-              fields ? written : "skipped: output.fields is none, VTK is not loaded");
-    add_phase(summary, "figures", simulation->figures_seconds, simulation->figures,
-              simulation->figures > 0 ? "pictures"
-                                      : "skipped: output.figures is empty, Cairo is not loaded");
-    add_phase(summary, "total", timing->total, control->counters.accepted, "accepted steps");
-}
-
 // Allocations of the loop are counted from when it began; a run that failed before has none.
 RunCounters summary_count(const Simulation *simulation)
 {
@@ -276,5 +223,4 @@ void summary_fill(const Simulation *simulation, const RunCounters *counters, con
                                scene->time.until_mu_below > 0;
     }
     snprintf(summary->folder, sizeof summary->folder, "%s", simulation->folder.path);
-    list_phases(simulation, summary);
 }

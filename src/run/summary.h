@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Data for the caller of amontons.h: of an accepted step (StepView; also of study/line's), and at
-// the end counts, answers and seconds: RunCounters, RunSummary and the phases that `amontons run
-// --profile` prints. Called by run/simulation.
+// the end counts, answers and seconds: RunCounters and RunSummary. Called by run/simulation.
 #ifndef AMONTONS_RUN_SUMMARY_H
 #define AMONTONS_RUN_SUMMARY_H
 

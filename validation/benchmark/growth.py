@@ -249,7 +249,7 @@ def phase_table(quick):
         if ended:
             total = ended.phases["total"][0]
             for name, (seconds, count) in ended.phases.items():
-                if name not in ("relax", "total", "fields", "figures", "history"):
+                if name != "total":
                     rows.append([f"{n}x{n}", name, f"{seconds:.4f}", f"{100 * seconds / total:.1f}",
                                  count, f"{1e6 * seconds / max(1, count):.1f}"])
             rows.append([f"{n}x{n}", "total", f"{total:.3f}", "100",

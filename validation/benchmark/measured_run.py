@@ -5,7 +5,6 @@ change."""
 import json
 import math
 import os
-import re
 import resource
 import shutil
 import signal
@@ -35,7 +34,7 @@ class Measured:
     said: str              # standard error without progress lines; paths relative to the project
     report: dict           # run.json; empty: none was written
     late_mu: float         # mean of mu over the second half of the time; NaN: no history
-    phases: dict           # of --profile: name -> (wall seconds, count)
+    phases: dict           # name -> (wall seconds, count); empty: no run.json
 
 
 def is_message(line):
@@ -43,9 +42,15 @@ def is_message(line):
     return line.startswith("amontons:") or line.startswith(" ") and "%" not in line[:6]
 
 
-def phases_of(printed):
-    return {name.strip(): (float(wall), int(count)) for name, wall, count in
-            re.findall(r"^  (\S[\w, ]*?)  +([\d.]+) +[\d.]+ +(\d+)  ", printed, re.M)}
+def phases_of(report):
+    """Where the time went, from run.json."""
+    if "timing_s" not in report:
+        return {}
+    clock, steps = report["timing_s"], report["steps"]
+    return {"mesh": (clock["mesh"], report["model"]["elements"]), "assemble, reduce": (clock["reduce"], report["model"]["full_dofs"]),
+            "levels of dt": (clock["levels"], steps["factorisations"]), "contact": (clock["contact"], steps["contact_iterations"]),
+            "certificate": (clock["certificate"], steps["certificates"]), "bulk": (clock["bulk"], steps["solves"]),
+            "total": (clock["total"], steps["accepted"])}
 
 
 def late_mean(path):
@@ -68,16 +73,15 @@ def run(scene, settings, cpu_limit=60, into=None, words=(), cache=None):
     cache: folder of the shape cache; None: the caller's."""
     with tempfile.TemporaryDirectory() as scratch:
         folder = Path(into or f"{scratch}/result")
-        words = [PROGRAM, "run", scene, "-o", folder, "--quiet", "--overwrite", "--profile", *words]
+        words = [PROGRAM, "run", scene, "-o", folder, "--quiet", "--overwrite", *words]
         for setting in settings:
             words += ["--set", setting]
 
         def limit():
             resource.setrlimit(resource.RLIMIT_CPU, (cpu_limit, cpu_limit + 5))
 
-        printed = Path(scratch, "printed")
-        with open(f"{scratch}/said", "w+") as said, open(printed, "w") as profile:
-            process = subprocess.Popen([str(word) for word in words], stdout=profile,
+        with open(f"{scratch}/said", "w+") as said:
+            process = subprocess.Popen([str(word) for word in words], stdout=subprocess.DEVNULL,
                                        stderr=said, stdin=subprocess.DEVNULL, preexec_fn=limit,
                                        env=os.environ | ({"AMONTONS_CACHE": str(cache)} if cache else {}))
             _, status, usage = os.wait4(process.pid, 0)
@@ -90,9 +94,8 @@ def run(scene, settings, cpu_limit=60, into=None, words=(), cache=None):
         report = json.loads(written.read_text()) if written.exists() else {}
         late = late_mean(folder / "history.h5")
         seconds = usage.ru_utime + usage.ru_stime
-        phases = phases_of(printed.read_text())
     return Measured(status, status == -signal.SIGXCPU, seconds,
-                    usage.ru_maxrss / 1024, text, report, late, phases)
+                    usage.ru_maxrss / 1024, text, report, late, phases_of(report))
 
 
 def git(*words):

@@ -130,7 +130,6 @@ def exact_cases(place):
     folder, stops = resumed(place)
     yield f"stopped {stops} times, --resume", folder
     yield "not quiet", place.run(["run", "scene.yaml", "-o", "out"])
-    yield "profile", place.run(RUN + ["--profile"])
     yield "another current folder", place.run(shell='p="$1"; here="$PWD"; cd /; exec "$p" run "$here/scene.yaml" '
                                                     '-o "$here/out" --quiet')
     yield "mesh in this process", place.run(env={"AMONTONS_APART": ""})
