@@ -132,7 +132,11 @@ def figure_1(study):
     for cells in (20,) if study.quick else (20, 40):
         found = Stability(study, scene, "fig1-growth", figure_settings(cells)).results
         run = Run(study, scene, "fig1", figure_settings(cells))
-        peak, name = run.report["results"]["peaks"][SLIDINGS], f"Figure 1, {cells} x {cells}"
+        peaks = run.report["results"]["peaks"]
+        peak, name = dict(peaks[SLIDINGS]), f"Figure 1, {cells} x {cells}"
+        # The front is read at the last step before slip is rapid. Where it forms anew after a precursor it may pass ten nodes in the
+        # step that leads there, on some processors in one sliding of three; the median of the slidings leaves such a one out.
+        peak["l_c_over_L"] = float(np.median([each["l_c_over_L"] for each in peaks]))
         # Both know the front to one node only, and so no better than by one element.
         for quantity, key, other in (
                 ("l_c/L at V: front before the leading rapid precursor", "l_c_at_V_over_L", "l_c_over_L"),
