@@ -53,10 +53,8 @@ enum { TAKEN_BY_FIGURES = 0, TAKEN_BY_FILMS = 1, TAKEN_BY_PAGES = 2 };
       "Words above it; `scene`: the title of what is shown, which a film has by default; `none`")  \
     X(inset, WORD, 0, 0, "force", TAKEN_BY_FIGURES, "above none", "WHERE",                         \
       "What force enlarges: above (the default) or none")                                          \
-    X(legend, WORD, 0, 0, "", TAKEN_BY_FIGURES,                                                    \
-      "auto none upper-right upper-left lower-left lower-right outside below", "WHERE",            \
-      "Where the legend stands: auto, none, upper-right, upper-left, lower-left, lower-right, "    \
-      "outside or below")                                                                          \
+    X(legend, WORD, 0, 0, "", TAKEN_BY_FIGURES, "below none", "WHERE",                             \
+      "What the marks mean: below (the default) or none")                                          \
     X(limits, RANGE, 0, 0, "slip-map contact-area state-map contact-plane field field-strip plot", \
       TAKEN_BY_FIGURES, "", "LOW,HIGH",                                                            \
       "Ends of the colours, in the numbers shown; or percents of what is shown, as in 1%,99%")     \

@@ -10,7 +10,7 @@
 // points and its name, then a line "x y" for each point.
 #include "base/memory.h"
 #include "render/canvas/axes.h"
-#include "render/plot/legend.h"
+#include "render/canvas/key.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -21,7 +21,7 @@ enum { COLUMNS = 3, WIDTH = 1000, HEIGHT = 700 };   // WIDTH, HEIGHT: of one cha
 enum { MARKED_MAX = 20 };   // curves of so few points show each of them
 
 static const double COLUMN_MM = 86;   // of one chart in print
-static const double NAME_PITCH = 9, DISC_RADIUS = 1.6;   // points
+static const double DISC_RADIUS = 1.6;   // points
 
 typedef struct Curve {
     char name[LINE_SIZE];
@@ -137,57 +137,28 @@ static bool draw_curve(const Page *page, const Axes *axes, const Curve *curve, C
     return true;
 }
 
-// Where the curves' names hide least of them; right of the frame, which is narrowed, where no corner
-// is free.
-static bool place_names(const Page *page, const Chart *chart, Axes *axes, Box *names, Error *err)
-{
-    LegendSize size = {.height = NAME_PITCH * chart->curve_count * page->point,
-                       .margin = 4 * page->point,
-                       .clearance = 2 * page->point,
-                       .mark = DISC_RADIUS * page->point};
-    PlotPanel *panel = NEW_ARRAY(PlotPanel, 1, err);
-    if (!panel) return false;
-    for (int32_t c = 0; c < chart->curve_count; c++) {
-        const Curve *curve = &chart->curves[c];
-        size.width =
-            fmax(size.width, text_width(page->text, NUMBER_SIZE * page->point, curve->name));
-        panel->series[panel->series_count++] =
-            (PlotSeries){.count = (int32_t)curve->count,
-                         .x = curve->x,
-                         .y = curve->y,
-                         .line = LINE_SOLID,
-                         .marker = curve->count <= MARKED_MAX ? MARKER_CIRCLE : MARKER_NONE};
-    }
-    PlotCorner corner = legend_choose(panel, axes, &size, NULL);
-    if (corner == CORNER_OUTSIDE)
-        axes->box.right = round(axes->box.right - size.width - size.margin);
-    *names = legend_box(axes, &size, corner);
-    memory_free(panel);
-    return true;
-}
-
 // corner: the upper left one of the chart's place on the page, pixels.
 static bool draw_chart(const Page *page, Point corner, const Chart *chart, Error *err)
 {
+    Page own = *page;
+    KeyEntry names[CURVES_MAX];
     double point = page->point;
+    TextStyle title = {.size = LABEL_SIZE * point, .color = INK};
     Axes axes = {.bare_x = false};
     fit_axis(chart, true, &axes.x);
     fit_axis(chart, false, &axes.y);
-    double foot = axes_bottom_margin(&axes) + 4;
-    axes.box = (Box){.left = round(corner.x + (axes_left_margin(page, &axes) + 4) * point),
-                     .top = round(corner.y + 22 * point),
-                     .right = round(corner.x + WIDTH - 8 * point),
-                     .bottom = round(corner.y + HEIGHT - foot * point)};
-    TextStyle title = {.size = LABEL_SIZE * point, .color = INK};
-    Box names;
-    TRY(place_names(page, chart, &axes, &names, err));
+
+    // The curves' names stand below.
+    own.room = (Box){corner.x + 4 * point, corner.y + 22 * point, corner.x + WIDTH,
+                     corner.y + HEIGHT - 4 * point};
+    for (int32_t c = 0; c < chart->curve_count; c++)
+        names[c] = (KeyEntry){KEY_LINE, COLORS[c], chart->curves[c].name};
+    key_draw(&own, names, chart->curve_count);
+    axes_fit(&own, &own.room, 8, &axes);
+
     text_draw(page->text, &title, (Point){axes.box.left, corner.y + 12 * point}, chart->title);
-    for (int32_t c = 0; c < chart->curve_count; c++) {
+    for (int32_t c = 0; c < chart->curve_count; c++)
         TRY(draw_curve(page, &axes, &chart->curves[c], COLORS[c], err));
-        TextStyle name = {.size = NUMBER_SIZE * point, .color = COLORS[c], .up = 0.5};
-        Point place = {names.left, names.top + (c + 0.5) * NAME_PITCH * point};
-        text_draw(page->text, &name, place, chart->curves[c].name);
-    }
     axes_draw(page, &axes);
 cleanup:
     return error_is_clean(err);

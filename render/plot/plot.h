@@ -27,17 +27,6 @@ typedef enum PlotMarker {
 
 typedef enum PlotLine { LINE_NONE, LINE_SOLID, LINE_THIN, LINE_DASHED } PlotLine;
 
-typedef enum PlotCorner {
-    CORNER_AUTO,   // render/plot/legend.h chooses
-    CORNER_NONE,
-    CORNER_UPPER_RIGHT,
-    CORNER_UPPER_LEFT,
-    CORNER_LOWER_LEFT,
-    CORNER_LOWER_RIGHT,
-    CORNER_OUTSIDE,   // right of the frame, which makes room
-    CORNER_BELOW,   // in lines below the frame, which makes room
-} PlotCorner;
-
 typedef struct PlotSeries {
     char label[PLOT_LABEL_SIZE];   // may be empty
     int32_t count;
@@ -61,7 +50,6 @@ typedef struct PlotPanel {
     char title[PLOT_LABEL_SIZE];   // of one among several; may be empty
     Axis x, y;   // ends fit the data where the file gives none
     char (*names)[AXIS_LABEL_SIZE];   // of y.names; owned
-    PlotCorner legend;
     int32_t series_count;
     PlotSeries series[PLOT_SERIES_MAX];
     bool has_map;
@@ -70,6 +58,7 @@ typedef struct PlotPanel {
 
 typedef struct Plot {
     char title[256];
+    bool no_legend;
     double height_over_width;
     PictureStyle style;   // what its `page` says; texts in `words`
     char words[PLOT_WORDS][PLOT_WORD_SIZE];   // [word_count]

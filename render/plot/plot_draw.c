@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A plot on its page: one frame, perhaps with an inset, or a page of frames with the same axes and
-// colours; the legend where the file or render/plot/legend.h puts it.
+// colours; the legend in lines below.
 #include "render/plot/plot_draw.h"
 
 #include "base/memory.h"
@@ -15,6 +15,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 // --- one frame ----------------------------------------------------------------------------------
 
@@ -141,8 +142,8 @@ static bool panels_draw(const Page *page, const Plot *plot, const Box *below, Er
 // --- the page -----------------------------------------------------------------------------------
 
 static const double RIGHT_MARGIN = 6, POWER_MARGIN = 9;   // points: half a number may stand there
-static const double BELOW_MARGIN = 6;   // points beside a legend below
-static const double FRAME_LEAST = 10;   // points: width beside a legend
+static const double LEGEND_MARGIN = 6;   // points beside the legend
+static const double FRAME_LEAST = 10;   // points: height above the legend
 static const double INSET_SHARE = 0.75;   // marks and lines of an inset over the main ones
 
 // The frame above `bottom`, with room for what stands beside it.
@@ -167,36 +168,27 @@ static Box inset_place(const Plot *plot, const Box *frame)
                  .bottom = frame->top + plot->place[3] * height};
 }
 
-// A plot of one frame. axes: from frame_axes, narrowed by a legend beside them; legend_is_below: it
-// stands elsewhere.
-static bool frame_draw(const Page *page, const Plot *plot, const MapScale *scale, Axes *axes,
-                       bool legend_is_below, Error *err)
+// A plot of one frame. axes: from frame_axes.
+static bool frame_draw(const Page *page, const Plot *plot, const MapScale *scale, const Axes *axes,
+                       Error *err)
 {
-    Box place = inset_place(plot, &axes->box), legend = {0};
-    if (!legend_is_below)
-        legend = legend_settle(page, &plot->main, 1, plot->has_inset ? &place : NULL, axes);
-    if (axes->box.right - axes->box.left < FRAME_LEAST * page->point)
+    if (axes->box.bottom - axes->box.top < FRAME_LEAST * page->point)
         return REFUSE(err,
-                      "the page is too narrow for its legend beside the frame: give it another "
-                      "width, or its legend another place");
+                      "the page is too low for its legend: give it another height, or no legend");
     if (!panel_draw(page, &plot->main, NULL, scale, 1, axes, err)) return false;
-    legend_draw(page, axes, &plot->main, &legend, 1);
     if (plot->main.has_map) colorbar_draw(page, &scale->bar, &axes->box, BAR_GAP);
     if (!plot->has_inset) return true;
 
     // The inset covers what lies below it: its place is cleared to paper first. Its frame is what
     // is left of that when its numbers and names have their room.
-    place = inset_place(plot, &axes->box);
+    Box place = inset_place(plot, &axes->box);
     Axes inset = {.box = place, .x = plot->inset.x, .y = plot->inset.y, .small = true};
     inset.box.left = round(place.left + axes_left_margin(page, &inset) * page->point);
     inset.box.bottom = round(place.bottom - axes_bottom_margin(&inset) * page->point);
     inset.box.right = round(place.right);
     inset.box.top = round(place.top);
     draw_fill(page->canvas, PAPER, &place);
-    legend = legend_settle(page, &plot->inset, INSET_SHARE, NULL, &inset);
-    if (!panel_draw(page, &plot->inset, NULL, scale, INSET_SHARE, &inset, err)) return false;
-    legend_draw(page, &inset, &plot->inset, &legend, INSET_SHARE);
-    return true;
+    return panel_draw(page, &plot->inset, NULL, scale, INSET_SHARE, &inset, err);
 }
 
 // Puts the ends of the colours where the style asks for them.
@@ -237,24 +229,20 @@ bool plot_draw(Page *page, Plot *plot, const PictureStyle *style, const char *ti
         def.height = rows * plot->height_over_width * (1 - BESIDE) / columns + ABOVE;
         if (!(used.width > 0) && !used.style) used.width = WIDTH_OF[columns - 1];
     }
-    if (used.legend) plot->main.legend = plot_corner_find(used.legend);
+    if (used.legend) plot->no_legend = strcmp(used.legend, "none") == 0;
     if (!limit_colors(plot, &used, err)) return false;
     if (used.compare && !plot_compare(plot, used.compare, err)) return false;
     if (!page_begin(page, &def, err)) return false;
 
-    // The frames, above a legend in lines below them.
-    double margin = BELOW_MARGIN * page->point, bottom = page->room.bottom;
+    // The frames, above the legend.
+    double margin = LEGEND_MARGIN * page->point, bottom = page->room.bottom;
     MapScale scale = map_scale_fit(plot);
-    Axes axes = frame_axes(page, plot, &scale, bottom);
     Box below = {margin, bottom, canvas_width(page->canvas) - margin, bottom};
-    bool is_below = legend_is_below(page, plot, &axes);
-    if (is_below) {
-        below.top -= round(legend_below_height(page, &plot->main, &below));
-        axes = frame_axes(page, plot, &scale, below.top);
-    }
+    if (!plot->no_legend) below.top -= round(legend_height(page, &plot->main, &below));
+    Axes axes = frame_axes(page, plot, &scale, below.top);
     bool drawn = plot->panel_count > 0 ? panels_draw(page, plot, &below, err)
-                                       : frame_draw(page, plot, &scale, &axes, is_below, err);
-    if (drawn && is_below) legend_below_draw(page, &plot->main, &below);
+                                       : frame_draw(page, plot, &scale, &axes, err);
+    if (drawn && !plot->no_legend) legend_draw(page, &plot->main, &below);
     return drawn;
 }
 

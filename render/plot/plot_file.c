@@ -20,9 +20,7 @@ static const double HEIGHT_STANDARD = 0.75;
 static const char *const MARKERS[] = {"none", "circle", "square", "triangle",
                                       "down", "cross",  NULL};
 static const char *const LINES[] = {"none", "solid", "thin", "dashed", NULL};
-static const char *const CORNERS[] = {"auto",       "none",       "upper-right",
-                                      "upper-left", "lower-left", "lower-right",
-                                      "outside",    "below",      NULL};
+static const char *const LEGENDS[] = {"below", "none", NULL};
 static const char *const SCALES[] = {"linear", "log", NULL};
 
 // Its length is that of `x`; `y`, `low` and `high` must have the same.
@@ -110,13 +108,11 @@ static bool read_data(const PlotReader *reader, YamlNode map, PlotPanel *panel)
     return true;
 }
 
-// The plot itself, or its inset: both have axes, a legend and what they show.
+// The plot itself, or its inset: both have axes and what they show.
 static bool read_panel(const PlotReader *reader, YamlNode map, PlotPanel *panel)
 {
-    int32_t corner = CORNER_AUTO;
     if (!read_axis(reader, map, "x", "label unit column scale range ", &panel->x) ||
-        !read_axis(reader, map, "y", "label unit column scale range names ", &panel->y) ||
-        !plot_read_choice(reader, map, "legend", CORNERS, &corner))
+        !read_axis(reader, map, "y", "label unit column scale range names ", &panel->y))
         return false;
     YamlNode y = plot_child(reader, map, "y");
     YamlNode names = y == YAML_NO_NODE ? y : plot_child(reader, y, "names");
@@ -132,7 +128,6 @@ static bool read_panel(const PlotReader *reader, YamlNode map, PlotPanel *panel)
         panel->y.names = (const char(*)[AXIS_LABEL_SIZE])panel->names;
         panel->y.name_count = count;
     }
-    panel->legend = (PlotCorner)corner;
     bool shows = plot_child(reader, map, "series") != YAML_NO_NODE ||
                  plot_child(reader, map, "map") != YAML_NO_NODE ||
                  plot_child(reader, map, "panels") != YAML_NO_NODE;
@@ -164,7 +159,7 @@ static bool read_panels(const PlotReader *reader, YamlNode list, Plot *plot)
 static bool read_inset(const PlotReader *reader, YamlNode map, Plot *plot)
 {
     YamlNode place = plot_child(reader, map, "place");
-    if (!plot_check_keys(reader, map, "inset", "place x y legend series map ")) return false;
+    if (!plot_check_keys(reader, map, "inset", "place x y series map ")) return false;
     if (place == YAML_NO_NODE) {
         yaml_error(reader->file, map, reader->err, "an inset needs its `place`");
         return false;
@@ -205,25 +200,20 @@ static bool read_page(const PlotReader *reader, Plot *plot)
     return true;
 }
 
-PlotCorner plot_corner_find(const char *name)
-{
-    int32_t found = 0;
-    for (int32_t k = 0; CORNERS[k]; ++k)
-        if (strcmp(CORNERS[k], name) == 0) found = k;
-    return (PlotCorner)found;
-}
-
 static bool read_plot(const PlotReader *reader, Plot *plot)
 {
     static const char known[] =
         "title height x y color contours legend series map panels inset page ";
     static const char *const axes[2] = {"x", "y"};
+    int32_t legend = 0;
     YamlNode height = plot_child(reader, YAML_ROOT, "height");
     YamlNode inset = plot_child(reader, YAML_ROOT, "inset");
     YamlNode panels = plot_child(reader, YAML_ROOT, "panels");
     if (!plot_check_keys(reader, YAML_ROOT, "plot", known) ||
-        !plot_read_text(reader, YAML_ROOT, "title", plot->title, sizeof plot->title))
+        !plot_read_text(reader, YAML_ROOT, "title", plot->title, sizeof plot->title) ||
+        !plot_read_choice(reader, YAML_ROOT, "legend", LEGENDS, &legend))
         return false;
+    plot->no_legend = legend == 1;
     plot->height_over_width = HEIGHT_STANDARD;
     if (height != YAML_NO_NODE) {
         if (!plot_read_number(reader, height, "height", &plot->height_over_width)) return false;

@@ -8,9 +8,7 @@
 //                                             # unit: Pa beside a label: written behind it, as
 //                                             # kPa or MPa where that makes the numbers short
 //     y: {label: "~{\u03bc}_{M}"}          # or {names: [a, b]}: these stand at y = 1, 2, ...
-//     legend: auto                            # where it hides nothing; or upper-right, upper-left,
-//                                             # lower-left, lower-right, outside, below,
-//                                             # none
+//     legend: below                           # the frame; or none
 //     series:
 //       - label: "~{L} = 1"                   # none: not in the legend
 //         x: [0.001, 0.01]
@@ -21,7 +19,8 @@
 //         marker: circle                      # or square, triangle, down, cross, none
 //         filled: false
 //         line: thin                          # or solid, dashed, none
-//     inset: {place: [0.5, 0.05, 0.97, 0.5], x: ..., y: ..., series: [...]}   # of the frame
+//     inset: {place: [0.5, 0.05, 0.97, 0.5], x: ..., y: ..., series: [...]}   # of the frame;
+//                                             # its series are not in the legend
 //
 //     x: {column: load.pressure}              # what the column is called in page.compare's table
 //     page: {style: columns, height: 60, legend: none}   # an option of `amontons render`; what the
@@ -50,8 +49,5 @@
 bool plot_file_read(const char *path, Plot *plot, Error *err);
 
 void plot_destroy(Plot *plot);   // zeroed is fine
-
-// The corner of that name, one of those that `legend` may have.
-PlotCorner plot_corner_find(const char *name);
 
 #endif

@@ -31,7 +31,7 @@ record: [results.mu_max]
 PLOT = """title: Two points
 x: {label: a, scale: log, range: [1e-3, 1]}
 y: {label: b}
-legend: auto
+legend: below
 series:
   - {label: one, x: [0.001, 0.01], y: [0.38, null], low: [0.3, 0.2], high: [0.4, 0.3], color: 1}
 inset: {place: [0.5, 0.05, 0.97, 0.5], x: {label: c}, y: {label: d}, series: []}

@@ -42,7 +42,7 @@ def figure_2(place, name, rows, material, filled):
     place.draw(name, {
         "title": f"mu_M against pressure, set {material.name}; bars: 95 %",
         "x": {"label": P_LABEL, "scale": "log"}, "y": {"label": MU_LABEL, "range": [0, material.mu_static * 1.07]},
-        "legend": "lower-left", "series": curves_of_pressure(rows, material, filled)})
+        "series": curves_of_pressure(rows, material, filled)})
 
 
 def figure_3a(place, found):
@@ -62,7 +62,7 @@ def figure_3a(place, found):
         "title": "mu_M against the critical length", "height": 0.85,
         "x": {"label": "~{l}_{c} / ~{L}", "range": [0, 1.02]}, "y": {"label": MU_LABEL, "range": [0, 1.5]},
         "series": series,
-        "inset": {"place": [0.29, 0.015, 0.68, 0.38], "legend": "none",
+        "inset": {"place": [0.29, 0.015, 0.68, 0.38],
                   "x": {"label": P_LABEL, "scale": "log", "range": [8e-4, 0.13]},
                   "y": {"label": "~{l}_{c} / ~{L}", "scale": "log", "range": [0.008, 1.5]}, "series": inset}})
 

@@ -259,7 +259,7 @@ def pads_depends(study, at):
     lines.append(["set B", set_b[designs[0]], *(set_b[other].over(set_b[designs[0]]) for other in designs[1:])])
     study.measured["pads depends"] = table(["", "hard pads", "0.1 E", "0.1 E and 0.3 η"], lines)
     study.measured.update({f"pads {line[0]} {name}": c for line in lines for name, c in (("soft", line[2]), ("thin", line[3]))})
-    study.plot("soft-pads-depends", title="Pads of a tenth of E: what the change depends on", height=0.8, legend="outside",
+    study.plot("soft-pads-depends", title="Pads of a tenth of E: what the change depends on", height=0.8,
                x={"label": f"change of {MU}, %"}, y={"label": "what is changed", "names": [line[0] for line in reversed(lines)]},
                series=[rows("η kept", percent([line[2] for line in lines]), 1, 0.12),
                        rows("0.3 η too", percent([line[3] for line in lines]), 2, -0.12, marker="square"),
@@ -333,7 +333,7 @@ def question_film(study):
     steady = [p for p in points if same(p["load.pressure"], 0.001) and film(p)[:2] == ("leading", 0.4)]
     study.measured["film steady"] = f"{steady[0].run['results']['mu_max']:.3f}"
     study.measured["film table"] = table(["P", "no film", "trailing 0.1", "0.2", "0.4", "middle 0.2", "leading 0.1", "0.2", "0.4"], lines)
-    study.plot("lubricated", title="A film that leaves 0.3 of the friction", legend="outside",
+    study.plot("lubricated", title="A film that leaves 0.3 of the friction",
                x={"label": "length of the film / ~{L}", "range": [0, 0.44]}, y={"label": f"{MU} over that without a film"},
                series=series + [{"label": "as the area goes", "x": [0, 0.42], "y": [1, 1 - 0.7 * 0.42], "color": 0, "marker": "none",
                                  "line": "dashed"}])
@@ -365,7 +365,7 @@ def film_mechanism(study):
                            "marker": "none", "line": "dashed"})
     study.measured["film bound"] = table(["P", "film", "its share of the load", "mu if every point were at its threshold", "mu carried",
                                           "part of it"], lines)
-    study.plot("lubricated-stress", title="Shear when the block lets go, and the threshold (dashed)", height=0.7, legend="upper-left",
+    study.plot("lubricated-stress", title="Shear when the block lets go, and the threshold (dashed)", height=0.7,
                x={"label": "~{x} / ~{L}"}, y={"label": "shear / ~{P}", "range": [0, 0.9]}, series=series)
 
 
@@ -400,7 +400,7 @@ def question_round(study):
         names = [f"{which}, {high:g}" for which, high in mine[1:]]
         study.measured[f"round {n} table"] = table(["P", "sharp", *names], lines)
         study.plot(f"rounded-{n}", title=f"{'One pad' if n == 1 else 'Four pads'}: rounded edges against sharp ones", height=0.7,
-                   legend="outside", x={"label": f"change of {MU}, %"}, y={"label": "rounded, and how high", "names": list(reversed(names))},
+                   x={"label": f"change of {MU}, %"}, y={"label": "rounded, and how high", "names": list(reversed(names))},
                    series=[rows("~{P} = 0.003", percent(changes[0.003]), 1, 0.12),
                            rows("~{P} = 0.006", percent(changes[0.006]), 2, -0.12, marker="square"),
                            {"label": "", "x": [0, 0], "y": [0.5, len(names) + 0.5], "color": 0, "marker": "none", "line": "dashed"}])
@@ -432,7 +432,7 @@ def round_mechanism(study):
             series.append({"label": "", "x": x.tolist(), "y": (MU_STATIC * pressure / P).tolist(), "color": color,
                            "marker": "none", "line": "dashed"})
     study.measured["round profiles"] = table(["P", "edge", "length that touches", "largest pressure over mean", "where, x", "l_c / L", "mu_hold on this mesh"], lines)
-    study.plot("rounded-stress", title="Shear when the block lets go, and the threshold (dashed)", height=0.7, legend="upper-left",
+    study.plot("rounded-stress", title="Shear when the block lets go, and the threshold (dashed)", height=0.7,
                x={"label": "~{x} / ~{L}"}, y={"label": "shear / ~{P}", "range": [0, 2.4]}, series=series)
 
 

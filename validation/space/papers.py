@@ -214,11 +214,11 @@ def draw(rows, folder):
         found = [(w, f) for w, f in found if f]
         if found:
             across.append(series(len(across), name, [w for w, _ in found], [f for _, f in found]))
-    plots = {"papers-breadth": {"x": {"label": "~{W}/~{H}", "scale": "log", "range": [0.4, 2.5]}, "y": mu, "legend": "outside", "series": across}}
+    plots = {"papers-breadth": {"x": {"label": "~{W}/~{H}", "scale": "log", "range": [0.4, 2.5]}, "y": mu, "series": across}}
     kinds = {}
     for area, value, bar, study, _ in points(rows):
         kinds.setdefault(study, []).append((area, value, bar))
-    plots["papers-area"] = {"x": {"label": "~{A}_{c}/~{A}"}, "y": mu, "legend": "outside", "series": [
+    plots["papers-area"] = {"x": {"label": "~{A}_{c}/~{A}"}, "y": mu, "series": [
         series(k, study, [p[0] for p in at], [p[1:] for p in at]) | {"line": "none"} for k, (study, at) in enumerate(kinds.items())]}
     for name, plot in plots.items():
         path = folder / f"{name}.yaml"

@@ -18,7 +18,7 @@ static char path[] = "/tmp/amontons_plot_XXXXXX.yaml", png[40];
 
 static const char WHOLE[] =
     "title: whole\nheight: 0.5\nx: {label: P, scale: log, range: [1e-3, 1]}\ny: {label: mu}\n"
-    "legend: lower-left\nseries:\n"
+    "legend: none\nseries:\n"
     "  - {label: one, x: [1e-3, 0.1, 1], y: [1, null, 3], low: [0.5, 1, 2], high: [1.5, 3, 4],\n"
     "     color: 2, marker: triangle, filled: false, line: dashed}\n"
     "  - {x: [0.01, 0.1], y: [2, 2], line: none, marker: down}\n"
@@ -60,7 +60,7 @@ TEST(holds_what_the_file_says)
     assert_string_equal(plot->style.style, "slide");
     assert_true(plot->style.height == 60 && !plot->style.legend);
     assert_true(plot->main.x.is_log && plot->main.x.low == 1e-3 && plot->main.x.high == 1);
-    assert_int_equal(plot->main.legend, CORNER_LOWER_LEFT);
+    assert_true(plot->no_legend);
     assert_int_equal(plot->main.series_count, 2);
     const PlotSeries *one = &plot->main.series[0];
     assert_int_equal(one->count, 3);
@@ -74,7 +74,6 @@ TEST(holds_what_the_file_says)
     // The ends of y: the bars' ends and a twentieth more; of an inset with one value: around it.
     assert_true(fabs(plot->main.y.low - (0.5 - 0.05 * 3.5)) < 1e-12);
     assert_true(fabs(plot->main.y.high - (4 + 0.05 * 3.5)) < 1e-12);
-    assert_int_equal(plot->inset.legend, CORNER_AUTO);   // where the file names none
     assert_true(plot->has_inset && plot->inset.y.low < 5 && plot->inset.y.high > 5);
     plot_destroy(plot);
     memory_free(plot);
@@ -118,7 +117,7 @@ TEST(says_what_is_wrong)
         {"series: []\ninset: {series: []}\n", "an inset needs its `place`"},
         {"series: []\ninset: {place: [0.5, 0, 0.4, 1], series: []}\n", "place: found a list"},
         {"[1]\n", "plot: found a list"},
-        {"legend: left\nseries: []\n", "legend: found `left`; allowed: auto, none, upper-right"},
+        {"legend: left\nseries: []\n", "legend: found `left`; allowed: below, none"},
         {"y: {names: 3}\nseries: []\n", "names: found `3`; allowed: a list"},
         {"x: {names: [a]}\nseries: []\n", "x: unknown key `names`"},
         {"map: {x: [1], y: [1]}\n", "a map needs its `x`, `y` and `value`"},
