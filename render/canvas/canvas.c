@@ -275,20 +275,35 @@ bool canvas_is_vector(const Canvas *canvas)
     return canvas->def.format != CANVAS_PNG;
 }
 
+// The colour of a value, from 0 to 1; below 0: HEAT_BELOW.
+static cairo_t *heat_ink(Canvas *canvas, float value)
+{
+    int32_t entry = (int32_t)lroundf(fminf(fmaxf(value, 0), 1) * (MAP_SIZE - 1));
+    if (!canvas->map[0]) map_fill(canvas);
+    uint32_t pixel = value < 0 ? canvas->below : canvas->map[entry];
+    cairo_set_source_rgb(canvas->cairo, (pixel >> 16 & 255) / 255.0, (pixel >> 8 & 255) / 255.0,
+                         (pixel & 255) / 255.0);
+    cairo_new_path(canvas->cairo);
+    return canvas->cairo;
+}
+
 // A cell is drawn in a PDF or SVG a little larger than asked: viewers leave a hair of paper between
 // shapes that only touch.
 void canvas_heat_cell(Canvas *canvas, const Box *box, float value)
 {
     static const double over = 0.04;   // points
-    int32_t entry = (int32_t)lroundf(fminf(fmaxf(value, 0), 1) * (MAP_SIZE - 1));
-    if (!canvas->map[0]) map_fill(canvas);
-    uint32_t pixel = value < 0 ? canvas->below : canvas->map[entry];
     double more = canvas_is_vector(canvas) ? over * canvas->def.dpi / POINTS_AN_INCH : 0;
-    cairo_set_source_rgb(canvas->cairo, (pixel >> 16 & 255) / 255.0, (pixel >> 8 & 255) / 255.0,
-                         (pixel & 255) / 255.0);
-    cairo_rectangle(canvas->cairo, box->left, box->top, box->right - box->left + more,
+    cairo_t *cairo = heat_ink(canvas, value);
+    cairo_rectangle(cairo, box->left, box->top, box->right - box->left + more,
                     box->bottom - box->top + more);
-    cairo_fill(canvas->cairo);
+    cairo_fill(cairo);
+}
+
+void canvas_heat_disc(Canvas *canvas, Point centre, double radius, float value)
+{
+    cairo_t *cairo = heat_ink(canvas, value);
+    cairo_arc(cairo, centre.x, centre.y, radius, 0, 8 * atan(1));
+    cairo_fill(cairo);
 }
 
 // --- end -----------------------------------------------------------------------------------------

@@ -78,6 +78,7 @@ void canvas_heat_triangles(Canvas *canvas, const Box *box, const GlCorner *corne
 
 // Fills `box` with the colour of one value, or of HEAT_BELOW; in a PDF or SVG a shape, no image.
 void canvas_heat_cell(Canvas *canvas, const Box *box, float value);
+void canvas_heat_disc(Canvas *canvas, Point centre, double radius, float value);   // likewise
 bool canvas_is_vector(const Canvas *canvas);   // PDF or SVG
 
 // Pixels that are drawn so far, until the next call that draws: four bytes each (blue, green, red,

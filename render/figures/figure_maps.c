@@ -183,18 +183,14 @@ static int32_t map_key(const ResultView *view, const ViewRange *shown, KeyEntry 
 // Discs in the colours of the map, so that one that agrees does not stand out but for its rim.
 static void areas_draw(const Page *page, const Measured *measured, const MapPage *map)
 {
-    uint8_t colors[MAP_SIZE * 3];
     double radius = AREA_RADIUS * page->point;
-    color_map_fill(colors);
     canvas_clip(page->canvas, &map->axes.box);
     for (int32_t k = 0; k < measured->count; ++k) {
         Point at = axes_place(&map->axes, measured->at[k], measured->x[k]);
         double lost = (map->bar.high - measured->value[k]) / (map->bar.high - map->bar.low);
-        const uint8_t *color = colors + 3 * (int32_t)lround(255 * fmin(fmax(lost, 0), 1));
-        Color inside = {(float)color[0] / 255, (float)color[1] / 255, (float)color[2] / 255, 1};
         draw_disc(page->canvas, PAPER, at, radius + 0.8 * page->point);
         draw_disc(page->canvas, INK, at, radius + 0.4 * page->point);
-        draw_disc(page->canvas, inside, at, radius);
+        canvas_heat_disc(page->canvas, at, radius, (float)fmin(fmax(lost, 0), 1));
     }
     canvas_clip(page->canvas, NULL);
 }

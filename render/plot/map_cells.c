@@ -4,26 +4,18 @@
 #include "base/memory.h"
 #include "base/order.h"
 
-#include <libqhull_r/libqhull_r.h>
-
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
-
-enum { POINTS_MIN = 3, DIMENSIONS = 2 };
 
 static const double SAME = 1e-9;   // of the range: values nearer than this are one
 static const double TAKEN_LEAST = 0.5;   // of a grid's places
 static const double LONE_WIDTH = 0.3;   // of a cell that has no neighbour, decades or lengths
-static const double SIDE_MAX = 3;   // times the usual distance there: a longer side spans a gap
 
 static double scaled(double value, bool is_log)
 {
     if (!is_log) return value;
     return value > 0 ? log10(value) : NAN;
 }
-
-// --- grid ---------------------------------------------------------------------------------------
 
 // The different ones of [count] values, rising, into *lines. Returns how many; -1: no memory.
 static int32_t find_lines(const double *values, int32_t count, bool is_log, double **lines,
@@ -110,126 +102,9 @@ void map_grid_destroy(MapGrid *grid)
     *grid = (MapGrid){0};
 }
 
-// --- Delaunay's triangles, by Qhull --------------------------------------------------------------
-
-// Facets of the paraboloid's lower side, cut into triangles (Qt) where points lie on one circle.
-static bool take_triangles(qhT *qh, const int32_t *index, int32_t **corners, int32_t *triangles,
-                           Error *err)
-{
-    int64_t count = 0;
-    facetT *facet;
-    FORALLfacets
-    {
-        if (facet->upperdelaunay) continue;
-        count++;
-    }
-    if (!(*corners = NEW_ARRAY(int32_t, 3 * count + 1, err))) return false;
-    FORALLfacets
-    {
-        vertexT *vertex, **vertexp;
-        int32_t k = 0;
-        if (facet->upperdelaunay) continue;
-        FOREACHvertex_(facet->vertices)
-        {
-            int32_t point = qh_pointid(qh, vertex->point);
-            if (k < 3) (*corners)[3 * *triangles + k++] = index[point];
-        }
-        *triangles += k == 3;
-    }
-    return true;
-}
-
-// Qhull changes none of `places`. What it says of a flat set of points is not passed on.
-static bool hull_make(double *places, const int32_t *index, int32_t count, int32_t **corners,
-                      int32_t *triangles, Error *err)
-{
-    // Qbb scales the last coordinate, Qc Qz: points on one circle; Q12: allows wide facets.
-    char options[] = "qhull d Qt Qbb Qc Qz Q12";
-    int left = 0, bytes = 0;
-    qhT hull;
-    FILE *ignored = fopen("/dev/null", "w");
-    if (!ignored) FAIL(err, ERROR_FILE, "cannot open /dev/null");
-    qh_zero(&hull, ignored);
-    int status = qh_new_qhull(&hull, DIMENSIONS, count, places, False, options, NULL, ignored);
-    bool flat = status == qh_ERRsingular || status == qh_ERRinput;
-    if (status == 0)
-        take_triangles(&hull, index, corners, triangles, err);
-    else if (!flat)
-        error_set(err, ERROR_LIBRARY, __FILE__, __LINE__,
-                  "Qhull cannot join the points of a map (its error %d)", status);
-    qh_freeqhull(&hull, qh_ALL);
-    qh_memfreeshort(&hull, &left, &bytes);
-cleanup:
-    if (ignored) fclose(ignored);
-    return error_is_clean(err);
-}
-
-// Joins points by Qhull (Barber, Dobkin and Huhdanpaa, ACM Trans. Math. Softw. 22, 1996). Those
-// that are not finite are in no triangle, and where all lie on one line there is none.
-static bool triangulate(const Point *points, int32_t count, MapTriangles *triangles, Error *err)
-{
-    int32_t kept = 0;
-    double *places = NULL;
-    int32_t *index = NULL;
-    TRY(places = NEW_ARRAY(double, DIMENSIONS *(int64_t)count, err));
-    TRY(index = NEW_ARRAY(int32_t, (int64_t)count + 1, err));
-    for (int32_t k = 0; k < count; k++) {
-        if (!isfinite(points[k].x) || !isfinite(points[k].y)) continue;
-        places[DIMENSIONS * kept] = points[k].x;
-        places[DIMENSIONS * kept + 1] = points[k].y;
-        index[kept++] = k;
-    }
-    if (kept >= POINTS_MIN)
-        TRY(hull_make(places, index, kept, &triangles->points, &triangles->count, err));
-    if (!triangles->points) TRY(triangles->points = NEW_ARRAY(int32_t, 1, err));
-cleanup:
-    memory_free_all(places, index);
-    return error_is_clean(err);
-}
-
-// --- triangles ----------------------------------------------------------------------------------
-
-// Leaves out triangles that span a gap: a side is far longer than the geometric mean of those that
-// end in its corners; a few long ones change that little.
-static bool drop_long(const Point *place, int32_t count, MapTriangles *triangles, Error *err)
-{
-    int32_t kept = 0, *sides = NEW_ARRAY(int32_t, count, err);
-    double *near = NEW_ARRAY(double, (int64_t)count + 1, err);
-    TRY(sides && near);
-    for (int32_t k = 0; k < 3 * triangles->count; k++) {
-        int32_t a = triangles->points[k], b = triangles->points[k % 3 == 2 ? k - 2 : k + 1];
-        double length = log(hypot(place[b].x - place[a].x, place[b].y - place[a].y));
-        near[a] += length;
-        near[b] += length;
-        sides[a]++;
-        sides[b]++;
-    }
-    for (int32_t k = 0; k < count; k++) near[k] = exp(near[k] / sides[k]);
-    for (int32_t k = 0; k < triangles->count; k++) {
-        const int32_t *corner = triangles->points + 3 * k;
-        double usual = fmax(near[corner[0]], fmax(near[corner[1]], near[corner[2]])), longest = 0;
-        for (int32_t i = 0; i < 3; i++) {
-            Point a = place[corner[i]], b = place[corner[(i + 1) % 3]];
-            longest = fmax(longest, hypot(b.x - a.x, b.y - a.y));
-        }
-        if (longest > SIDE_MAX * usual) continue;
-        for (int32_t i = 0; i < 3; i++) triangles->points[3 * kept + i] = corner[i];
-        kept++;
-    }
-    triangles->count = kept;
-cleanup:
-    memory_free_all(sides, near);
-    return error_is_clean(err);
-}
-
-bool map_triangles_find(const MapGrid *grid, const Point *place, int32_t count,
-                        MapTriangles *triangles, Error *err)
+bool map_triangles_find(const MapGrid *grid, MapTriangles *triangles, Error *err)
 {
     *triangles = (MapTriangles){0};
-    if (grid->columns == 0)
-        return triangulate(place, count, triangles, err) && drop_long(place, count, triangles, err);
-
-    // A grid has two in the middle of any four cells that meet and hold points.
     triangles->points = NEW_ARRAY(int32_t, 6 * (int64_t)grid->columns * grid->rows, err);
     if (!triangles->points) return false;
     for (int32_t row = 0; row + 1 < grid->rows; row++)

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Areas between the points of a map. A grid, complete or with gaps, is made of cells, each half way
-// to its neighbours. Other points are joined to Delaunay triangles, in which values are linear;
-// triangles with a side far longer than others there are left out: nothing was computed there.
-// Numbers only. Called by plot_file and plot_map.
+// The grid that the points of a map form, complete or with gaps: cells, each half way to its
+// neighbours, and the triangles between points. Numbers only. Called by plot_file and plot_map.
 #ifndef AMONTONS_RENDER_PLOT_MAP_CELLS_H
 #define AMONTONS_RENDER_PLOT_MAP_CELLS_H
 
@@ -24,11 +22,9 @@ typedef struct MapTriangles {
 bool map_grid_find(const PlotMap *map, bool x_is_log, bool y_is_log, MapGrid *grid, Error *err);
 void map_grid_destroy(MapGrid *grid);   // zeroed is fine
 
-// Points next to each other, for lines and colours between them. grid: of the map, or an empty one:
-// then of Delaunay's. place: [count] where each is on the picture, in lengths by which "far longer"
-// is told.
-bool map_triangles_find(const MapGrid *grid, const Point *place, int32_t count,
-                        MapTriangles *triangles, Error *err);
+// Points next to each other, for lines between them: two triangles in the middle of any four cells
+// that meet and hold points.
+bool map_triangles_find(const MapGrid *grid, MapTriangles *triangles, Error *err);
 void map_triangles_destroy(MapTriangles *triangles);   // zeroed is fine
 
 #endif

@@ -101,7 +101,7 @@ bool map_smooth(const MapGrid *grid, const double *values, const Point *place, i
 
     TRY(cells.point = NEW_ARRAY(int32_t, count, err));
     for (int32_t k = 0; k < count; ++k) cells.point[k] = k;
-    TRY(map_triangles_find(&cells, smooth->place, (int32_t)count, &smooth->triangles, err));
+    TRY(map_triangles_find(&cells, &smooth->triangles, err));
 cleanup:
     memory_free_all(work, cells.point);
     if (!error_is_clean(err)) smooth_destroy(smooth);

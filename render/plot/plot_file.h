@@ -27,7 +27,7 @@
 //                                             # command is given goes before it
 //
 // A map shows in colours what was found at points; those of a grid as cells, half way to their
-// neighbours, others linearly between any three next to each other:
+// neighbours, others as discs. Contours are of a grid alone:
 //
 //     color: {label: "~{\u03bc}_{M}"}             # or with unit and range, as an axis
 //     contours: {label: "~{l}_{c} / ~{L}"}     # lines at handy values (MAP_MANY: of medians)

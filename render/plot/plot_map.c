@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A cell, or a triangle of three points, shows what was computed there; where a point has no value
-// or none lies near, the paper shows.
+// A cell of a grid, or the disc of a point where points form none, shows what was computed there; a
+// point without a value shows the paper.
 #include "render/plot/plot_map.h"
 
 #include "base/memory.h"
@@ -15,9 +15,9 @@ enum { LEVELS_WANTED = 6, MARKS_MINDED = 2000, PARTS_MOST = 16, RING_SIDES = 24 
 enum { VECTOR_MOST = 10000 };   // cells that are shapes in a file of shapes
 
 static const double CONTOUR_WIDTH = 0.55, HALO_WIDTH = 1.5;   // points
-static const double DOT_SHARE = 0.13;   // of the distance of points
-static const double DOT_MAX = 0.9, RING_MAX = 1.7;   // points: radii
-static const double DOT_RIM = 0.35, RING_WIDTH = 0.45;   // points
+static const double RING_SHARE = 0.26, DISC_SHARE = 0.4;   // of the distance of points
+static const double RING_MAX = 1.7, DISC_MAX = 3;   // points: radii
+static const double RING_WIDTH = 0.45, DISC_RIM = 0.3;   // points
 static const double DISTANCE_MIN = 3;   // points: marks of points nearer than this are left out
 static const double MARKS_APART = 5;   // points: those that stand for others
 static const double FINE_CELL = 1.5;   // points: of a grid in which lines of equal value are sought
@@ -102,29 +102,6 @@ cleanup:
     return error_is_clean(err);
 }
 
-// A triangle with a corner without value stays empty.
-static bool triangles_draw(const MapDrawing *drawing, Error *err)
-{
-    const MapTriangles *triangles = &drawing->triangles;
-    const Box *box = &drawing->axes->box;
-    int64_t count = 0;
-    GlCorner *corners = NEW_ARRAY(GlCorner, 3 * (int64_t)triangles->count, err);
-    if (!corners) return false;
-    for (int32_t k = 0; k < triangles->count; k++) {
-        const int32_t *point = triangles->points + 3 * k;
-        const double *value = drawing->map->value;
-        if (!isfinite(value[point[0]] + value[point[1]] + value[point[2]])) continue;
-        for (int32_t i = 0; i < 3; i++) {
-            Point at = drawing->place[point[i]];
-            corners[count++] = (GlCorner){(float)(at.x - box->left), (float)(at.y - box->top),
-                                          color_value(drawing, point[i]), 0};
-        }
-    }
-    canvas_heat_triangles(drawing->page->canvas, box, corners, count, NULL);
-    memory_free(corners);
-    return true;
-}
-
 // Distance between points, pixels.
 static double point_distance(const MapDrawing *drawing)
 {
@@ -133,6 +110,22 @@ static double point_distance(const MapDrawing *drawing)
     if (drawing->grid.columns > 0)
         return fmin(width / drawing->grid.columns, height / drawing->grid.rows);
     return sqrt(width * height / fmax(drawing->map->count, 1));
+}
+
+// Discs with a rim of ink; of very many points ones that cover the paper between them.
+static void discs_draw(const MapDrawing *drawing)
+{
+    Canvas *canvas = drawing->page->canvas;
+    double point = drawing->page->point, distance = point_distance(drawing);
+    bool many = distance < DISTANCE_MIN * point;
+    double radius = many ? distance : fmin(DISC_SHARE * distance, DISC_MAX * point);
+    double inside = many ? radius : radius - DISC_RIM * point;
+    for (int32_t k = 0; k < drawing->map->count; k++) {
+        Point at = drawing->place[k];
+        if (!isfinite(at.x + at.y + drawing->map->value[k])) continue;
+        if (!many) draw_disc(canvas, INK, at, radius);
+        canvas_heat_disc(canvas, at, inside, color_value(drawing, k));
+    }
 }
 
 // --- lines --------------------------------------------------------------------------------------
@@ -193,11 +186,11 @@ static bool contours_draw(const MapDrawing *drawing, Error *err)
     double *medians = NULL;
     Point *pieces = NULL;
     SmoothGrid smooth = {0};
-    if (drawing->map->count > MAP_MANY && grid->columns > 0) {
+    if (drawing->map->count > MAP_MANY) {
         TRY(values = medians = NEW_ARRAY(double, drawing->map->count, err));
         map_medians(grid, drawing->map->contour, medians);
     }
-    double cell = grid->columns > 0 ? point_distance(drawing) : 0;
+    double cell = point_distance(drawing);
     int32_t parts = (int32_t)fmin(ceil(cell / (FINE_CELL * page->point)), PARTS_MOST);
     if (parts > 1 && grid->columns > 1 && grid->rows > 1) {
         TRY(map_smooth(grid, values, drawing->place, parts, &smooth, err));
@@ -251,16 +244,15 @@ cleanup:
 // --- points -------------------------------------------------------------------------------------
 
 // distance: to the next mark. Marks get smaller as they come nearer to each other. A cell is a run
-// and needs no mark; of very many points only the doubtful and those without value have some.
-static void point_draw(const MapDrawing *drawing, int32_t k, double distance, bool shows_all)
+// and needs no mark, but where it is doubtful or has no value.
+static void point_draw(const MapDrawing *drawing, int32_t k, double distance)
 {
     const Page *page = drawing->page;
-    double point = page->point, dot = fmin(DOT_SHARE * distance, DOT_MAX * point);
-    double ring = fmin(2 * DOT_SHARE * distance, RING_MAX * point);
+    double point = page->point, ring = fmin(RING_SHARE * distance, RING_MAX * point);
     Point at = drawing->place[k];
     if (!isfinite(at.x) || !isfinite(at.y)) return;
     if (!isfinite(drawing->map->value[k])) {
-        cross_draw(page, INK, at, fmin(2 * DOT_SHARE * distance, CROSS_ARM * point));
+        cross_draw(page, INK, at, fmin(RING_SHARE * distance, CROSS_ARM * point));
     } else if (drawing->map->open && drawing->map->open[k] > 0) {
         // A ring or a square: the colour inside shows, and ink inside of paper is seen on any.
         int32_t sides = drawing->map->open[k] > 1 ? 4 : RING_SIDES;
@@ -274,9 +266,6 @@ static void point_draw(const MapDrawing *drawing, int32_t k, double distance, bo
         stroke.color = INK;
         stroke.width /= 3;
         draw_line(page->canvas, &stroke, line, sides + 1);
-    } else if (shows_all) {
-        draw_disc(page->canvas, PAPER, at, dot + DOT_RIM * point);
-        draw_disc(page->canvas, INK, at, dot);
     }
 }
 
@@ -289,13 +278,14 @@ bool plot_map_draw(const Page *page, const Axes *axes, const PlotPanel *panel,
     TRY(drawing.place = NEW_ARRAY(Point, map->count, err));
     for (int32_t k = 0; k < map->count; k++)
         drawing.place[k] = axes_place(axes, map->x[k], map->y[k]);
-    if (drawing.grid.columns == 0 || map->contour)
-        TRY(map_triangles_find(&drawing.grid, drawing.place, map->count, &drawing.triangles, err));
-    if (drawing.grid.columns > 0)
-        TRY(grid_draw(&drawing, err));
-    else
-        TRY(triangles_draw(&drawing, err));
+    if (drawing.grid.columns == 0 && map->contour)
+        FAIL(err, ERROR_INPUT,
+             "the points of the map form no grid, on which alone contours are drawn: leave out "
+             "`contours`");
+    if (map->contour) TRY(map_triangles_find(&drawing.grid, &drawing.triangles, err));
+    if (drawing.grid.columns > 0) TRY(grid_draw(&drawing, err));
     canvas_clip(page->canvas, &axes->box);
+    if (drawing.grid.columns == 0) discs_draw(&drawing);
     if (map->contour) TRY(contours_draw(&drawing, err));
 
     // Marks of the points. Where cells of a grid are smaller than marks that one can tell apart,
@@ -304,14 +294,13 @@ bool plot_map_draw(const Page *page, const Axes *axes, const PlotPanel *panel,
     double distance = point_distance(&drawing), least = DISTANCE_MIN * page->point;
     bool thinned = grid->columns > 0 && distance < least;
     if (!thinned) {
-        for (int32_t k = 0; k < map->count; k++)
-            point_draw(&drawing, k, distance, grid->columns == 0 && distance >= least);
+        for (int32_t k = 0; k < map->count; k++) point_draw(&drawing, k, distance);
     } else {
         int32_t step = (int32_t)ceil(MARKS_APART * page->point / distance);
         for (int32_t row = step / 2; row < grid->rows; row += step)
             for (int32_t column = step / 2; column < grid->columns; column += step) {
                 int32_t k = grid->point[row * grid->columns + column];
-                if (k >= 0) point_draw(&drawing, k, least, false);
+                if (k >= 0) point_draw(&drawing, k, least);
             }
     }
 cleanup:

@@ -24,7 +24,7 @@ static const ModulePart PARTS[] = {
     {"gmsh", "meshes", "libgmsh-dev"},
     {"hdf5", "results", "libhdf5-dev"},
     {"vtk", "fields", "libvtk9-dev"},
-    {"render", "pictures", "libcairo2-dev, libpng-dev and libqhull-dev"},
+    {"render", "pictures", "libcairo2-dev and libpng-dev"},
     {"libav", "films", "libavformat-dev, libavcodec-dev and libswscale-dev"},
     {"dlib", "optimise and fit", "libdlib-dev"},
 };

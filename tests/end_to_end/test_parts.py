@@ -36,7 +36,7 @@ class Configured(Folder):
         said, rules = self.configure(*(f"-DAMONTONS_WITH_{part}=OFF" for part in PARTS))
         self.assertIn("no pictures: AMONTONS_WITH_PICTURES is OFF", said)
         self.assertTrue("(without fields, pictures, films, search)" in rules)
-        for library in ("vtk", "cairo", "fontconfig", "qhull", "libpng", "libav", "libswscale", "dlib"):
+        for library in ("vtk", "cairo", "fontconfig", "libpng", "libav", "libswscale", "dlib"):
             self.assertIsNone(re.search(rf"LINK_LIBRARIES = .*{library}", rules), library)
         self.assertIsNotNone(re.search(r"LINK_LIBRARIES = .*gmsh", rules))
 

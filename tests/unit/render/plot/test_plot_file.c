@@ -216,6 +216,15 @@ TEST(draws_and_frees_a_whole_plot)
     draw_and_free_all(WHOLE);
 }
 
+// Lines at equal values are sought between the points of a grid.
+TEST(no_contours_without_a_grid)
+{
+    Error err = {0};
+    write_plot("map: {x: [1, 2, 3], y: [1, 2, 3], value: [1, 2, 3], contour: [1, 2, 3]}\n");
+    assert_false(amontons_render_plot(path, png, &(PictureStyle){.overwrite = true}, &err));
+    assert_non_null(strstr(err.message, "leave out `contours`"));
+}
+
 TEST(draws_and_frees_panels)
 {
     draw_and_free_all(PANELS);
