@@ -102,26 +102,21 @@ void map_grid_destroy(MapGrid *grid)
     *grid = (MapGrid){0};
 }
 
-bool map_triangles_find(const MapGrid *grid, MapTriangles *triangles, Error *err)
+void map_medians(const MapGrid *grid, const double *values, double *medians)
 {
-    *triangles = (MapTriangles){0};
-    triangles->points = NEW_ARRAY(int32_t, 6 * (int64_t)grid->columns * grid->rows, err);
-    if (!triangles->points) return false;
-    for (int32_t row = 0; row + 1 < grid->rows; row++)
-        for (int32_t column = 0; column + 1 < grid->columns; column++) {
-            const int32_t *low = &grid->point[(int64_t)row * grid->columns + column];
-            const int32_t *high = low + grid->columns;
-            if (low[0] < 0 || low[1] < 0 || high[0] < 0 || high[1] < 0) continue;
-            const int32_t pair[6] = {low[0], low[1], high[1], low[0], high[1], high[0]};
-            for (int32_t k = 0; k < 6; k++)
-                triangles->points[6 * (triangles->count / 2) + k] = pair[k];
-            triangles->count += 2;
+    double near[MAP_MEDIANS * MAP_MEDIANS];
+    for (int32_t k = 0; k < grid->rows * grid->columns; ++k) {
+        int32_t count = 0;
+        if (grid->point[k] < 0) continue;
+        for (int32_t n = 0; n < MAP_MEDIANS * MAP_MEDIANS; ++n) {
+            int32_t row = k / grid->columns + n / MAP_MEDIANS - MAP_MEDIANS / 2;
+            int32_t column = k % grid->columns + n % MAP_MEDIANS - MAP_MEDIANS / 2;
+            bool outside = row < 0 || row >= grid->rows || column < 0 || column >= grid->columns;
+            int32_t point = outside ? -1 : grid->point[row * grid->columns + column];
+            if (point >= 0 && isfinite(values[point])) near[count++] = values[point];
         }
-    return true;
-}
-
-void map_triangles_destroy(MapTriangles *triangles)
-{
-    memory_free(triangles->points);
-    *triangles = (MapTriangles){0};
+        qsort(near, (size_t)count, sizeof *near, order_doubles);
+        bool known = isfinite(values[grid->point[k]]);
+        medians[grid->point[k]] = known ? near[count / 2] : NAN;
+    }
 }

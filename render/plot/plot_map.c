@@ -5,13 +5,12 @@
 
 #include "base/memory.h"
 #include "render/plot/map_cells.h"
-#include "render/plot/map_smooth.h"
 #include "render/plot/marks.h"
 
 #include <math.h>
 #include <stdio.h>
 
-enum { LEVELS_WANTED = 6, MARKS_MINDED = 2000, PARTS_MOST = 16, RING_SIDES = 24 };
+enum { LEVELS_WANTED = 6, MARKS_MINDED = 2000, CELL_PARTS = 6, RING_SIDES = 24 };
 enum { VECTOR_MOST = 10000 };   // cells that are shapes in a file of shapes
 
 static const double CONTOUR_WIDTH = 0.55, HALO_WIDTH = 1.5;   // points
@@ -20,7 +19,6 @@ static const double RING_MAX = 1.7, DISC_MAX = 3;   // points: radii
 static const double RING_WIDTH = 0.45, DISC_RIM = 0.3;   // points
 static const double DISTANCE_MIN = 3;   // points: marks of points nearer than this are left out
 static const double MARKS_APART = 5;   // points: those that stand for others
-static const double FINE_CELL = 1.5;   // points: of a grid in which lines of equal value are sought
 static const double CROSS_ARM = 1.5;   // points
 static const double LABEL_CLEARANCE = 6, HIDING_WORTH = 0.4;   // points: number to mark
 static const double LEVEL_INSIDE = 1e-3;   // of the range: a level this near its end is no line
@@ -33,9 +31,8 @@ typedef struct MapDrawing {
     const Axes *axes;
     const PlotMap *map;
     const MapScale *scale;
-    MapGrid grid;   // owned, as the next two
+    MapGrid grid;   // owned, as the next
     Point *place;   // [map->count] on the picture, pixels; not finite: the axes cannot show it
-    MapTriangles triangles;
 } MapDrawing;
 
 MapScale map_scale_fit(const Plot *plot)
@@ -173,30 +170,58 @@ static void level_label(const MapDrawing *drawing, double level, const Point *pi
     labels[(*labelled)++] = place;
 }
 
+// Pieces of the line at `level`, into `pieces` as draw_line takes them; returns how many points.
+// Between four points of the grid that meet, the quantity is bilinear: that square is cut into
+// `parts` along each side and those into two triangles, of which the line crosses two sides.
+static int64_t level_find(const MapDrawing *drawing, const double *values, double level,
+                          int32_t parts, Point *pieces)
+{
+    static const int8_t across[2][3] = {{0, 1, 1}, {0, 1, 0}}, up[2][3] = {{0, 0, 1}, {0, 1, 1}};
+    const MapGrid *grid = &drawing->grid;
+    int64_t count = 0;
+    for (int64_t k = 0; k < (int64_t)grid->columns * (grid->rows - 1); k++) {
+        const int32_t *low = grid->point + k, *high = low + grid->columns;
+        if (k % grid->columns == grid->columns - 1) continue;
+        if (low[0] < 0 || low[1] < 0 || high[0] < 0 || high[1] < 0) continue;
+        double value[4] = {values[low[0]], values[low[1]], values[high[0]], values[high[1]]};
+        Point from = drawing->place[low[0]], to = drawing->place[high[1]];
+        if (!isfinite(value[0] + value[1] + value[2] + value[3])) continue;
+        for (int32_t part = 0; part < 2 * parts * parts; part++) {
+            double s[3], r[3], v[3];
+            int32_t found = 0;
+            for (int32_t i = 0; i < 3; i++) {
+                s[i] = (double)(part / 2 % parts + across[part % 2][i]) / parts;
+                r[i] = (double)(part / 2 / parts + up[part % 2][i]) / parts;
+                v[i] = (1 - r[i]) * ((1 - s[i]) * value[0] + s[i] * value[1]) +
+                       r[i] * ((1 - s[i]) * value[2] + s[i] * value[3]);
+            }
+            for (int32_t a = 0, b = 1; a < 3; a++, b = (a + 1) % 3) {
+                if ((v[a] < level) == (v[b] < level)) continue;
+                double way = (level - v[a]) / (v[b] - v[a]);
+                pieces[count + found++] =
+                    (Point){from.x + (s[a] + way * (s[b] - s[a])) * (to.x - from.x),
+                            from.y + (r[a] + way * (r[b] - r[a])) * (to.y - from.y)};
+            }
+            if (found != 2) continue;
+            pieces[count + 2] = (Point){NAN, NAN};
+            count += 3;
+        }
+    }
+    return count;
+}
+
 // Lines where the contours' quantity has handy values, dark on a pale band, to be seen on every
-// colour. They are sought in the triangles of the map's points, or where cells are wide in print in
-// those of its grid made finer.
+// colour.
 static bool contours_draw(const MapDrawing *drawing, Error *err)
 {
     const Page *page = drawing->page;
     const MapGrid *grid = &drawing->grid;
     const double *values = drawing->map->contour;
-    const Point *places = drawing->place;
-    const MapTriangles *triangles = &drawing->triangles;
     double *medians = NULL;
     Point *pieces = NULL;
-    SmoothGrid smooth = {0};
     if (drawing->map->count > MAP_MANY) {
         TRY(values = medians = NEW_ARRAY(double, drawing->map->count, err));
         map_medians(grid, drawing->map->contour, medians);
-    }
-    double cell = point_distance(drawing);
-    int32_t parts = (int32_t)fmin(ceil(cell / (FINE_CELL * page->point)), PARTS_MOST);
-    if (parts > 1 && grid->columns > 1 && grid->rows > 1) {
-        TRY(map_smooth(grid, values, drawing->place, parts, &smooth, err));
-        values = smooth.value;
-        places = smooth.place;
-        triangles = &smooth.triangles;
     }
 
     const Axis *range = &drawing->scale->contours;
@@ -206,37 +231,18 @@ static bool contours_draw(const MapDrawing *drawing, Error *err)
     int32_t labelled = 0;
     Stroke halo = {.color = HALO, .width = HALO_WIDTH * page->point};
     Stroke line = {.color = INK, .width = CONTOUR_WIDTH * page->point};
-    TRY(pieces = NEW_ARRAY(Point, 3 * (int64_t)triangles->count + 3, err));
+    int32_t parts = medians ? 1 : CELL_PARTS;
+    int64_t most = 6 * (int64_t)parts * parts * grid->columns * grid->rows;
+    TRY(pieces = NEW_ARRAY(Point, most, err));
     for (int32_t t = 0; t < ticks.count; t++) {
         double level = tick_value(&ticks, t);
-        int64_t count = 0;
         if (level < range->low + slack || level > range->high - slack) continue;
-
-        // The level crosses a triangle at two of its sides.
-        for (int64_t k = 0; k < triangles->count; k++) {
-            const int32_t *corner = triangles->points + 3 * k;
-            Point *crossing = pieces + count;
-            int32_t found = 0;
-            if (!isfinite(values[corner[0]] + values[corner[1]] + values[corner[2]])) continue;
-            for (int32_t i = 0; i < 3; i++) {
-                int32_t from = corner[i], to = corner[(i + 1) % 3];
-                double a = values[from], b = values[to];
-                if ((a < level) == (b < level)) continue;
-                double part = (level - a) / (b - a);
-                crossing[found++] =
-                    (Point){places[from].x + part * (places[to].x - places[from].x),
-                            places[from].y + part * (places[to].y - places[from].y)};
-            }
-            if (found != 2) continue;
-            crossing[2] = (Point){NAN, NAN};
-            count += 3;
-        }
+        int64_t count = level_find(drawing, values, level, parts, pieces);
         draw_line(page->canvas, &halo, pieces, count);
         draw_line(page->canvas, &line, pieces, count);
         level_label(drawing, level, pieces, count, labels, &labelled);
     }
 cleanup:
-    smooth_destroy(&smooth);
     memory_free_all(medians, pieces);
     return error_is_clean(err);
 }
@@ -282,7 +288,6 @@ bool plot_map_draw(const Page *page, const Axes *axes, const PlotPanel *panel,
         FAIL(err, ERROR_INPUT,
              "the points of the map form no grid, on which alone contours are drawn: leave out "
              "`contours`");
-    if (map->contour) TRY(map_triangles_find(&drawing.grid, &drawing.triangles, err));
     if (drawing.grid.columns > 0) TRY(grid_draw(&drawing, err));
     canvas_clip(page->canvas, &axes->box);
     if (drawing.grid.columns == 0) discs_draw(&drawing);
@@ -307,6 +312,5 @@ cleanup:
     canvas_clip(page->canvas, NULL);
     map_grid_destroy(&drawing.grid);
     memory_free(drawing.place);
-    map_triangles_destroy(&drawing.triangles);
     return error_is_clean(err);
 }

@@ -19,10 +19,6 @@ TEST(grid_with_gaps)
     for (int32_t k = 0; k < 3; k++) assert_near("edge", grid.y[k], sides[k], 1e-12);
     const int32_t cells[] = {1, 2, 0, 3, 4, -1};
     for (int32_t k = 0; k < 6; k++) assert_int_equal(grid.point[k], cells[k]);
-    MapTriangles triangles = {0};
-    assert_true(map_triangles_find(&grid, &triangles, &err));
-    assert_int_equal(triangles.count, 2);   // between the four points that meet
-    map_triangles_destroy(&triangles);
     map_grid_destroy(&grid);
 }
 
@@ -37,4 +33,27 @@ TEST(no_grid)
     map.x = map.y = same;   // two points at one place
     assert_true(map_grid_find(&map, false, false, &grid, &err));
     assert_int_equal(grid.columns, 0);
+}
+
+// Lines of a large map: a value of its own kind is not seen, a step stays where it is, and a point
+// without a value has no median.
+TEST(medians_pass_single_values_over)
+{
+    enum { SIDE = 21, ODD = 5 * SIDE + 4, HOLE = 7 * SIDE + 16, CORNER = SIDE * SIDE - 1 };
+    double values[SIDE * SIDE], medians[SIDE * SIDE];
+    int32_t point[SIDE * SIDE];
+    for (int32_t k = 0; k < SIDE * SIDE; ++k) {
+        values[k] = k % SIDE < 10 ? 1 : 2;
+        point[k] = k;
+    }
+    values[ODD] = 9;
+    values[HOLE] = values[CORNER - 1] = NAN;
+    point[CORNER] = -1;
+    MapGrid grid = {.columns = SIDE, .rows = SIDE, .point = point};
+    map_medians(&grid, values, medians);
+    for (int32_t k = 0; k < CORNER - 1; ++k) {
+        double wanted = k % SIDE < 10 ? 1 : 2;
+        assert_true(k == HOLE ? isnan(medians[k]) : medians[k] == wanted);
+    }
+    assert_true(isnan(medians[CORNER - 1]) != 0);
 }
