@@ -37,25 +37,14 @@ static const Color MAP_OPEN = {0.55f, 0.56f, 0.58f, 1};   // contact that has li
 
 // --- the field -----------------------------------------------------------------------------------
 
-// For contact density the place in the colours is that of the density that is lost, over the range
-// of the bar; open contact is infinitely fast.
 bool map_page_fill(const SpaceTime *data, MapPage *map, Error *err)
 {
     PixelGrid *grid = &map->grid;
     if (grid->columns < 2 || grid->rows < 2)
         return REFUSE(err, "the picture is too small for its axes");
     if (!space_time_to_pixels(data, grid, err)) return false;
-    for (int64_t k = 0; k < (int64_t)grid->bands * grid->columns; ++k) {
-        double value = (double)grid->values[k];
-        if (!(map->critical > 0))
-            grid->values[k] = colorbar_level(&map->bar, value);
-        else if (isnan(value))
-            grid->values[k] = HEAT_MISSING;
-        else if (isinf(value))
-            grid->values[k] = HEAT_BELOW;
-        else
-            grid->values[k] = (float)fmin(value / map->critical / (1 - map->bar.low), 1);
-    }
+    for (int64_t k = 0; k < (int64_t)grid->bands * grid->columns; ++k)
+        grid->values[k] = colorbar_level(&map->bar, (double)grid->values[k]);
     return true;
 }
 
@@ -158,7 +147,6 @@ static bool map_draw(const Page *page, const ResultView *view, const double U[2]
                       .pad = view->pad,
                       .value = map->states ? map->states : view->slip_rate,
                       .sign = map->sign,
-                      .status = map->status,
                       .slip = map->mean ? view->slip : NULL,
                       .V = fabs(view->number[NUMBER_ROD_VELOCITY]),
                       .event_count = view->rapid_count,
@@ -389,7 +377,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-// --- contact-density -----------------------------------------------------------------------------
+// --- contact-density, contact-area ---------------------------------------------------------------
 
 enum { RANGES = 5 };
 static const double RANGE_LOW[RANGES] = {0.9, 0.75, 0.5, 0.25, 0};   // where the scale may start
@@ -426,93 +414,39 @@ static void front_draw(const Page *page, const ResultView *view, const MapPage *
     canvas_clip(page->canvas, NULL);
 }
 
-// Figure 1(d) of the paper: the normalised density of the real contact area, phi = max(0, 1 - |slip
-// rate| / v_c) (the paper's Methods), in the last precursors before sliding. Where the block has
-// lifted off it is 0 for another reason, which has its own colour.
-bool figure_contact_density(const Page *whole, ResultView *view, Error *err)
-{
-    Page page = *whole;
-    double critical = view->number[NUMBER_CRITICAL_VELOCITY];
-    Zoom zoom = zoom_choose(view);
-    Measured measured = {0};
-    MapPage map = {.critical = critical,
-                   .bar = {.high = 1, .falling = true, .label = "contact density ~{\u03c6}"}};
-    if (!(critical > 0)) FAIL(err, ERROR_INPUT, FIGURE_NO_DENSITY);
-    if (!zoom.found) {
-        result_view_range(view, &zoom.U_low, &zoom.U_high);
-        zoom.U_slide = INFINITY;
-    }
-    TRY(result_view_read_slip_rate(view, err));
-    TRY(result_view_read_status(view, err));
-    map.status = view->status;
-
-    // The least phi before sliding starts, where in contact; whether some node has lifted off.
-    double least = 1;
-    bool lifted = false;
-    for (int64_t row = 0; row < view->rows; ++row) {
-        if (!(view->U[row] >= zoom.U_low && view->U[row] <= zoom.U_high)) continue;
-        for (int64_t k = row * view->nodes; k < (row + 1) * view->nodes; ++k) {
-            bool open = view->status[k] == STATUS_OPEN;
-            lifted = lifted || open;
-            if (!open && view->U[row] < zoom.U_slide)
-                least = fmin(least, 1 - fabs(view->slip_rate[k]) / critical);
-        }
-    }
-
-    // The precursors fill the scale: far below v_c they would hardly show between 0 and 1. In
-    // sliding phi is below the scale, which the scale says.
-    int32_t range = 0;
-    while (range < RANGES - 1 && RANGE_LOW[range] > least) ++range;
-    map.bar.low = RANGE_LOW[range];
-    map.bar.clipped = map.bar.low > 0;
-    map.bar.neutral = lifted ? "open" : NULL;
-    map.bar.neutral_color = MAP_OPEN;
-
-    if (!figure_contact_area_is_there(view))   // else that figure has them
-        TRY(measured_read(page.style.compare, MEASURED_AREA, view, &measured, err));
-    KeyEntry entries[4] = {{KEY_LINE, INK, "front of slip"}};
-    int32_t count = 1 + map_key(view, NULL, entries + 1);
-    if (zoom.words[0]) entries[count++] = (KeyEntry){.words = zoom.words};
-    key_draw(&page, entries, measured_key(&measured, KEY_RING, entries, count));
-    TRY(map_draw(&page, view, (double[]){zoom.U_low, zoom.U_high}, &map, err));
-    front_draw(&page, view, &map);
-    areas_draw(&page, &measured, &map);
-    if (zoom.found && page.zoom_name) map.axes.color = ZOOM_DENSITY;
-    frame_draw(&page, view, &map);
-cleanup:
-    measured_destroy(&measured);
-    map_page_destroy(&map);
-    return error_is_clean(err);
-}
-
-// --- contact-area --------------------------------------------------------------------------------
-
 // The history holds the law's own measure of the area.
 bool figure_contact_area_is_there(const ResultView *view)
 {
     return result_file_has_series(view->file, SERIES_AREA);
 }
 
-// Area of the real contacts over that at rest, A(x, t)/A_0, as it is seen by light that crosses a
-// contact (Rubinstein, Cohen and Fineberg, Nature 430, 1005, 2004). Where friction ages it is the
-// law's own measure, which the history holds; else the contact density phi. A front takes a few per
-// cent of the area, so that the colours span what the precursors leave, but for one per cent at
-// each end, and no line covers the front.
-bool figure_contact_area(const Page *whole, ResultView *view, Error *err)
+// Maps of the last precursors before sliding, with a colour of its own for open contact.
+// density: Figure 1(d) of the paper, the normalised density of the real contact area, phi =
+// max(0, 1 - |slip rate| / v_c) (the paper's Methods), with the front of slip. Else the area of the
+// real contacts over that at rest, A(x, t)/A_0, as it is seen by light that crosses a contact
+// (Rubinstein, Cohen and Fineberg, Nature 430, 1005, 2004): where friction ages the law's own
+// measure, which the history holds, else phi. A front takes a few per cent of the area, so that the
+// colours span what the precursors leave, but for one per cent at each end, and no line covers the
+// front.
+static bool contact_map(const Page *whole, ResultView *view, bool density, Error *err)
 {
     const ValueWords words = {.words = "contact area ~{A} / ~{A}_{0}", .si = "", .normalised = ""};
     Page page = *whole;
-    double *area = NULL;
+    double *area = NULL, critical = view->number[NUMBER_CRITICAL_VELOCITY], least = 1;
     Measured measured = {0};
     ViewRange shown = {0};
-    KeyEntry entries[4];
+    KeyEntry entries[5];
     Zoom zoom = zoom_choose(view);
     MapPage map = {.sign = -1};
-    bool asked = page.style.from || page.style.to, lifted = false;
+    bool asked = !density && (page.style.from || page.style.to), lifted = false;
+    if (density && !(critical > 0)) FAIL(err, ERROR_INPUT, FIGURE_NO_DENSITY);
 
     // The range that is shown, and the part of it that the colours are for: sliding is darker than
     // any.
-    TRY(view_range_find(view, &page.style, &shown, err));
+    if (density)
+        result_view_range(view, &shown.low, &shown.high);
+    else
+        TRY(view_range_find(view, &page.style, &shown, err));
     if (zoom.found && !asked) {
         shown.low = zoom.U_low;
         shown.high = zoom.U_high;
@@ -520,37 +454,64 @@ bool figure_contact_area(const Page *whole, ResultView *view, Error *err)
     double before[2] = {shown.low, shown.high};
     if (zoom.found && !asked && zoom.U_slide > shown.low) before[1] = zoom.U_slide;
 
-    // Open contact has a colour of its own.
     TRY(result_view_read_status(view, err));
-    TRY(computed_area_read(view, err));
+    TRY(density ? result_view_read_slip_rate(view, err) : computed_area_read(view, err));
     TRY(area = NEW_ARRAY(double, view->rows * view->nodes, err));
     for (int64_t k = 0; k < view->rows * view->nodes; ++k) {
         double U = view->U[k / view->nodes];
         bool open = view->status[k] == STATUS_OPEN;
-        area[k] = open ? -INFINITY : view->area[k];
+        area[k] = density ? 1 - fabs(view->slip_rate[k]) / critical : view->area[k];
+        if (open)
+            area[k] = -INFINITY;
+        else if (U >= before[0] && U < before[1])
+            least = fmin(least, area[k]);
         lifted = lifted || (open && U >= shown.low && U <= shown.high);
     }
     map.states = area;
-    TRY(history_bar_fit(view, before, area, &words, &page.style, &map.bar, err));
+    if (density) {
+        // The precursors fill the scale: far below v_c they would hardly show between 0 and 1.
+        int32_t range = 0;
+        while (range < RANGES - 1 && RANGE_LOW[range] > least) ++range;
+        map.bar = (Colorbar){.low = RANGE_LOW[range],
+                             .high = 1,
+                             .factor = 1,
+                             .clipped = RANGE_LOW[range] > 0,
+                             .label = "contact density ~{φ}"};
+    } else {
+        TRY(history_bar_fit(view, before, area, &words, &page.style, &map.bar, err));
+        map.bar.clipped = map.bar.clipped || before[1] < shown.high;   // in sliding less is left
+    }
     map.bar.falling = true;
-    map.bar.clipped = map.bar.clipped || before[1] < shown.high;   // in sliding less is left
     map.bar.neutral = lifted ? "open" : NULL;
     map.bar.neutral_color = MAP_OPEN;
 
-    if (figure_contact_area_is_there(view))
+    if (density != figure_contact_area_is_there(view))   // measured areas stand on one of the two
         TRY(measured_read(page.style.compare, MEASURED_AREA, view, &measured, err));
-    int32_t count = map_key(view, NULL, entries);
+    int32_t count = 0;
+    if (density) entries[count++] = (KeyEntry){KEY_LINE, INK, "front of slip"};
+    count += map_key(view, NULL, entries + count);
     if (!asked && zoom.words[0]) entries[count++] = (KeyEntry){.words = zoom.words};
-    count = measured_key(&measured, KEY_RING, entries, count);
-    key_draw(&page, entries, count);
+    key_draw(&page, entries, measured_key(&measured, KEY_RING, entries, count));
     TRY(map_draw(&page, view, (double[]){shown.low, shown.high}, &map, err));
+    if (density) front_draw(&page, view, &map);
     areas_draw(&page, &measured, &map);
+    if (density && zoom.found && page.zoom_name) map.axes.color = ZOOM_DENSITY;
     frame_draw(&page, view, &map);
 cleanup:
     measured_destroy(&measured);
     memory_free(area);
     map_page_destroy(&map);
     return error_is_clean(err);
+}
+
+bool figure_contact_density(const Page *whole, ResultView *view, Error *err)
+{
+    return contact_map(whole, view, true, err);
+}
+
+bool figure_contact_area(const Page *whole, ResultView *view, Error *err)
+{
+    return contact_map(whole, view, false, err);
 }
 
 // Least, mean and largest of the contact area over the nodes that are shown.

@@ -14,8 +14,6 @@ typedef struct MapPage {
     PixelGrid grid;   // fills the frame; a column a pixel; owned
     Colorbar bar;
     bool mean;   // a pixel shows the mean over its U, not the fastest; the slip has been read
-    double critical;   // > 0: shown is what slip at this velocity leaves of the contact
-    const double *status;   // [rows * nodes] what is open is infinitely fast; NULL: nothing is
     const double *states;   // [rows * nodes] shown in the place of slip rates; NULL: none
     int32_t sign;   // of these, as SpaceTime has it
     double mark_width;   // points right of the frame kept for a mark's name

@@ -6,7 +6,6 @@
 #include "render/view/space_time.h"
 
 #include "base/memory.h"
-#include "io/hdf5/result_tables.h"
 
 #include <math.h>
 
@@ -57,16 +56,14 @@ static int32_t columns_of_step(const SpaceTime *data, const PixelGrid *grid, dou
     return column;
 }
 
-// by_column: [columns * nodes], times the sign; an open node counts as more than any rate.
+// by_column: [columns * nodes], times the sign.
 static void step_add(const SpaceTime *data, int64_t row, int32_t column, float *by_column)
 {
     const double *value = data->value + row * data->nodes;
-    const double *status = data->status ? data->status + row * data->nodes : NULL;
     float *cell = by_column + (int64_t)column * data->nodes;
     for (int32_t i = 0; i < data->nodes; ++i) {
-        bool open = status && status[i] == STATUS_OPEN;
         double counts = data->sign ? data->sign * value[i] : fabs(value[i]);
-        cell[i] = larger(cell[i], open ? INFINITY : (float)counts);
+        cell[i] = larger(cell[i], (float)counts);
     }
 }
 

@@ -22,7 +22,6 @@ typedef struct SpaceTime {
     const double *x;   // [nodes] ascending
     const double *pad;   // [nodes] between nodes of different pads is a gap
     const double *value;   // [rows * nodes] slip rates, velocity, or states; NaN: none
-    const double *status;   // [rows * nodes] 0: open, counts as infinitely fast; NULL: not asked
     const double *slip;   // [rows * nodes] length; NULL: the fastest is wanted, not the mean
     double V;   // velocity of the rod; for the mean
     int32_t event_count;

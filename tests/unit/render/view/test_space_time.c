@@ -32,7 +32,7 @@ static const double crowd_rate[STEPS * NODES] = {0, 0, 1, 0, 2, 0, -50, 0, 3, 9,
 TEST(fastest_step_shows)
 {
     PixelGrid grid;
-    SpaceTime data = {STEPS, crowd_U, NODES, two_x, one_pad, crowd_rate, NULL, NULL, 1, 0, NULL, 0};
+    SpaceTime data = {STEPS, crowd_U, NODES, two_x, one_pad, crowd_rate, NULL, 1, 0, NULL, 0};
     grid_make(&data, &grid);
     assert_float_equal(at(&grid, 3, 2), 50, 0);   // lower node: |-50|, between slower steps
     assert_float_equal(at(&grid, 3, 1), 9, 0);   // upper node
@@ -44,8 +44,7 @@ TEST(fastest_step_shows)
 TEST(states_keep_their_sign)
 {
     PixelGrid grid;
-    SpaceTime data = {STEPS, crowd_U, NODES, two_x, one_pad, crowd_rate,
-                      NULL,  NULL,    1,     0,     NULL,    -1};
+    SpaceTime data = {STEPS, crowd_U, NODES, two_x, one_pad, crowd_rate, NULL, 1, 0, NULL, -1};
     grid_make(&data, &grid);
     assert_float_equal(at(&grid, 3, 2), -50, 0);
     assert_float_equal(at(&grid, 3, 1), 0, 0);
@@ -61,7 +60,7 @@ TEST(states_keep_their_sign)
 TEST(long_steps_hold_their_end)
 {
     PixelGrid grid;
-    SpaceTime data = {STEPS, crowd_U, NODES, two_x, one_pad, crowd_rate, NULL, NULL, 1, 0, NULL, 0};
+    SpaceTime data = {STEPS, crowd_U, NODES, two_x, one_pad, crowd_rate, NULL, 1, 0, NULL, 0};
     grid_make(&data, &grid);
     assert_float_equal(at(&grid, 2, 2), 2, 0);
     for (int32_t column = 4; column <= 8; ++column) assert_float_equal(at(&grid, column, 2), 6, 0);
@@ -77,7 +76,7 @@ TEST(a_short_event_is_in_one_column)
     const double rate[STEPS * NODES] = {0, 0, 1, 1, 1, 1, 90, 90, 80, 80, 70, 70, 2, 2, 3, 3};
     const double event[1][2] = {{0.395, 0.41}}, whole[1][2] = {{0.31, 0.49}};
     PixelGrid grid;
-    SpaceTime data = {STEPS, U, NODES, two_x, one_pad, rate, NULL, NULL, 1, 1, event, 0};
+    SpaceTime data = {STEPS, U, NODES, two_x, one_pad, rate, NULL, 1, 1, event, 0};
     grid_make(&data, &grid);
     assert_float_equal(at(&grid, 3, 2), 1, 0);
     assert_float_equal(at(&grid, 4, 2), 90, 0);
@@ -96,7 +95,7 @@ TEST(a_short_event_is_as_wide_as_asked)
     const double U[4] = {0, 0.52, 0.53, 1}, event[1][2] = {{0.52, 0.53}};
     const double rate[4 * NODES] = {0, 0, 90, 90, 80, 80, 2, 2};
     PixelGrid grid = {0, 1, 0, 1, COLUMNS, ROWS, 3, 0, NULL, NULL};
-    SpaceTime data = {4, U, NODES, two_x, one_pad, rate, NULL, NULL, 1, 1, event, 0};
+    SpaceTime data = {4, U, NODES, two_x, one_pad, rate, NULL, 1, 1, event, 0};
     assert_true(space_time_to_pixels(&data, &grid, &err));
     for (int32_t column = 4; column <= 6; ++column) assert_float_equal(at(&grid, column, 2), 90, 0);
     assert_float_equal(at(&grid, 3, 2), 90, 0);   // inside of the step that ends in the event
@@ -111,7 +110,7 @@ TEST(the_mean_is_slip_over_way)
     const double U[5] = {0, 0.5, 0.55, 0.5500001, 1}, rate[5 * NODES] = {0};
     const double slip[5 * NODES] = {0, 0, 1, 0, 1, 0, 4, 0, 4, 0};
     PixelGrid grid = {0, 1, 0, 1, COLUMNS, ROWS, 1, 0, NULL, NULL};
-    SpaceTime data = {5, U, NODES, two_x, one_pad, rate, NULL, slip, 2, 0, NULL, 0};
+    SpaceTime data = {5, U, NODES, two_x, one_pad, rate, slip, 2, 0, NULL, 0};
     assert_true(space_time_to_pixels(&data, &grid, &err));
     for (int32_t column = 0; column < 5; ++column)
         assert_float_equal(at(&grid, column, 2), 2 * 2, 1e-5);
@@ -125,7 +124,7 @@ TEST(a_window_sees_what_surrounds_it)
 {
     Error err = {0};
     PixelGrid grid = {0.4, 0.6, 0, 1, COLUMNS, ROWS, 1, 0, NULL, NULL};
-    SpaceTime data = {STEPS, crowd_U, NODES, two_x, one_pad, crowd_rate, NULL, NULL, 1, 0, NULL, 0};
+    SpaceTime data = {STEPS, crowd_U, NODES, two_x, one_pad, crowd_rate, NULL, 1, 0, NULL, 0};
     assert_true(space_time_to_pixels(&data, &grid, &err));
     for (int32_t column = 0; column < COLUMNS; ++column)
         assert_float_equal(at(&grid, column, 2), 6, 0);   // inside the step that ends at 0.85
@@ -136,7 +135,7 @@ TEST(before_the_first_step_is_nothing)
 {
     const double U[3] = {NAN, 0.5, 0.55}, rate[3 * NODES] = {7, 7, 1, 1, 2, 2};
     PixelGrid grid;
-    SpaceTime data = {3, U, NODES, two_x, one_pad, rate, NULL, NULL, 1, 0, NULL, 0};
+    SpaceTime data = {3, U, NODES, two_x, one_pad, rate, NULL, 1, 0, NULL, 0};
     grid_make(&data, &grid);
     for (int32_t column = 0; column < 5; ++column) assert_true(isnan(at(&grid, column, 0)));
     assert_float_equal(at(&grid, 5, 1), 2, 0);
@@ -150,7 +149,7 @@ TEST(nodes_fill_their_pads_only)
     const double U[2] = {0, 1}, rate[12] = {1, 2, 3, 4, 5, 6, 1, 2, 3, 4, 5, 6};
     double from = 0, to = 0;
     PixelGrid grid;
-    SpaceTime data = {2, U, 6, x, pad, rate, NULL, NULL, 1, 0, NULL, 0};
+    SpaceTime data = {2, U, 6, x, pad, rate, NULL, 1, 0, NULL, 0};
     node_extent(&data, 2, &from, &to);
     assert_float_equal(from, 0.175, 1e-15);
     assert_float_equal(to, 0.25, 1e-15);
@@ -164,11 +163,11 @@ TEST(nodes_fill_their_pads_only)
     pixel_grid_destroy(&grid);
 }
 
-TEST(open_is_infinite_and_nan_is_none)
+TEST(infinite_stays_and_nan_is_none)
 {
-    const double U[2] = {0, 0.95}, rate[4] = {1, NAN, 1, NAN}, status[4] = {1, 1, 0, 1};
+    const double U[2] = {0, 0.95}, rate[4] = {1, NAN, INFINITY, NAN};
     PixelGrid grid;
-    SpaceTime data = {2, U, NODES, two_x, one_pad, rate, status, NULL, 1, 0, NULL, 0};
+    SpaceTime data = {2, U, NODES, two_x, one_pad, rate, NULL, 1, 0, NULL, 0};
     grid_make(&data, &grid);
     assert_float_equal(at(&grid, 0, 2), 1, 0);
     assert_true(isinf(at(&grid, 5, 2)));
@@ -191,7 +190,7 @@ TEST(agrees_with_the_definition)
         }
         PixelGrid grid = {0, 1, 0, 1, COLUMNS, 1, 1, 0, NULL, NULL};
         Error err = {0};
-        SpaceTime data = {MANY, U, 1, &x, &pad, rate, NULL, NULL, 1, 0, NULL, 0};
+        SpaceTime data = {MANY, U, 1, &x, &pad, rate, NULL, 1, 0, NULL, 0};
         assert_true(space_time_to_pixels(&data, &grid, &err));
         for (int32_t column = 0; column < COLUMNS; ++column) {
             double fastest = -1, behind = -1;
@@ -212,7 +211,7 @@ TEST(agrees_with_the_definition)
 
 TEST(memory_can_be_short)
 {
-    SpaceTime data = {STEPS, crowd_U, NODES, two_x, one_pad, crowd_rate, NULL, NULL, 1, 0, NULL, 0};
+    SpaceTime data = {STEPS, crowd_U, NODES, two_x, one_pad, crowd_rate, NULL, 1, 0, NULL, 0};
     int64_t live = memory_counters().live;
     for (int64_t k = 0; k < 5; ++k) {
         Error err = {0};
