@@ -159,89 +159,44 @@ void canvas_set_below(Canvas *canvas, Color below)
                                  (uint8_t)lroundf(255 * below.blue));
 }
 
-// First pixel of `box` in a PNG, if its pixels are whole ones and all are drawn; else NULL.
-static uint32_t *pixels_of_box(Canvas *canvas, const Box *box, GlImageDef *def)
-{
-    double left, top, right, bottom, width = box->right - box->left,
-                                     height = box->bottom - box->top;
-    cairo_clip_extents(canvas->cairo, &left, &top, &right, &bottom);
-    bool whole = box->left == round(box->left) && box->top == round(box->top) &&
-                 width == round(width) && height == round(height);
-    bool inside = box->left >= left && box->right <= right && box->top >= top &&
-                  box->bottom <= bottom && width >= 1 && height >= 1;
-    if (canvas_is_vector(canvas) || !whole || !inside) return NULL;
-    cairo_surface_flush(canvas->surface);
-    def->width = (int32_t)width;
-    def->height = (int32_t)height;
-    def->stride = cairo_image_surface_get_stride(canvas->surface) / (int32_t)sizeof(uint32_t);
-    return (uint32_t *)(void *)cairo_image_surface_get_data(canvas->surface) +
-           (int64_t)box->top * def->stride + (int64_t)box->left;
-}
-
-// Rows of a map that are shown several times are drawn once, and copied; transparent: nothing.
-static bool rows_draw(const GlImageDef *def, const HeatMap *map, uint32_t *pixels, Error *err)
-{
-    GlImageDef once = *def;
-    once.height = map->rows;
-    once.stride = def->width;
-    uint32_t *drawn = NEW_ARRAY(uint32_t, (int64_t)once.height * once.width, err);
-    TRY(drawn && gl_image_draw(GL_OSMESA, &once, drawn, err));
-    for (int32_t row = 0; row < def->height; ++row) {
-        int64_t shown = (int64_t)row * map->shown_count / def->height;
-        const uint32_t *from = drawn + (int64_t)map->row_shown[shown] * def->width;
-        uint32_t *to = pixels + (int64_t)row * def->stride;
-        for (int32_t k = 0; k < def->width; ++k) to[k] = from[k] ? from[k] : to[k];
-    }
-cleanup:
-    memory_free(drawn);
-    return error_is_clean(err);
-}
-
-// OpenGL draws on the page itself, or, in PDF and SVG, an image of its own which Cairo places.
-// map: whose rows are listed; NULL: none are.
-static void draw_pixels(Canvas *canvas, const Box *box, const GlImageDef *wanted,
-                        const HeatMap *map)
+// OpenGL draws an image of its own, which Cairo places.
+static void draw_pixels(Canvas *canvas, const Box *box, const GlImageDef *wanted)
 {
     GlImageDef def = *wanted;
     Error *err = &canvas->failure;
+    cairo_t *cairo = canvas->cairo;
     cairo_surface_t *image = NULL;
     if (!canvas->map[0]) map_fill(canvas);   // opaque pixels are not 0
     def.colors = canvas->map;
     def.color_count = MAP_SIZE;
     def.below = canvas->below;
-    uint32_t *pixels = pixels_of_box(canvas, box, &def);
-    bool on_page = pixels != NULL;
-    if (!on_page) {
-        // An image that covers all of its box needs no second image of where it does.
-        bool opaque = def.values != NULL;
-        for (int64_t k = 0; opaque && k < (int64_t)def.rows * def.columns; ++k)
-            opaque = def.values[k] > (float)HEAT_MISSING;
-        image = cairo_image_surface_create(opaque ? CAIRO_FORMAT_RGB24 : CAIRO_FORMAT_ARGB32,
-                                           def.width, def.height);
-        if (cairo_surface_status(image))
-            FAIL(err, ERROR_LIBRARY, "a map of %d by %d values: %s", def.width, def.height,
-                 cairo_status_to_string(cairo_surface_status(image)));
-        def.stride = cairo_image_surface_get_stride(image) / (int32_t)sizeof(uint32_t);
-        pixels = (uint32_t *)(void *)cairo_image_surface_get_data(image);
-    }
-    TRY(map ? rows_draw(&def, map, pixels, err) : gl_image_draw(GL_OSMESA, &def, pixels, err));
-    cairo_surface_mark_dirty(on_page ? canvas->surface : image);
-    if (!on_page) {
-        cairo_t *cairo = canvas->cairo;
-        // Exact pixels: no filter, and no edge that mixes with the paper.
-        double width = box->right - box->left, height = box->bottom - box->top;
-        cairo_save(cairo);
-        cairo_rectangle(cairo, box->left, box->top, width, height);
-        cairo_translate(cairo, box->left, box->top);
-        cairo_scale(cairo, width / cairo_image_surface_get_width(image),
-                    height / cairo_image_surface_get_height(image));
-        cairo_set_source_surface(cairo, image, 0, 0);
-        cairo_pattern_set_filter(cairo_get_source(cairo), CAIRO_FILTER_NEAREST);
-        if (!canvas_is_vector(canvas))   // there Cairo would make a second, padded image
-            cairo_pattern_set_extend(cairo_get_source(cairo), CAIRO_EXTEND_PAD);
-        cairo_fill(cairo);
-        cairo_restore(cairo);
-    }
+
+    // An image that covers all of its box needs no second image of where it does.
+    bool opaque = def.values != NULL;
+    for (int64_t k = 0; opaque && k < (int64_t)def.rows * def.columns; ++k)
+        opaque = def.values[k] > (float)HEAT_MISSING;
+    image = cairo_image_surface_create(opaque ? CAIRO_FORMAT_RGB24 : CAIRO_FORMAT_ARGB32, def.width,
+                                       def.height);
+    if (cairo_surface_status(image))
+        FAIL(err, ERROR_LIBRARY, "a map of %d by %d values: %s", def.width, def.height,
+             cairo_status_to_string(cairo_surface_status(image)));
+    def.stride = cairo_image_surface_get_stride(image) / (int32_t)sizeof(uint32_t);
+    TRY(gl_image_draw(GL_OSMESA, &def, (uint32_t *)(void *)cairo_image_surface_get_data(image),
+                      err));
+    cairo_surface_mark_dirty(image);
+
+    // Exact pixels: no filter, and no edge that mixes with the paper.
+    double width = box->right - box->left, height = box->bottom - box->top;
+    cairo_save(cairo);
+    cairo_rectangle(cairo, box->left, box->top, width, height);
+    cairo_translate(cairo, box->left, box->top);
+    cairo_scale(cairo, width / def.width, height / def.height);
+    cairo_set_source_surface(cairo, image, 0, 0);
+    cairo_pattern_set_filter(cairo_get_source(cairo), CAIRO_FILTER_NEAREST);
+    if (!canvas_is_vector(canvas))   // there Cairo would make a second, padded image
+        cairo_pattern_set_extend(cairo_get_source(cairo), CAIRO_EXTEND_PAD);
+    cairo_fill(cairo);
+    cairo_restore(cairo);
 cleanup:
     cairo_surface_destroy(image);
 }
@@ -251,11 +206,10 @@ void canvas_heat(Canvas *canvas, const Box *box, const HeatMap *map)
 {
     draw_pixels(canvas, box,
                 &(GlImageDef){.width = map->columns,
-                              .height = map->row_shown ? map->shown_count : map->rows,
+                              .height = map->rows,
                               .values = map->values,
                               .columns = map->columns,
-                              .rows = map->rows},
-                map->row_shown ? map : NULL);
+                              .rows = map->rows});
 }
 
 void canvas_heat_triangles(Canvas *canvas, const Box *box, const GlCorner *corners, int64_t count,
@@ -266,8 +220,7 @@ void canvas_heat_triangles(Canvas *canvas, const Box *box, const GlCorner *corne
                               .height = (int32_t)lround(box->bottom - box->top),
                               .corners = corners,
                               .corner_count = count,
-                              .depth = depth},
-                NULL);
+                              .depth = depth});
 }
 
 bool canvas_is_vector(const Canvas *canvas)

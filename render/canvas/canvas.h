@@ -62,12 +62,9 @@ void canvas_set_below(Canvas *canvas, Color below);
 typedef struct HeatMap {
     int32_t columns, rows;
     const float *values;   // [rows * columns] first row at the top
-    const int32_t *row_shown;   // [shown_count] which rows, from the top; NULL: each once
-    int32_t shown_count;
 } HeatMap;
 
-// Fills `box` with them: columns equally wide, rows that are shown equally high, not blended into
-// each other.
+// Fills `box` with them: columns equally wide, rows equally high, not blended into each other.
 void canvas_heat(Canvas *canvas, const Box *box, const HeatMap *map);
 
 // Triangles in `box`, whole pixels wide and high: three corners each, in pixels from its upper left

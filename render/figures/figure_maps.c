@@ -26,8 +26,6 @@ static const double FRONT_WIDTH = 0.6;   // points
 static const double EVENT_WIDTH = 0.4;   // points: what is thinner would not be seen in print
 static const double EVENTS_SHARE = 0.2;   // of the frame's width that so wide events may take
 
-static const double ROW_SLACK = 0.25;   // pixels by which a row may be off
-
 static const double PAD_GAP = 1.6;   // points: frame to bar
 static const double PAD_WIDTH = 1.2;   // points
 static const double PAD_NAME_GAP = 1.6;   // points: bar to name
@@ -43,7 +41,7 @@ bool map_page_fill(const SpaceTime *data, MapPage *map, Error *err)
     if (grid->columns < 2 || grid->rows < 2)
         return REFUSE(err, "the picture is too small for its axes");
     if (!space_time_to_pixels(data, grid, err)) return false;
-    for (int64_t k = 0; k < (int64_t)grid->bands * grid->columns; ++k)
+    for (int64_t k = 0; k < (int64_t)grid->rows * grid->columns; ++k)
         grid->values[k] = colorbar_level(&map->bar, (double)grid->values[k]);
     return true;
 }
@@ -64,8 +62,7 @@ void map_page_draw_field(const Page *page, const ResultView *view, const MapPage
     const Axes *axes = &map->axes;
     SpaceTime data = {.nodes = view->nodes, .x = view->x, .pad = view->pad};
     double covered = axes->y.low, from = 0, to = 0;
-    const HeatMap heat = {map->grid.columns, map->grid.bands, map->grid.values, map->grid.band,
-                          map->grid.rows};
+    const HeatMap heat = {map->grid.columns, map->grid.rows, map->grid.values};
     canvas_set_below(page->canvas, map->bar.neutral_color);
     canvas_heat(page->canvas, &axes->box, &heat);
     for (int32_t i = 0; i < view->nodes; ++i) {
@@ -79,27 +76,6 @@ void map_page_draw_field(const Page *page, const ResultView *view, const MapPage
 void map_page_destroy(MapPage *map)
 {
     pixel_grid_destroy(&map->grid);
-}
-
-// In a PDF or SVG an image has no more rows than it needs: nodes that are evenly spaced stand on so
-// many rows, to a part of a pixel, that each begins where a row does.
-static int32_t rows_needed(const Page *page, const ResultView *view, const Axes *axes)
-{
-    SpaceTime data = {.nodes = view->nodes, .x = view->x, .pad = view->pad};
-    int32_t pixels = (int32_t)(axes->box.bottom - axes->box.top);
-    double least = INFINITY, from = 0, to = 0, height = axes->y.high - axes->y.low;
-    for (int32_t i = 0; i < view->nodes; ++i) {
-        node_extent(&data, i, &from, &to);
-        if (to > from) least = fmin(least, to - from);
-    }
-    double rows = round(height / least);
-    if (!canvas_is_vector(page->canvas) || !(rows >= 2 && rows < pixels)) return pixels;
-    for (int32_t i = 0; i < view->nodes; ++i) {
-        node_extent(&data, i, &from, &to);
-        double row = (from - axes->y.low) / height * rows;
-        if (fabs(row - round(row)) * pixels > ROW_SLACK * rows) return pixels;
-    }
-    return (int32_t)rows;
 }
 
 // Places the frame for U from U[0] to U[1] and all x, and draws the field with the gaps of pads;
@@ -139,7 +115,7 @@ static bool map_draw(const Page *page, const ResultView *view, const double U[2]
                             .x_high = x[1],
                             .columns = columns,
                             .event_columns = wide,
-                            .rows = rows_needed(page, view, axes)};
+                            .rows = (int32_t)(axes->box.bottom - axes->box.top)};
     SpaceTime data = {.rows = view->rows,
                       .U = view->U,
                       .nodes = view->nodes,

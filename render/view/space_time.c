@@ -115,43 +115,14 @@ static void columns_mean(const SpaceTime *data, const PixelGrid *grid, float *by
     }
 }
 
-// Nodes that are neighbours; none: last < first.
-typedef struct NodeRange {
-    int32_t first, last;
-} NodeRange;
-
-// grid->values and band are made here; pixel_grid_destroy.
+// grid->values is made here; pixel_grid_destroy.
 bool space_time_to_pixels(const SpaceTime *data, PixelGrid *grid, Error *err)
 {
     float *by_column = NULL;
-    NodeRange *ranges = NULL;
     int64_t *next = NULL;
     TRY(by_column = NEW_ARRAY(float, (int64_t)data->nodes * grid->columns, err));
-    TRY(ranges = NEW_ARRAY(NodeRange, grid->rows, err));
     TRY(next = NEW_ARRAY(int64_t, grid->columns, err));
-    TRY(grid->band = NEW_ARRAY(int32_t, grid->rows, err));
-
-    // Rows that show the same nodes are one; ranges: [rows] of which `bands` are filled.
-    grid->bands = 0;
-    for (int32_t row = 0; row < grid->rows; ++row) {
-        // Nodes that are seen in the pixels of the row.
-        double pixel = (grid->x_high - grid->x_low) / grid->rows, from = 0, to = 0;
-        double x = grid->x_high - (row + 0.5) * pixel;
-        NodeRange range = {0, -1};
-        for (int32_t i = 0; i < data->nodes; ++i) {
-            node_extent(data, i, &from, &to);
-            bool near = data->x[i] >= x - pixel / 2 && data->x[i] < x + pixel / 2;
-            if (!near && !(x >= from && x < to)) continue;
-            if (range.last < 0) range.first = i;
-            range.last = i;
-        }
-        const NodeRange *before = grid->bands > 0 ? &ranges[grid->bands - 1] : NULL;
-        if (!before || range.first != before->first || range.last != before->last)
-            ranges[grid->bands++] = range;
-        grid->band[row] = grid->bands - 1;
-    }
-
-    TRY(grid->values = NEW_ARRAY(float, (int64_t)grid->bands * grid->columns, err));
+    TRY(grid->values = NEW_ARRAY(float, (int64_t)grid->rows * grid->columns, err));
     if (data->slip) {
         columns_mean(data, grid, by_column);
     } else {
@@ -165,24 +136,29 @@ bool space_time_to_pixels(const SpaceTime *data, PixelGrid *grid, Error *err)
                 step_add(data, next[column], column, by_column);
     }
 
-    // Several nodes in a band: the largest of them; none: NaN.
-    for (int32_t column = 0; column < grid->columns; ++column) {
-        const float *value = by_column + (int64_t)column * data->nodes;
-        for (int32_t band = 0; band < grid->bands; ++band) {
-            float most = NAN;
-            for (int32_t i = ranges[band].first; i <= ranges[band].last; ++i)
-                most = larger(most, value[i]);
-            grid->values[(int64_t)band * grid->columns + column] = data->sign < 0 ? -most : most;
+    // The largest of the nodes that are seen in the pixels of a row; none: NaN.
+    double pixel = (grid->x_high - grid->x_low) / grid->rows;
+    for (int32_t row = 0; row < grid->rows; ++row) {
+        float *most = grid->values + (int64_t)row * grid->columns;
+        double x = grid->x_high - (row + 0.5) * pixel, from = 0, to = 0;
+        for (int32_t column = 0; column < grid->columns; ++column) most[column] = NAN;
+        for (int32_t i = 0; i < data->nodes; ++i) {
+            node_extent(data, i, &from, &to);
+            bool near = data->x[i] >= x - pixel / 2 && data->x[i] < x + pixel / 2;
+            if (!near && !(x >= from && x < to)) continue;
+            for (int32_t column = 0; column < grid->columns; ++column)
+                most[column] = larger(most[column], by_column[(int64_t)column * data->nodes + i]);
         }
+        for (int32_t column = 0; data->sign < 0 && column < grid->columns; ++column)
+            most[column] = -most[column];
     }
 cleanup:
-    memory_free_all(by_column, ranges, next);
+    memory_free_all(by_column, next);
     return error_is_clean(err);
 }
 
 void pixel_grid_destroy(PixelGrid *grid)
 {
-    memory_free_all(grid->values, grid->band);
+    memory_free(grid->values);
     grid->values = NULL;
-    grid->band = NULL;
 }

@@ -34,12 +34,11 @@ typedef struct PixelGrid {
     double x_low, x_high;   // what the rows span, x_high at the top
     int32_t columns, rows;
     int32_t event_columns;   // of a short rapid event, at least 1
-    int32_t bands;   // rows that show the same nodes are one band
-    int32_t *band;   // [rows] which, the first at the top; owned
-    float *values;   // [bands * columns] of |value|, or value; NaN: none; owned
+    float
+        *values;   // [rows * columns] of |value|, or value, first row at the top; NaN: none; owned
 } PixelGrid;
 
-// Fills bands, band and values; the other members are given.
+// Fills `values`; the other members are given.
 bool space_time_to_pixels(const SpaceTime *data, PixelGrid *grid, Error *err);
 void pixel_grid_destroy(PixelGrid *grid);   // zeroed is fine
 

@@ -138,7 +138,7 @@ TEST_BETWEEN(heat_shows_levels_and_holes, canvas_begin, canvas_end)
     const int32_t expected[6] = {map_red(0), map_red(255),    map_red(255),
                                  77,         255 /* white */, map_red(128)};
     canvas_set_below(canvas, (Color){77 / 255.0f, 0, 0, 1});
-    canvas_heat(canvas, &(Box){100, 100, 160, 140}, &(HeatMap){3, 2, values, NULL, 0});
+    canvas_heat(canvas, &(Box){100, 100, 160, 140}, &(HeatMap){3, 2, values});
     uint8_t *pixels = pixels_read();
     for (int32_t k = 0; k < 6; ++k) {
         int32_t column = 110 + 20 * (k % 3), row = 110 + 20 * (k / 3);
@@ -155,28 +155,11 @@ TEST_BETWEEN(heat_is_exact, canvas_begin, canvas_end)
     float values[COUNT];
     for (int32_t k = 0; k < COUNT; ++k) values[k] = (float)k / 99;
     values[7] = NAN;
-    canvas_heat(canvas, &(Box){20, 30, 20 + COUNT, 31}, &(HeatMap){COUNT, 1, values, NULL, 0});
+    canvas_heat(canvas, &(Box){20, 30, 20 + COUNT, 31}, &(HeatMap){COUNT, 1, values});
     uint8_t *pixels = pixels_read();
     for (int32_t k = 0; k < COUNT; ++k)
         assert_int_equal(pixels[3 * (30 * SIZE + 20 + k)],
                          k == 7 ? 255 : map_red((int32_t)lround(255.0 * k / 99)));
-    memory_free(pixels);
-}
-
-// The rows that are shown are listed: the last one twice as high as the middle one, the first one
-// not at all. What has no value leaves the page as it is.
-TEST_BETWEEN(rows_are_shown_as_listed, canvas_begin, canvas_end)
-{
-    const float values[6] = {0.5f, 0.5f, 0, HEAT_MISSING, 0.2f, 0.4f};
-    const int32_t shown[3] = {2, 2, 1};
-    canvas_heat(canvas, &(Box){40, 60, 80, 120}, &(HeatMap){2, 3, values, shown, 3});
-    uint8_t *pixels = pixels_read();
-    for (int32_t y = 60; y < 120; ++y)
-        for (int32_t x = 40; x < 80; ++x) {
-            int32_t low = map_red(y < 100 ? 51 : 0), right = y < 100 ? map_red(102) : 255;
-            assert_int_equal(pixels[3 * (y * SIZE + x)], x < 60 ? low : right);
-        }
-    assert_int_equal(pixels[3 * (59 * SIZE + 50)], 255);
     memory_free(pixels);
 }
 
@@ -185,7 +168,7 @@ TEST_BETWEEN(a_heat_map_too_large_is_reported, canvas_begin, canvas_end)
     Error err = {0};
     uint8_t *pixels = NULL;
     const float value = 0;
-    canvas_heat(canvas, &(Box){0, 0, 9, 9}, &(HeatMap){1 << 28, 1, &value, NULL, 0});
+    canvas_heat(canvas, &(Box){0, 0, 9, 9}, &(HeatMap){1 << 28, 1, &value});
     assert_false(canvas_read(canvas, &pixels, &err));
     assert_null(pixels);
     assert_int_equal(err.code, ERROR_LIBRARY);
