@@ -9,7 +9,6 @@
 #include "page/pages.h"
 #include "page/run_source.h"
 #include "render/picture_options.h"
-#include "run/result/own_file.h"
 #include "run/result/pictures.h"
 
 #include <unistd.h>
@@ -68,7 +67,6 @@ bool amontons_report(const char *const *results, int32_t count, const char *file
     bool left = part_file_name(file, part) && open_is_there(part);   // by whom, is not known
     if (count < 1) FAIL(err, ERROR_INPUT, "a report needs a result folder");
     TRY(picture_options_fit_taker(&request.style, TAKEN_BY_PAGES, err));
-    for (int32_t k = 0; k < count; k++) TRY(own_file_adopt(results[k], err));
     TRY(child_do(&work, err));
 cleanup:
     // A process that crashed leaves what it began.

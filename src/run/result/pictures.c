@@ -8,7 +8,6 @@
 #include "io/text/csv_reader.h"
 #include "render/picture_options.h"
 #include "render/render.h"
-#include "run/result/own_file.h"
 
 #include <errno.h>
 #include <math.h>
@@ -64,8 +63,7 @@ bool amontons_render_result(const char *folder, const PictureRequest *request, E
                       .advice = "its history is damaged",
                       .read = draw_in_child,
                       .context = &draw};
-    return pictures_check_folder(folder, err) && own_file_adopt(folder, err) &&
-           child_do(&work, err);
+    return pictures_check_folder(folder, err) && child_do(&work, err);
 }
 
 bool amontons_render_plot_file(const char *plot, const char *picture, const PictureStyle *style,

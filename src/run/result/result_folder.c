@@ -79,21 +79,6 @@ static bool move_list(const char *from, const char *to, Error *err)
     return move_file(path, target, err);
 }
 
-// A result needs this name: a file of somebody's is told before anything is computed.
-static bool refuse_taken(const char *path, void *context, Error *err)
-{
-    (void)context;
-    for (int k = 0; k < ENDING_COUNT; k++) {
-        char name[PATH_SIZE];
-        bool ours = false;
-        snprintf(name, sizeof name, "%s%s", path, ENDINGS[k]);
-        if (!open_holds_something(name)) continue;
-        if (!own_list_has(path, &ours, err)) return false;
-        if (!ours) return own_list_refuse_taken(name, err);
-    }
-    return true;
-}
-
 static bool rename_aside(const char *folder, const char *from, const char *to, Error *err)
 {
     char path[PATH_SIZE], target[PATH_SIZE];
@@ -181,6 +166,8 @@ static bool was_cut_off(const char *folder)
 bool result_folder_claim(const char *path, bool overwrite, ResultFolder *folder, Error *err)
 {
     static const char stopped[] = "figures/accuracy.";
+    static const char *const needed[] = {"run.json", "history.h5", "static.json", "stability.json",
+                                         "model1d.json"};
     char found[PATH_SIZE], name[OWN_NAME_SIZE];
     *folder = (ResultFolder){0};
     if (!path) return true;
@@ -192,12 +179,14 @@ bool result_folder_claim(const char *path, bool overwrite, ResultFolder *folder,
     memcpy(folder->path, path, strlen(path) + 1);
     TRY(take_lock(path, &folder->lock, err));
 
-    // Files that an earlier computation left aside are put back; files of others under names that a
-    // result needs are refused.
+    // Files that an earlier computation left aside are put back. A file of somebody's under one of
+    // the names written last is refused now; all others are refused when they are written.
     TRY(put_back(path, err));
-    TRY(own_file_adopt(path, err));
-    TRY(own_file_visit(path, refuse_taken, NULL, err));
     TRY(own_list_check(path, err));
+    for (size_t k = 0; k < sizeof needed / sizeof *needed; k++) {
+        snprintf(found, PATH_SIZE, "%s/%s", path, needed[k]);
+        TRY(own_list_refuse_taken(found, err));
+    }
 
     // Find the first file of an earlier result that lies there: `found`. The search for an error
     // bar, stopped, leaves accuracy.json and .png alone, and begins anew.

@@ -9,7 +9,8 @@
 
 #include "amontons.h"
 #include "io/files/file_lock.h"
-#include "run/result/own_file.h"
+
+#define CHECKPOINT_FILE "checkpoint.bin"   // of a run (run/checkpoint)
 
 typedef struct ResultFolder {
     char path[AMONTONS_PATH_SIZE];   // empty: nothing is written at all

@@ -29,12 +29,11 @@
 static const double LOCK_WAIT = 1;
 
 // Makes the sweep's folder and takes its lock, which the system removes when the process ends,
-// however it ends. A file of somebody's with the name of one of the sweep's tables or figures is
-// told before hours of computing, not behind them.
+// however it ends. A file of somebody's with the name of one of the sweep's tables is told before
+// hours of computing, not behind them.
 static bool make_folder(Sweep *sweep, Error *err)
 {
     static const char *const tables[] = {"sweep.csv", "sweep.h5", "ranking.csv", "reports"};
-    static const char *const endings[] = {"json", "h5", "png"};
     const Study *study = &sweep->study;
     char path[POINT_PATH_SIZE + STUDY_NAME_SIZE];
     if (snprintf(sweep->folder, sizeof sweep->folder, "%s", sweep->options->folder) >=
@@ -57,12 +56,6 @@ static bool make_folder(Sweep *sweep, Error *err)
         snprintf(path, sizeof path, "%s/%s", sweep->folder, tables[k]);
         if (!own_list_refuse_taken(path, err)) return false;
     }
-    for (int32_t k = study->rank.wanted ? -1 : 0; k < study->plot_count; k++)
-        for (size_t e = 0; e < sizeof endings / sizeof endings[0]; e++) {
-            snprintf(path, sizeof path, "%s/figures/%.*s.%s", sweep->folder, STUDY_NAME_SIZE - 1,
-                     k < 0 ? "ranking" : study->plots[k].name, endings[e]);
-            if (!own_list_refuse_taken(path, err)) return false;
-        }
     if (!own_list_check(sweep->folder, err) || !own_list_make(sweep->folder, err)) return false;
 
     snprintf(path, sizeof path, "%s/points", sweep->folder);
