@@ -17,6 +17,7 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -45,7 +46,7 @@ static rlim_t bytes_allowed(void)
 }
 
 // A limit that the user has set lower stays.
-static void limit(SystemLimit resource, rlim_t most)
+static void limit(__rlimit_resource_t resource, rlim_t most)
 {
     struct rlimit now;
     if (getrlimit(resource, &now) != 0 || now.rlim_cur <= most) return;
@@ -83,7 +84,7 @@ static void be_child(const ChildWork *work, int pipe, pid_t parent)
         signal(SIGTERM, SIG_DFL);
         signal(SIGINT, SIG_DFL);
     }
-    system_end_with_parent();
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (!reply || getppid() != parent) _exit(1);
     limit(RLIMIT_CORE, 0);
     limit(RLIMIT_CPU, (rlim_t)work->seconds);

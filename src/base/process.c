@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "base/process.h"
 
-#include "base/system.h"
-
 #include <errno.h>
 #include <fcntl.h>
 #include <spawn.h>
@@ -42,7 +40,7 @@ bool process_run(const char *const *words, char *output, size_t size, int *statu
     posix_spawn_file_actions_t files;
     posix_spawnattr_t attributes;
     *output = 0;
-    if (system_pipe(ends) != 0)
+    if (pipe2(ends, O_CLOEXEC) != 0)
         return FAULT(err, ERROR_FILE, "cannot open a pipe: %s", strerror(errno));
 
     // Both outputs go into the pipe. posix_spawn in place of fork and exec: it does not copy the

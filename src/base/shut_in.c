@@ -5,12 +5,6 @@
 // lie in memory, where a filter cannot look.
 #include "base/shut_in.h"
 
-#include <unistd.h>
-
-enum { DESCRIPTORS_MAX = 1 << 16 };   // that are closed one by one
-
-#ifdef __linux__
-
 #include <errno.h>
 #include <fcntl.h>
 #include <linux/audit.h>
@@ -23,6 +17,9 @@ enum { DESCRIPTORS_MAX = 1 << 16 };   // that are closed one by one
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
+#include <unistd.h>
+
+enum { DESCRIPTORS_MAX = 1 << 16 };   // that are closed one by one
 
 #if defined __x86_64__
 #define ARCHITECTURE AUDIT_ARCH_X86_64
@@ -154,14 +151,6 @@ bool shut_in(void)
 bool shut_in(void)
 {
     setrlimit(RLIMIT_NPROC, &(struct rlimit){0, 0});
-    return false;
-}
-
-#endif
-#else
-
-bool shut_in(void)
-{
     return false;
 }
 

@@ -6,7 +6,6 @@
 #include "fem/mesh.h"
 
 #include "base/memory.h"
-#include "base/system.h"
 #include "fem/mesh_faces.h"
 #include "fem/mesh_pieces.h"
 #include "io/mesh/shape_functions.h"
@@ -32,7 +31,7 @@ double mesh_gap(const Mesh *mesh, int32_t node)
     return gap > PLACE_TOLERANCE * extent(mesh) ? gap : 0;
 }
 
-// Compares x first and z last. `context` comes third, as system_sort passes it: no state outside of
+// Compares x first and z last. `context` comes third, as qsort_r passes it: no state outside of
 // it.
 static int compare_places(const void *a, const void *b, void *context)
 {
@@ -47,8 +46,8 @@ static int compare_places(const void *a, const void *b, void *context)
 // Sorts by place, so that gmsh's numbers do not decide the order of contact nodes.
 void mesh_sort_nodes(const Mesh *mesh, int32_t *nodes, int32_t count)
 {
-    Mesh order = *mesh;   // system_sort takes no const
-    if (count > 1) system_sort(nodes, (size_t)count, sizeof *nodes, compare_places, &order);
+    Mesh order = *mesh;   // qsort_r takes no const
+    if (count > 1) qsort_r(nodes, (size_t)count, sizeof *nodes, compare_places, &order);
 }
 
 // The error lists the groups that there are.
@@ -120,10 +119,10 @@ static bool pick_pads(const Mesh *mesh, const char (*names)[GROUP_NAME_SIZE], in
     MeshBoundary *pad = contact->pads;
     for (int32_t g = 0; g < contact->group_count; g++)
         for (int32_t p = 0; p < contact->groups[g].count; p++) *pad++ = contact->groups[g].piece[p];
-    Mesh order = *mesh;   // system_sort takes no const
+    Mesh order = *mesh;   // qsort_r takes no const
     if (count == 0)
-        system_sort(contact->pads, (size_t)contact->pad_count, sizeof *contact->pads,
-                    compare_starts, &order);
+        qsort_r(contact->pads, (size_t)contact->pad_count, sizeof *contact->pads, compare_starts,
+                &order);
     return error_is_clean(err);
 }
 

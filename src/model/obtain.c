@@ -5,7 +5,6 @@
 
 #include "base/clock.h"
 #include "base/computation.h"
-#include "base/system.h"
 #include "contact/contact_half.h"
 #include "fem/floor.h"
 #include "fem/mesh_locate.h"
@@ -22,6 +21,7 @@
 #include "scene/materials.h"
 #include "scene/programs.h"
 
+#include <malloc.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -144,7 +144,7 @@ static bool build_basis(Model *model, const ReductionBlock *block, const char *n
     if (model->from_cache) goto cleanup;
     model->is_reduced = symmetry_reduction_build(&block->bulk, interface->dofs, interface->count,
                                                  &def, &model->reduced, err);
-    system_give_back_memory();   // what a reduction needs at once nothing needs afterwards
+    malloc_trim(0);   // what a reduction needs at once nothing needs afterwards
     if (model->is_reduced) {
         basis_cache_store(name, &model->reduced, model->cache_note);
     } else {

@@ -11,7 +11,6 @@
 
 #include "base/hash.h"
 #include "base/memory.h"
-#include "base/system.h"
 
 #include <limits.h>
 #include <stdio.h>
@@ -191,7 +190,7 @@ bool msh2_tell_entities_apart(const char *bytes, int64_t size, char **mended, in
     for (int64_t k = 0; k < file.count; k++) order[k] = k;
 
     // The groups of every element, from all of its copies.
-    system_sort(order, (size_t)file.count, sizeof *order, compare_copies, &file);
+    qsort_r(order, (size_t)file.count, sizeof *order, compare_copies, &file);
     for (int64_t k = 0, end; k < file.count; k = end) {
         Hash hash = hash_start();
         const Msh2Element *first = &file.elements[order[k]], *last = NULL;
@@ -215,7 +214,7 @@ bool msh2_tell_entities_apart(const char *bytes, int64_t size, char **mended, in
         int32_t dim = dim_of(element);
         if (element->entity > most[dim]) most[dim] = element->entity;
     }
-    system_sort(order, (size_t)file.count, sizeof *order, compare_entities, &file);
+    qsort_r(order, (size_t)file.count, sizeof *order, compare_entities, &file);
     for (int64_t k = 0; k < file.count; k++) {
         Msh2Element *element = &file.elements[order[k]];
         const Msh2Element *last = k > 0 ? &file.elements[order[k - 1]] : NULL;

@@ -2,7 +2,7 @@
 // A stream of the C library gathers the bytes: its own word on a failure would not say why.
 #include "io/text/text_writer.h"
 
-#include "base/system.h"
+#include <stdio.h>
 
 enum { BUFFER = 1 << 16 };
 
@@ -18,7 +18,7 @@ static ssize_t write_bytes(void *self, const char *bytes, size_t count)
 bool text_writer_open(TextWriter *writer, const char *path, bool overwrite, Error *err)
 {
     if (!part_file_replace(&writer->file, path, overwrite, err)) return false;
-    writer->out = system_stream(writer, write_bytes);
+    writer->out = fopencookie(writer, "w", (cookie_io_functions_t){.write = write_bytes});
     if (writer->out && setvbuf(writer->out, NULL, _IOFBF, BUFFER) == 0) return true;
     text_writer_close(writer);
     return FAULT(err, ERROR_MEMORY, "no memory to write %s", path);

@@ -17,6 +17,7 @@
 #include <malloc.h>
 #include <poll.h>
 #include <string.h>
+#include <sys/prctl.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -68,7 +69,7 @@ static bool start_child(Pool *pool, PoolChild *child, Error *err)
         close(ends[0]);
         signal(SIGTERM, SIG_DFL);
         signal(SIGINT, SIG_IGN);   // of the terminal: the parent decides
-        system_end_with_parent();
+        prctl(PR_SET_PDEATHSIG, SIGKILL);
 
         // A parent that has died since the fork has sent no signal; the child then has another one.
         if (getppid() != parent) _exit(1);
