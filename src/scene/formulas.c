@@ -58,5 +58,5 @@ bool scene_work_out(const Scene *scene, const SceneSetting *formula, const char 
 {
     char text[SCENE_NUMBER_SIZE];
     return scene_formula_number(formula, scene_number, scene, text, err) &&
-           yaml_scalar(name, text, value, err);
+           yaml_parse(name, text, 0, value, err);
 }

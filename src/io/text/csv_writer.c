@@ -11,10 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { DIGITS = 9, PLAIN = 4 };   // PLAIN: zeros before the first digit of 0.00012
 enum { HEADING_SIZE = 160 };
-
-static const double LEAST = 1e-290;   // smaller is 0
 
 struct CsvWriter {
     TextWriter out;
@@ -62,25 +59,10 @@ void csv_number(CsvWriter *csv, double value)
     csv_text(csv, digits);
 }
 
-// Writes as %.9g does, but keeps zeros at the end, and writes a power of ten where the point would
-// be far. The digits are those of the value times a power of ten, which is off by one in 2^53.
 void csv_rounded(CsvWriter *csv, double value)
 {
-    char text[24], *end = text + sizeof text, *at = end;
     begin_cell(csv);
-    if (!isfinite(value)) return;
-    if (fabs(value) < LEAST) value = 0;
-    int32_t power = value == 0 ? 0 : (int32_t)floor(log10(fabs(value)));   // of the first digit
-    bool plain = power >= -PLAIN && power < DIGITS;
-    int64_t digits = llround(fabs(value) * pow(10, DIGITS - 1 - power));
-    int32_t behind = DIGITS - 1 - (plain ? power : 0);   // digits behind the point
-    for (int32_t k = 0; digits > 0 || k <= behind; ++k, digits /= 10) {
-        if (k == behind && k > 0) *--at = '.';
-        *--at = (char)('0' + digits % 10);
-    }
-    if (value < 0) *--at = '-';
-    fwrite(at, 1, (size_t)(end - at), csv->out.out);
-    if (!plain) fprintf(csv->out.out, "e%d", power);
+    if (isfinite(value)) fprintf(csv->out.out, "%.9g", value == 0 ? 0 : value);   // no -0
 }
 
 void csv_end_row(CsvWriter *csv)

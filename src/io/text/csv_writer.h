@@ -17,7 +17,7 @@ void csv_text(CsvWriter *csv, const char *text);   // a cell, quoted where it mu
 void csv_heading(CsvWriter *csv, const char *name, const char *unit);
 // A cell with as few digits, 6 at least, as give the same double again; empty when not finite.
 void csv_number(CsvWriter *csv, double value);
-// A cell with nine digits, ten times as fast: of a long table.
+// A cell with nine digits at most, faster than the shortest text: of a long table.
 void csv_rounded(CsvWriter *csv, double value);
 void csv_end_row(CsvWriter *csv);
 bool csv_finish(CsvWriter *csv, Error *err);   // fsync, rename; frees `csv` either way

@@ -88,12 +88,6 @@ static void append_escaped(JsonWriter *json, const char *value)
 static void begin_item(JsonWriter *json, const char *key, bool is_plain)
 {
     JsonLevel *level = &json->levels[json->depth];
-    if (json->depth == 0 && level->count > 0)
-        error_set(&json->first, ERROR_LIBRARY, __FILE__, __LINE__,
-                  "%s: more than one value at the top", json->file.path);
-    if (json->depth > 0 && level->is_list == (key != NULL))
-        error_set(&json->first, ERROR_LIBRARY, __FILE__, __LINE__, "%s: %s", json->file.path,
-                  key ? "a key inside a list" : "no key inside an object");
     if (!is_plain && !json->in_flow) level->one_line = false;   // from here on
     if (level->count > 0) append_text(json, level->one_line ? ", " : ",");
     if (json->depth > 0 && !level->one_line) append_new_line(json);
@@ -152,11 +146,7 @@ void json_begin_list(JsonWriter *json, const char *key)
 // A list of plain values ends on its line.
 void json_end(JsonWriter *json)
 {
-    if (json->depth == 0) {
-        error_set(&json->first, ERROR_LIBRARY, __FILE__, __LINE__, "%s: an end without a beginning",
-                  json->file.path);
-        return;
-    }
+    if (json->depth == 0) return;   // of a level beyond DEPTH_MAX
     JsonLevel level = json->levels[json->depth--];
     if (level.count > 0 && !level.one_line) append_new_line(json);
     append_text(json, level.is_list ? "]" : "}");

@@ -469,24 +469,6 @@ bool yaml_parse(const char *name, const char *text, int32_t skip, YamlDocument *
     return bytes && parse_bytes(name, bytes, (int32_t)length, skip, document, err);
 }
 
-bool yaml_scalar(const char *name, const char *text, YamlDocument **document, Error *err)
-{
-    YamlNode root = YAML_NO_NODE;
-    YamlDocument *made = NEW_ARRAY(YamlDocument, 1, err);
-    *document = NULL;
-    TRY(made);
-    TRY((made->name = memory_text(name, err)));
-    TRY((made->shown = memory_text(text, err)));
-    made->size = (int32_t)strlen(text);
-    TRY(add_node(made, YAML_SCALAR, 0, &root, err));
-    TRY((made->nodes[root].text = memory_text(text, err)));
-    *document = made;
-    made = NULL;
-cleanup:
-    yaml_destroy(made);
-    return error_is_clean(err);
-}
-
 bool yaml_read(const char *path, YamlDocument **document, Error *err)
 {
     *document = NULL;

@@ -39,8 +39,6 @@ bool yaml_read(const char *path, YamlDocument **document, Error *err);
 // for "a.b=[1" with skip 4 the value is read and a caret stands under what the user typed.
 bool yaml_parse(const char *name, const char *text, int32_t skip, YamlDocument **document,
                 Error *err);
-// Does the same as yaml_parse for a plain number or word, without libfyaml, which takes some 10 us.
-bool yaml_scalar(const char *name, const char *text, YamlDocument **document, Error *err);
 void yaml_destroy(YamlDocument *document);   // NULL is fine
 
 YamlKind yaml_kind(const YamlDocument *document, YamlNode node);

@@ -88,7 +88,7 @@ TEST(formulas_of_many_scenes)
     for (int32_t k = 1; k < 4; k++) {
         char text[20];
         snprintf(text, sizeof text, "%g", 0.01 * k);
-        assert_true(yaml_scalar("value", text, &value, &err));
+        assert_true(yaml_parse("value", text, 0, &value, &err));
         SceneSetting setting = {"load.pressure", value, YAML_ROOT};
         if (!scene_source_begin(source, &setting, 1, scene, &err)) fail_msg("%s", err.message);
         assert_near("number", scene->time.until_U, 0.06 * k, 1e-14);

@@ -74,10 +74,9 @@ TEST(rounded_numbers_have_nine_digits)
     assert_true(csv_finish(csv, &err));
     read_back(text, sizeof text);
     assert_null(strstr(text, "inf"));
-    assert_int_equal(strncmp(text, "0.00000000,1.00000000,-0.380000000,0.333333333,", 47), 0);
+    assert_int_equal(strncmp(text, "0,1,-0.38,0.333333333,", 22), 0);
     for (int32_t k = 0; k < COUNT; k++, at++) {
-        double value = fabs(values[k]) < 1e-290 ? 0 : values[k];
-        assert_true(fabs(strtod(at, &at) - value) <= 5.01e-9 * fabs(value));
+        assert_true(fabs(strtod(at, &at) - values[k]) <= 5.01e-9 * fabs(values[k]));
         assert_int_equal(*at, ',');
     }
 }
