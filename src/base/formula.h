@@ -62,10 +62,6 @@ double formula_partials(const Formula *formula, const int32_t part[2], const dou
 // is 0.
 double formula_at(const Formula *formula, double x, double *slope);
 
-// Bounds of the formula's values while the variable is between x[0] and x[1], rounding aside, or
-// wider ones: infinite where a part may have no value. The narrower x, the better they are.
-void formula_bounds(const Formula *formula, const double x[2], double bounds[2]);
-
 // The value of a formula without a variable. ERROR_INPUT as above, or that it is not finite.
 bool formula_value(const char *text, FormulaLookUp look_up, const void *context, double *value,
                    Error *err);

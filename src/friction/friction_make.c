@@ -32,10 +32,6 @@ static const double JUMP = 1e-6;   // of mu: what is left of a jump that halving
 static const double STEP = 1e-6;   // of a speed, for differences
 static const double SLOPE_ERROR = 1e-3;   // relative, that differences leave to a slope
 static const double CHANGED = 0.63212055882855768;   // 1 - 1/e
-static const double SLIGHT = 1e-6;   // of mu_S: what a formula may be below 0
-static const double PEAK = 1.01;   // a wide one is met that nearly
-// LOOKED_MAX pieces take some 10 ms; halves of halves end at rounding before PIECES_MAX wait.
-enum { LOOKED_MAX = 20000, PIECES_MAX = 1100 };
 static const double SPENT_PART = 0.01;   // of the drop may be left where the law is spent
 
 static double mu_of(const FrictionLaw *law, double speed)
@@ -73,36 +69,6 @@ static bool look_at(const FrictionLaw *law, double speed, Error *err)
     if (mu < 0)
         return REFUSE(err, "at velocity %g the coefficient is %g: it must not be negative", speed,
                       mu);
-    return true;
-}
-
-// A formula also between the speeds that are looked at: each piece whose bounds do not say that mu
-// is neither negative nor a peak that was not seen (PEAK times the highest that was) is looked at
-// in its middle and halved, until they do. Where mu just touches 0 some may stay undecided.
-static bool stays_within(const FrictionLaw *law, double highest, Error *err)
-{
-    double pieces[PIECES_MAX][2] = {{0, law->end}};
-    const double least = -SLIGHT * law->mu_static, most = PEAK * highest;
-    const FrictionOperations *operations = friction_operations(law);
-    if (!operations->bounds) return true;
-    for (int32_t count = 1, looked = 0; count > 0 && looked < LOOKED_MAX; looked++) {
-        double bounds[2], *piece = pieces[--count];
-        double middle = 0.5 * (piece[0] + piece[1]), high = piece[1];
-        operations->bounds(law, piece, bounds);
-        if (bounds[0] >= least && bounds[1] <= most) continue;
-        if (middle <= piece[0] || middle >= high || count + 2 > PIECES_MAX) continue;
-        double mu = mu_of(law, middle);
-        if (!(mu >= least) && !look_at(law, middle, err)) return false;
-        if (mu > most)
-            return REFUSE(err,
-                          "at velocity %g the coefficient is %g, but at the velocities looked at "
-                          "no more than %g: a peak must be wider",
-                          middle, mu, highest);
-        piece[1] = middle;
-        pieces[count + 1][0] = middle;
-        pieces[count + 1][1] = high;
-        count += 2;
-    }
     return true;
 }
 
@@ -230,7 +196,6 @@ static bool look_at_own(const FrictionSource *source, FrictionLaw *law, Error *e
         fall = fmax(fall, highest - mu);
         before = speed;
     }
-    if (!stays_within(law, highest, err)) return false;
     law->bend = fmax(law->steepest, rise);
     if (highest > law->mu_static * (1 + SAME)) law->fall = fall;
     if (given > 0 && fabs(given - law->mu_static) > SAME * given)

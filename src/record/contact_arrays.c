@@ -41,14 +41,15 @@ void contact_arrays_destroy(ContactArrays *arrays)
     *arrays = (ContactArrays){0};
 }
 
-// Refuses a negative coefficient at node i. Formulas and plug-ins are checked before the run in
-// steady slip alone, and may fall below 0 where the run leads. Friction would then drive the block.
+// Refuses a negative coefficient at node i. Before the run, formulas and plug-ins are checked in
+// steady slip alone, at many speeds, and may fall below 0 where the run leads. Friction would then
+// drive the block.
 static bool check_coefficient(const ContactArrays *arrays, const Observation *seen, int32_t i,
                               Error *err)
 {
     const FrictionNode *node = friction_at(arrays->friction, i);
     const Interface *interface = seen->interface;
-    if (!node->law->remembers || !friction_is_own(node->law)) return true;
+    if (!friction_is_own(node->law)) return true;
     const double *theta = seen->state->theta + (int64_t)i * STATES_MAX;
     double speed = slip_size(interface, i, seen->state->slip_rate);
     char states[25 * STATES_MAX] = "";

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A formula of two variables: what is read can be evaluated, with derivatives and without, to the
-// same value; and where each step rounds only upwards or downwards with its operands, the value
-// lies within the bounds.
+// same value.
 #include "base/formula.h"
 #include "tests/fuzz/fuzz.h"
 
@@ -13,27 +12,6 @@ static bool look_up(const void *context, const char *name, double *value)
     (void)context;
     *value = 0.38;
     return strcmp(name, "mu") == 0;
-}
-
-// A quotient, a power and what libm computes need not be monotone to the last bit.
-static bool is_monotone(const char *text)
-{
-    return !strpbrk(text, "/^lhs");   // exp has a p, as points does
-}
-
-static void check_bounds(const Formula *formula, double x)
-{
-    const double range[2] = {x, x + 0.75};
-    double bounds[2], slope;
-    formula_bounds(formula, range, bounds);
-    for (int k = 0; k <= 3; k++) {
-        double value = formula_at(formula, x + 0.25 * k, &slope);
-        if (value < bounds[0] || value > bounds[1]) {
-            fprintf(stderr, "%g at %g is not within %g to %g\n", value, x + 0.25 * k, bounds[0],
-                    bounds[1]);
-            abort();
-        }
-    }
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
@@ -56,11 +34,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
             double alone = formula_partials(&formula, all, x, 0, NULL);
             if (memcmp(&value, &alone, sizeof value) != 0) abort();
         }
-    if (formula_read(text, &one, &formula, &other)) {
-        if (!error_is_clean(&err)) abort();   // fewer variables know fewer formulas
-        for (size_t k = 0; is_monotone(text) && k < sizeof places / sizeof *places; k++)
-            check_bounds(&formula, places[k]);
-    }
+    if (formula_read(text, &one, &formula, &other) && !error_is_clean(&err))
+        abort();   // fewer variables know fewer formulas
     free(text);
     return 0;
 }

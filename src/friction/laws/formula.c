@@ -47,11 +47,6 @@ static double value(const FrictionLaw *law, double speed, double *slope)
     return formula_at(&law->formula.text, speed, slope);
 }
 
-static void bounds(const FrictionLaw *law, const double range[2], double limits[2])
-{
-    formula_bounds(&law->formula.text, range, limits);
-}
-
 // Expression k, 0 for mu, of v, the states and p in this order. slope: the derivatives by the first
 // [wanted] of them; wanted 0: the value alone.
 static double expression(const FrictionLaw *law, int32_t k, double speed, double pressure,
@@ -100,7 +95,6 @@ const FrictionOperations friction_formula = {
     .spent = 1,
     .make = make,
     .value = value,
-    .bounds = bounds,
     .mu = find_mu,
     .rate = find_rate,
     .mu_alone = mu_alone,

@@ -179,8 +179,6 @@ typedef struct FrictionOperations {
     // The k-th of the speeds, ascending from 0 to the end, at which it is looked at; INFINITY:
     // there are no more. NULL: a hundred to a decade.
     double (*look_speed)(const FrictionLaw *law, int32_t k);
-    // Bounds of mu over a range of speeds; NULL: not known.
-    void (*bounds)(const FrictionLaw *law, const double range[2], double bounds[2]);
 
     // A law that remembers: mu, and g.
     FrictionPart *mu, *rate;
