@@ -13,7 +13,6 @@
 
 #include "base/memory.h"
 #include "contact/slip.h"
-#include "record/front_area.h"
 
 #include <math.h>
 #include <string.h>
@@ -61,7 +60,6 @@ bool events_create(const Interface *interface, double rate_scale, Events *events
                        .room = FIRST_ROOM};
     events->list = NEW_ARRAY(Event, FIRST_ROOM, err);
     events->slipped = NEW_ARRAY(uint8_t, interface->contact_count, err);
-    events->slow_arrival = NEW_ARRAY(double, interface->contact_count, err);
     events->pads = NEW_ARRAY(PadSum, interface->pad_count, err);
     events->pads_before = NEW_ARRAY(PadSum, interface->pad_count, err);
     if (!error_is_clean(err)) return false;
@@ -73,8 +71,7 @@ bool events_create(const Interface *interface, double rate_scale, Events *events
 
 void events_destroy(Events *events)
 {
-    memory_free_all(events->list, events->slipped, events->slow_arrival, events->pads,
-                    events->pads_before);
+    memory_free_all(events->list, events->slipped, events->pads, events->pads_before);
     front_path_destroy(&events->path);
     *events = (Events){0};
 }
@@ -94,7 +91,6 @@ static bool start_event(Events *events, EventKind kind, const Observation *seen,
                                    .front_slips = events->front_slips_before,
                                    .reach = seen->front,
                                    .front_speed = NAN,
-                                   .area_front_speed = NAN,
                                    .pad = -1,
                                    .slip_length = NAN,
                                    .slip_cells = NAN,
@@ -127,18 +123,14 @@ static void end_slow(Events *events, const Interface *interface)
         if (gap && before >= from && x <= to) gaps += x - before;
     }
     if (duration > 0 && to > from) event->front_speed = (to - from - gaps) / duration;
-    if (events->in_space)
-        event->area_front_speed = front_area_speed(interface, events->slow_arrival, event->t_start);
     events->slow = -1;
 }
 
 // Sets the values of a rapid event that are known only when it is over.
-static void end_rapid(Events *events, const Interface *interface)
+static void end_rapid(Events *events)
 {
     Event *event = &events->list[events->rapid];
     front_path_stations(&events->path, event->t_start, event->front_times);
-    if (events->in_space)
-        event->area_front_speed = front_area_speed(interface, events->path.arrival, -INFINITY);
     events->rapid = -1;
 }
 
@@ -236,7 +228,6 @@ static void follow_rapid(Events *events, const Observation *seen)
         if (seen_status(seen, i) != CONTACT_STICK && !events->slipped[i]) {
             events->slipped[i] = 1;
             event->slipped += interface->weight[i];
-            if (isnan(events->slow_arrival[i])) events->slow_arrival[i] = INFINITY;
         }
         all = all && events->slipped[i];
     }
@@ -313,23 +304,19 @@ static bool follow_step(Events *events, const Observation *seen, Error *err)
     if (events->rapid >= 0) {
         follow_rapid(events, seen);
         if (seen->max_slip_rate < events->rate_stop) {
-            end_rapid(events, interface);
+            end_rapid(events);
             events->ended = true;
         }
         return true;
     }
     bool slips = seen->front > interface_line_x(interface, 0) && seen->max_slip_rate > 0;
-    if (events->slow < 0 && slips) {
-        if (!start_event(events, EVENT_QUASI_STATIC, seen, &events->slow, err)) return false;
-        for (int32_t i = 0; i < interface->contact_count; i++) events->slow_arrival[i] = NAN;
-    }
+    if (events->slow < 0 && slips &&
+        !start_event(events, EVENT_QUASI_STATIC, seen, &events->slow, err))
+        return false;
     if (events->slow < 0) return true;
     Event *event = &events->list[events->slow];
     extend_event(event, seen, seen->front);
     event->slipped = fmax(event->slipped, sum_slipping(events->pads, interface->pad_count));
-    for (int32_t i = 0; events->in_space && i < interface->contact_count; i++)
-        if (isnan(events->slow_arrival[i]) && status_slips(seen_status(seen, i)))
-            events->slow_arrival[i] = seen->t;
     return true;
 }
 
@@ -356,7 +343,7 @@ void events_close(Events *events, const Observation *last)
     if (!events->list) return;   // the run failed before they were created
     if (events->rapid >= 0) {
         extend_event(&events->list[events->rapid], last, 0);
-        end_rapid(events, last->interface);
+        end_rapid(events);
     }
     end_slow(events, last->interface);
 }
@@ -382,8 +369,7 @@ bool events_archive(Events *events, const Interface *interface, Archive *archive
         event->kind = (EventKind)kind;
         archive_numbers_of(archive, &event->U_start, &event->U_stop, &event->t_start,
                            &event->t_stop, &event->mu_start, &event->front_start, &event->reach,
-                           &event->slipped, &event->peak_slip_rate, &event->front_speed,
-                           &event->area_front_speed);
+                           &event->slipped, &event->peak_slip_rate, &event->front_speed);
         archive_flag(archive, &event->front_slips);
         archive_index(archive, &event->pad, -1, interface->pad_count);
         archive_numbers_of(archive, &event->slip_length, &event->slip_cells, &event->slip_before);
@@ -398,7 +384,6 @@ bool events_archive(Events *events, const Interface *interface, Archive *archive
     archive_flag(archive, &events->ended);
     archive_flag(archive, &events->crossed);
     archive_octets(archive, events->slipped, interface->contact_count);
-    archive_numbers(archive, events->slow_arrival, interface->contact_count);
     archive_numbers_of(archive, &events->fast_front_start, &events->fast_t_start,
                        &events->fast_reach);
     front_path_archive(&events->path, interface->contact_count, archive);

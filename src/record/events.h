@@ -43,8 +43,6 @@ typedef struct Event {
     double peak_slip_rate;   // velocity
     double front_speed;   // mean along the contact; rapid: of the fast front on `pad`; NaN: it did
         // not move
-    double area_front_speed;   // in space over all of the contact (record/front_area); slow: of
-        // where slip first came without being rapid; NaN: as above, and while it goes on
     // Rapid: the pad on which slow slip turned fast, and how much of it slipped in the step before,
     // length and cells: in space the mean over its breadth. Slow: -1, NaN; in the first step of
     // all: NaN.
@@ -69,8 +67,6 @@ typedef struct Events {
     bool began, ended, crossed;   // of a rapid event, in the step seen last; crossed: it became
         // leading in this step
     uint8_t *slipped;   // [contact_count] in the rapid event under way; owned
-    double *slow_arrival;   // [contact_count] in space: when the slow event first slipped, NaN: not
-        // yet, infinite: rapid slip was there first; owned
     double fast_front_start;   // where and when its fast front was first seen
     double fast_t_start;
     double fast_reach;   // on the pad where it began, length

@@ -110,7 +110,6 @@ static void write_results(JsonWriter *json, const RunReport *report)
         }
         json_numbers_of(json, {"peak_slip_rate", event->peak_slip_rate},
                         {"front_speed", event->front_speed});
-        if (events->in_space) json_number(json, "area_front_speed", event->area_front_speed);
         if (event->kind != EVENT_QUASI_STATIC) {
             write_slip(json, event, &simulation->pads);
 

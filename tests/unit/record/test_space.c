@@ -189,33 +189,6 @@ TEST_BETWEEN(test_front, setup, teardown)
     assert_near("reach", event->reach, 0.5, 0);
 }
 
-// Over the area. Slow slip has come to the first two cells when it is an event (front > 0). It
-// comes to nodes 6 and 7, half a unit further, 2 later; rapid slip to 8 before it: that cell is no
-// part. The next rapid front crosses cells 0 and 1 along y, by interpolation at 4.5, 5.5 and 6.5.
-TEST_BETWEEN(test_front_over_the_area, setup, teardown)
-{
-    int32_t face[16];   // four cells
-    for (int32_t k = 0; k < 16; k++)
-        face[k] = 3 * (k / 8) + k / 4 % 2 + (const int32_t[]){0, 3, 4, 1}[k % 4];
-    hand.interface.faces = (ContactFaces){.count = 4, .width = 4, .point = face};
-    see(0, REST);
-    see(1, (const double[NODES]){1, 1, 1});
-    see(2, (const double[NODES]){1, 1, 1, 1, 1, 1});
-    see(2.5, (const double[NODES]){[8] = 4});
-    see(2.6, REST);
-    see(4, (const double[NODES]){1, 1, 1, 1, 1, 1, 1, 1, 1});
-    see(4, REST);
-    see(5, (const double[NODES]){4, 0, 0, 4});
-    see(6, (const double[NODES]){4, 4, 0, 4, 4});
-    see(7, (const double[NODES]){4, 4, 4, 4, 4, 4});
-    see(8, REST);
-    events_close(&events, &hand.seen);
-    assert_int_equal(events.count, 3);
-    assert_near("slow", events.list[0].area_front_speed, 0.5 / 2, 1e-12);
-    assert_true(isnan(events.list[1].area_front_speed));
-    assert_near("rapid", events.list[2].area_front_speed, 0.5, 1e-12);
-}
-
 TEST_BETWEEN(test_critical_area, setup, teardown)
 {
     Error err = {0};
