@@ -185,9 +185,6 @@ const char *amontons_kernels(const char **possible);
 // as the program does; call it before there are other threads. false, as at the start: in this
 // process. Where the user has set the variable AMONTONS_APART that decides: empty means false.
 void amontons_use_child_processes(bool use);
-// A signal handler that ends the process calls this: no lock file stays in a result folder or the
-// cache.
-void amontons_let_go(void);
 // The folder of the meshes and example scenes that come with the library; false: not found.
 bool amontons_data_folder(char folder[AMONTONS_PATH_SIZE]);
 

@@ -94,7 +94,6 @@ static void meet_strange_end(void)
 {
     if (!guarded_process) return;
     if (getpid() == guarded_process) {   // else the process that waits for this one says so
-        amontons_let_go();
         tell("amontons: error: a plug-in or library ended the program in the middle of its work "
              "(it called exit)\n");
     }
@@ -245,7 +244,6 @@ static void want_stop(int signal_number)
     static const char words[] = "amontons: stopped before the first step; nothing was computed\n";
     stop_wanted = 1;
     if (work_begun) return;
-    amontons_let_go();
     ssize_t written = write(STDERR_FILENO, words, sizeof words - 1);
     (void)written;
     raise(signal_number);   // by its default, once this handler returns

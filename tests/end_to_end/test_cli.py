@@ -454,7 +454,6 @@ class Run(InFolder):
         self.assertEqual(run.returncode, -signal.SIGTERM)
         self.assertIn("stopped before the first step; nothing was computed", shown)
         self.assertEqual((result / "run.json").read_bytes(), earlier)
-        self.assertFalse((result / "amontons.lock").exists())
 
     def limited(self, limit, result):
         words = f'ulimit {limit} && exec "$@"'

@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "base/text.h"
+#include "io/files/file_lock.h"
 #include "io/files/part_file.h"
 
 #include <dirent.h>
@@ -72,9 +73,9 @@ static int by_use(const void *left, const void *right)
 bool cache_folder_read(CacheFolder *folder, Error *err)
 {
     // A file of ours has a name of 32 digits and letters, and an ending that only we use (.shape:
-    // until 0.2); or it is a part of such a file.
+    // until 0.2; .lock: of a process, also of one that was killed); or it is a part of such a file.
 #define ENDING(kind, ending, name) "." ending, "." ending PART,
-    static const char *const endings[] = {CACHE_KINDS(ENDING) ".shape"};
+    static const char *const endings[] = {CACHE_KINDS(ENDING) ".shape", ".lock"};
 #undef ENDING
     DIR *listing = NULL;
     *folder = (CacheFolder){0};
@@ -133,6 +134,10 @@ int32_t cache_folder_trim(const CacheFolder *folder, int64_t limit, const char *
             *part = 0;
             gone = part_file_try(&file, path, &unseen);
             part_file_discard(&file);
+        } else if (strcmp(part, ".lock") == 0) {
+            FileLock lock;   // a lock that somebody holds stays
+            gone = file_lock_take(&lock, path, 0);
+            file_lock_release(&lock);
         } else {
             gone = unlink(path) == 0;
         }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // One process at a time at some work, by a lock on a file that exists only meanwhile. The lock is
-// flock's: it belongs to the open file and ends with the process, however that ends, so that
-// nothing has to be cleared up after a kill. Called by io/cache/store and
-// run/result/result_folder; part_file shares file_lock_try and file_is_named.
+// flock's: it belongs to the open file and ends with the process, however that ends. The file of a
+// process that was killed stays; it blocks nobody, and the next one that takes the lock removes it.
+// Called by io/cache/store and run/result/result_folder; part_file shares file_lock_try and
+// file_is_named.
 //
 //   take -> (the work) -> release     take also gives up: after its limit, or where the folder
 //                                     cannot be written to
@@ -11,7 +12,6 @@
 
 #include <limits.h>
 #include <stdbool.h>
-#include <sys/types.h>
 
 typedef enum LockTry { LOCK_OURS, LOCK_BUSY, LOCK_NONE } LockTry;
 
@@ -25,7 +25,6 @@ typedef struct FileLock {
     bool alone;   // false: the file system has no locks, and others may hold it, too
     bool busy;   // given up, as another process held it to the end
     int descriptor;   // valid while held
-    pid_t owner;   // the process that took it: one that it forked has a copy, not the lock
     char path[PATH_MAX + 64];
 } FileLock;
 
@@ -34,14 +33,7 @@ typedef struct FileLock {
 bool file_lock_take(FileLock *lock, const char *path, double seconds);
 // The warning that belongs to a lock that is held and not alone, once in a process; else NULL.
 const char *file_lock_warning(const FileLock *lock);
-// Moves what `from` holds, or holds no more, to `to`, which must not be held: file_locks_let_go
-// knows a lock by its address, so a FileLock is not copied by assignment.
-void file_lock_move(FileLock *from, FileLock *to);
 void file_lock_release(FileLock *lock);   // removes the file; fine when not held
-
-// Removes the files of all locks that this process holds: it is about to end. A signal handler may
-// call it.
-void file_locks_let_go(void);
 
 // True if `name` is still the name of the file behind `descriptor`: it may have been removed,
 // renamed or replaced between opening and locking.

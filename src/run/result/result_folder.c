@@ -262,13 +262,7 @@ bool result_folder_is_settled(const ResultFolder *folder)
 void result_folder_move(ResultFolder *from, ResultFolder *to)
 {
     *to = *from;
-    file_lock_move(&from->lock, &to->lock);
     *from = (ResultFolder){0};
-}
-
-void amontons_let_go(void)
-{
-    file_locks_let_go();
 }
 
 void result_folder_release(ResultFolder *folder)

@@ -6,7 +6,6 @@
 #include "run/warnings.h"
 
 #include "base/memory.h"
-#include "io/files/file_lock.h"
 #include "place_fixture.h"
 #include "small_scene.h"
 
@@ -83,27 +82,17 @@ TEST_BETWEEN(test_stopped_in_the_first_run, begin, end)
     assert_false(place_has(place, "figures"));
 }
 
-// The first run has the search's folder, with its lock, when it reports. As many such runs as there
-// are places for held locks leave a place for the next lock, which is removed at the end of the
-// process.
+// The first run has the search's folder, with its lock, when it reports.
 TEST_BETWEEN(test_out_of_time_in_the_first_run, begin, end)
 {
-    enum { RUNS = 9 };
     Error err = {0};
     RunSummary summary;
     Scene *scene = scene_of("accuracy.within=0.001", NULL);
     RunOptions options = {.folder = place, .overwrite = true};
-    for (int32_t run = 0; run < RUNS; run++) {
-        if (!amontons_run(scene, &options, &summary, &err)) fail_msg("%s", err.message);
-        assert_true(place_has(place, "run.json"));
-        assert_false(place_has(place, "amontons.lock"));
-    }
+    if (!amontons_run(scene, &options, &summary, &err)) fail_msg("%s", err.message);
+    assert_true(place_has(place, "run.json"));
+    assert_false(place_has(place, "amontons.lock"));
     amontons_scene_destroy(scene);
-    FileLock lock;
-    assert_true(file_lock_take(&lock, place_path(place, "next.lock"), 0));
-    amontons_let_go();
-    assert_false(place_has(place, "next.lock"));
-    file_lock_release(&lock);
 }
 
 // A search whose steps all take the same time, whatever the machine does besides: each waits for

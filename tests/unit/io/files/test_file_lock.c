@@ -55,48 +55,6 @@ TEST(held_until_released)
     file_lock_release(&other);
 }
 
-// It is released from where it is, and each move leaves the places among held locks as they were:
-// the last of many is let go, too.
-TEST(held_where_it_was_moved_to)
-{
-    enum { TIMES = 20 };
-    FileLock first = {0}, second = {0};
-    file_lock_move(&first, &second);
-    assert_false(second.held);
-    for (int32_t time = 0; time < TIMES; time++) {
-        assert_true(file_lock_take(&first, path, 0));
-        file_lock_move(&first, &second);
-        assert_true(second.held && !first.held);
-        file_lock_release(&first);
-        assert_int_equal(access(path, F_OK), 0);
-        if (time == TIMES - 1)
-            file_locks_let_go();
-        else
-            file_lock_release(&second);
-        assert_int_not_equal(access(path, F_OK), 0);
-    }
-    file_lock_release(&second);
-}
-
-// Before the process ends by a signal; not by one that it forked.
-TEST(let_go_by_who_holds_it)
-{
-    FileLock lock;
-    assert_true(file_lock_take(&lock, path, 0));
-    pid_t child = fork();
-    if (child == 0) {
-        file_locks_let_go();
-        _exit(0);
-    }
-    waitpid(child, NULL, 0);
-    assert_int_equal(access(path, F_OK), 0);
-    file_locks_let_go();
-    assert_int_not_equal(access(path, F_OK), 0);
-    file_lock_release(&lock);
-    assert_true(file_lock_take(&lock, path, 0));
-    file_lock_release(&lock);
-}
-
 TEST(given_up_after_the_limit)
 {
     FileLock lock;
