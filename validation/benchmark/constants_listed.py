@@ -332,7 +332,6 @@ NOT_A_CHOICE = {
         "FLOOR_PART": "of the contact: as mean widths are exact for upright layers and pads, any above a half",
         "standard_middle": "the rod's default place", "standard_width": "the rod's default"},
     "model/obtain.c": {
-        "USUAL": "from which on a message names a quotient",
         "REDUCTION_TOLERANCES": "draft and fine: as standard",
         "ONE_BY_ONE_FROM": "of the memory; below, two parts side by side are faster on two cores"},
     "model/memory.c": {
