@@ -240,10 +240,11 @@ const double *interface_operator_schur(const InterfaceOperator *condensed)
     return condensed->schur;
 }
 
-void interface_operator_drop_schur(InterfaceOperator *condensed)
+double *interface_operator_take_schur(InterfaceOperator *condensed)
 {
-    memory_free(condensed->schur);
+    double *schur = condensed->schur;
     condensed->schur = NULL;
+    return schur;
 }
 
 const double *interface_operator_schur_lower(const InterfaceOperator *condensed)

@@ -81,8 +81,8 @@ void interface_operator_destroy(InterfaceOperator *condensed);   // NULL is fine
 // is S', what is condensed is g', and a caller turns what it finds by interface_operator_release
 // before the expand.
 const double *interface_operator_schur(const InterfaceOperator *condensed);
-// S is no longer kept; asked for it, NULL. What is condensed needs none.
-void interface_operator_drop_schur(InterfaceOperator *condensed);
+// S, from here on owned by the caller; the operator has none. What is condensed needs none.
+double *interface_operator_take_schur(InterfaceOperator *condensed);
 // The Cholesky factor of S of a full mesh that is not lifted, 0 above the diagonal.
 const double *interface_operator_schur_lower(const InterfaceOperator *condensed);
 // rhs [dof_count] -> g [interface_count]; expand must follow before the next condense.

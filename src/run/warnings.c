@@ -42,7 +42,7 @@ int32_t undamped_nodes(const Certificate *certificate, double load, double *wors
     double length = 0;
     *worst = 0;
     if (!certificate->damping || !(friction->drop > 0)) return 0;   // the scene was warned of
-    const double *schur = interface_operator_schur(certificate->damping);
+    const double *schur = certificate->damping;
     int32_t count = 0;
     for (int32_t i = 0; i < interface->contact_count; i++) length += interface->weight[i];
     for (int32_t i = 0; i < interface->contact_count; i++) {

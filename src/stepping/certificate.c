@@ -79,12 +79,14 @@ bool certificate_create(const Block *block, Certificate *certificate, Error *err
 {
     TRY(create_work(block, certificate, err));
     OperatorTerms terms = {.damping = 1, .lift = true};
-    certificate->damping = interface_operator_create(block->system, terms, err);
+    InterfaceOperator *condensed = interface_operator_create(block->system, terms, err);
+    if (condensed) certificate->damping = interface_operator_take_schur(condensed);
+    interface_operator_destroy(condensed);
     // Without viscosity (or with eta1 = 0) there is nothing that could certify a weakening slip.
     if (err->code == ERROR_COMPUTE) error_clear(err);
     if (certificate->damping)
-        TRY(contact_matrix_create(interface_operator_schur(certificate->damping),
-                                  block->interface->count, &certificate->damping_contact, err));
+        TRY(contact_matrix_create(certificate->damping, block->interface->count,
+                                  &certificate->damping_contact, err));
     if (certificate->damping) TRY(find_alone(block, certificate, err));
 cleanup:
     return error_is_clean(err);
@@ -98,9 +100,8 @@ bool certificate_halve(const Certificate *whole, const ContactHalf *half, const 
     TRY(create_work(block, certificate, err));
     certificate->part = part;
     if (!whole->damping) goto cleanup;
-    double *damping = certificate->half_damping = NEW_ARRAY(double, count *count, err);
-    if (damping &&
-        contact_half_matrix(half, interface_operator_schur(whole->damping), antisymmetric, damping))
+    double *damping = certificate->damping = NEW_ARRAY(double, count *count, err);
+    if (damping && contact_half_matrix(half, whole->damping, antisymmetric, damping))
         TRY(contact_matrix_create(damping, (int32_t)count, &certificate->damping_contact, err));
 cleanup:
     return error_is_clean(err);
@@ -109,8 +110,7 @@ cleanup:
 void certificate_destroy(Certificate *certificate)
 {
     contact_matrix_destroy(&certificate->damping_contact);
-    interface_operator_destroy(certificate->damping);
-    memory_free_all(certificate->half_damping, certificate->alone);
+    memory_free_all(certificate->damping, certificate->alone);
     moving_set_destroy(&certificate->moving);
     memory_free_all(certificate->matrix, certificate->vector, certificate->pivots);
     *certificate = (Certificate){0};

@@ -50,8 +50,7 @@
 
 typedef struct Certificate {
     ContactPart part;   // of what is asked about
-    InterfaceOperator *damping;   // holds S_C; NULL: C is singular, or it is halved; owned
-    double *half_damping;   // [count^2] S_C halved; NULL: it is not; owned
+    double *damping;   // [count^2] S_C, of one side halved; NULL: C is singular; owned
     double *alone;   // [contact_count] S[t,t] at the real rate where it is least: what resists a
         // node that slips alone, with branches of the materials; NULL: there are none; owned
     ContactMatrix damping_contact;   // S_C, open nodes condensed out; empty without; owned

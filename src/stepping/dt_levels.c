@@ -90,7 +90,8 @@ static bool build_level(DtLevels *dt_levels, int32_t k, ContactPart part, Error 
         if (contact_half_matrix(dt_levels->half, interface_operator_schur(level),
                                 part == PART_ANTISYMMETRIC, schur)) {
             // S itself is freed where nobody else uses it.
-            if (!dt_levels->contact[PART_WHOLE][k].schur) interface_operator_drop_schur(level);
+            if (!dt_levels->contact[PART_WHOLE][k].schur)
+                memory_free(interface_operator_take_schur(level));
             return contact_matrix_create(schur, (int32_t)count, &dt_levels->contact[part][k], err);
         }
         drop_contact(dt_levels, k, part);

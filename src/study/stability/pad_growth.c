@@ -38,16 +38,14 @@ typedef struct PadWork {
     double *matrix, *values, *work;   // [contact_count^2], [contact_count], DENSE_EIGEN_WORK
 } PadWork;
 
-// The smallest eigenvalue of w^-1/2 S[T,T] w^-1/2 over the whole pad. condensed: NULL where the
+// The smallest eigenvalue of w^-1/2 S[T,T] w^-1/2 over the whole pad. schur: NULL where the
 // matrix is singular; then it is 0.
-static bool softest_slip(PadWork *work, const InterfaceOperator *condensed, double *smallest,
-                         Error *err)
+static bool softest_slip(PadWork *work, const double *schur, double *smallest, Error *err)
 {
     const Interface *interface = work->interface;
     int64_t size = interface->count;
     *smallest = 0;
-    if (!condensed) return true;
-    const double *schur = interface_operator_schur(condensed);
+    if (!schur) return true;
     for (int32_t b = 0; b < work->count; b++) {
         int32_t j = work->nodes[b];
         for (int32_t a = 0; a < work->count; a++) {
@@ -213,7 +211,7 @@ bool stability_measure_pads(StabilityPath *path, StabilitySummary *summary, Erro
             spring += interface->weight[i] * stability_critical_spring(path, i, pad->pressure);
         }
         TRY(softest_slip(&work, path->control.certificate.damping, &pad->drag, err));
-        TRY(softest_slip(&work, work.stiffness, &pad->stiffness, err));
+        TRY(softest_slip(&work, interface_operator_schur(work.stiffness), &pad->stiffness, err));
         pad->load = ratio_of(&work, work.count);
         pad->critical_stiffness = spring / pad->length;
         pad->l_c = critical_length(&work);
