@@ -13,12 +13,6 @@ static const double STEP_MAX_SLIP = 0.2;   // level 0: the drive moves this part
 static const double STEPS_LEAST_LIMIT = 50;   // without a rod a run has at least so many
 static const double STEP_RANGE_LIMIT = 1e-10;   // step_min over step_max
 
-// Before an explicit run the block relaxes by SDIRK2; the line knows no explicit steps.
-static const TableauKind TABLEAUS[] = {[SCHEME_SDIRK2] = TABLEAU_SDIRK2,
-                                       [SCHEME_EXPLICIT] = TABLEAU_SDIRK2,
-                                       [SCHEME_EULER] = TABLEAU_EULER,
-                                       [SCHEME_SDIRK3] = TABLEAU_SDIRK3};
-
 // Time; 0 where the scene says neither.
 double step_rule_end(const Scene *scene)
 {
@@ -32,15 +26,14 @@ double step_rule_end(const Scene *scene)
     return by_rod > 0 ? by_rod : by_time;
 }
 
-// relax_step is 0: it is the caller's. Keys of the scene replace what follows from sizes, for
-// implicit schemes.
+// relax_step is 0: it is the caller's. Keys of the scene replace what follows from sizes; before an
+// explicit run, whose steps they mean, the block relaxes without them.
 StepControlDef step_rule(const Scene *scene, const StepSizes *sizes)
 {
     bool driven = scene->rod.kind != ROD_NONE;
     bool implicit = scene->time.scheme != SCHEME_EXPLICIT;   // the keys mean the scheme named
     double tolerance = scene->time.tolerance > 0 ? scene->time.tolerance : sizes->tolerance;
-    StepControlDef def = {.scheme = TABLEAUS[scene->time.scheme],
-                          .tolerance = tolerance * sizes->slip,
+    StepControlDef def = {.tolerance = tolerance * sizes->slip,
                           .step_max = step_rule_end(scene) / STEPS_LEAST_LIMIT,
                           .wave_step = scene->time.wave_step * sizes->crossing,
                           .watch_time = scene->time.watch * sizes->crossing,

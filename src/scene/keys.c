@@ -290,10 +290,9 @@ static const SceneKey keys[] = {
     KEY("time.until.mu_below", KEY_NUMBER, time.until_mu_below, "1", RANGE_NOT_NEGATIVE, NULL,
         "Stop earlier when F_T / F_N falls below this, having been above."),
     CHOICE(time.scheme, "sdirk2",
-           "`sdirk2`: implicit, of order 2, steps as long as the answer allows. `euler`, `sdirk3`: "
-           "the same with backward Euler (order 1), three stages (order 3). `explicit`: central "
-           "differences at the stable step, an independent check that takes far longer.",
-           "sdirk2", "explicit", "euler", "sdirk3"),
+           "`sdirk2`: implicit, of order 2, steps as long as the answer allows. `explicit`: "
+           "central differences at the stable step, an independent check that takes far longer.",
+           "sdirk2", "explicit"),
     CHOICE(
         time.accuracy, "standard",
         "Error allowed to steps (2e-2, 5e-3, 5e-4) and to the reduction where their own keys do "

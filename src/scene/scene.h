@@ -22,12 +22,7 @@ typedef enum SceneRodKind { ROD_PUSH, ROD_BONDED, ROD_NONE } SceneRodKind;
 typedef enum SceneStartFriction { START_FRICTION_OFF, START_FRICTION_ON } SceneStartFriction;
 typedef enum SceneStartRod { START_ROD_AWAY, START_ROD_HELD } SceneStartRod;
 typedef enum SceneStartState { START_RELAXED, START_UNDEFORMED } SceneStartState;
-typedef enum SceneScheme {
-    SCHEME_SDIRK2,
-    SCHEME_EXPLICIT,
-    SCHEME_EULER,
-    SCHEME_SDIRK3
-} SceneScheme;
+typedef enum SceneScheme { SCHEME_SDIRK2, SCHEME_EXPLICIT } SceneScheme;
 typedef enum SceneReduce { REDUCE_AUTO, REDUCE_ALWAYS, REDUCE_NEVER } SceneReduce;
 typedef enum SceneAccuracy { ACCURACY_DRAFT, ACCURACY_STANDARD, ACCURACY_FINE } SceneAccuracy;
 

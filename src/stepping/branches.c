@@ -30,18 +30,18 @@ static int64_t rate_at(const Branches *branches, int32_t i, int32_t k)
     return ((int64_t)i * branches->spectrum->count + k) * branches->system->dof_count;
 }
 
-void branches_start_stage(const Branches *branches, const Tableau *tableau, double step, int32_t i,
-                          const State *from, State *to, double *restrict rhs)
+void branches_start_stage(const Branches *branches, double step, int32_t i, const State *from,
+                          State *to, double *restrict rhs)
 {
     int32_t dofs = branches->system->dof_count;
     for (int32_t k = 0; k < branches->spectrum->count; k++) {
         int64_t at = (int64_t)k * dofs;
         double *restrict stretch = to->stretch + at, *restrict pull = to->pull + at;
-        double left = 1 / (1 + tableau->gamma * step / branches->spectrum->time[k]);
+        double left = 1 / (1 + SDIRK2.gamma * step / branches->spectrum->time[k]);
         memcpy(stretch, from->stretch + at, (size_t)dofs * sizeof *stretch);
         memcpy(pull, from->pull + at, (size_t)dofs * sizeof *pull);
         for (int32_t j = 0; j < i; j++) {
-            double weight = step * tableau->a[i][j];
+            double weight = step * SDIRK2.a[i][j];
             const double *restrict stretch_rate = branches->stretch_rate + rate_at(branches, j, k);
             const double *restrict pull_rate = branches->pull_rate + rate_at(branches, j, k);
             for (int32_t d = 0; d < dofs; d++) {
@@ -53,16 +53,16 @@ void branches_start_stage(const Branches *branches, const Tableau *tableau, doub
     }
 }
 
-double branches_end_stage(Branches *branches, const Tableau *tableau, double step, int32_t i,
+double branches_end_stage(Branches *branches, double step, int32_t i,
                           const double *restrict velocity, const double *elastic, State *to,
                           double *restrict force, double *dissipated)
 {
     const BulkOperator *system = branches->system;
     const Spectrum *spectrum = branches->spectrum;
     int32_t dofs = system->dof_count;
-    double scaled = tableau->gamma * step, power = 0;
-    double weight = step * tableau->a[tableau->stages - 1][i];
-    bool last = i + 1 == tableau->stages;
+    double scaled = SDIRK2.gamma * step, power = 0;
+    double weight = step * SDIRK2.a[SDIRK_STAGES - 1][i];
+    bool last = i + 1 == SDIRK_STAGES;
     for (int32_t j = 0; j < spectrum->shape_count; j++) {
         double *image = branches->image + (int64_t)j * dofs;
         if (j < spectrum->matrix_count)

@@ -27,15 +27,14 @@ bool branches_create(const BulkOperator *system, int32_t stages, Branches *branc
 void branches_destroy(Branches *branches);
 
 // Puts e_k* and K_k e_k* of stage i into `to`, and takes off `rhs` what they pull at v = 0.
-void branches_start_stage(const Branches *branches, const Tableau *tableau, double step, int32_t i,
-                          const State *from, State *to, double *rhs);
+void branches_start_stage(const Branches *branches, double step, int32_t i, const State *from,
+                          State *to, double *rhs);
 
 // e_k and K_k e_k of the stage that ended with v, in `to`; elastic: K v, force/time. Takes off
 // `force` what is proportional to v of their forces. Adds the energies that they dissipate, by the
 // stage's weight in the step, to dissipated [count]; returns the power, sum_k e_k' K_k e_k/tau_k.
-double branches_end_stage(Branches *branches, const Tableau *tableau, double step, int32_t i,
-                          const double *velocity, const double *elastic, State *to, double *force,
-                          double *dissipated);
+double branches_end_stage(Branches *branches, double step, int32_t i, const double *velocity,
+                          const double *elastic, State *to, double *force, double *dissipated);
 
 // force [dof_count] += sum_k K_k e_k, by the matrices.
 void branches_add_force(Branches *branches, const State *state, double *force);

@@ -10,8 +10,7 @@
 
 void dt_levels_init(BulkOperator *system, double step_max, double step_min, DtLevels *dt_levels)
 {
-    *dt_levels = (DtLevels){
-        .system = system, .step_max = step_max, .gamma = tableau_of(TABLEAU_SDIRK2).gamma};
+    *dt_levels = (DtLevels){.system = system, .step_max = step_max, .gamma = SDIRK2.gamma};
     double levels = floor(log2(step_max / step_min) * (1 + 1e-12)) + 1;
     dt_levels->level_count = (int32_t)fmin(fmax(levels, 1), DT_LEVELS_MAX);
 }

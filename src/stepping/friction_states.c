@@ -29,7 +29,7 @@ bool friction_states_create(const Block *block, FrictionStates *states, Error *e
     if (!friction_remembers(block->friction, block->interface->contact_count)) return true;
     states->node = block->stage_friction;
     for (int32_t i = 0; i < count; i++) states->act = states->act || acts(&states->node[i]);
-    states->rate = NEW_ARRAY(double, (TABLEAU_STAGES_MAX + 1) * count * STATES_MAX, err);
+    states->rate = NEW_ARRAY(double, (SDIRK_STAGES + 1) * count * STATES_MAX, err);
     states->mu_state = NEW_ARRAY(double, count *STATES_MAX, err);
     return error_is_clean(err);
 }
@@ -75,15 +75,15 @@ void friction_states_begin(FrictionStates *states, const State *from)
     if (states->node) keep_rates(states, -1, from);
 }
 
-void friction_states_start_stage(FrictionStates *states, const Tableau *tableau, double step,
-                                 int32_t stage, const State *from)
+void friction_states_start_stage(FrictionStates *states, double step, int32_t stage,
+                                 const State *from)
 {
-    double reach = states->frozen ? 0 : tableau->gamma * step, start[STATES_MAX];
+    double reach = states->frozen ? 0 : SDIRK2.gamma * step, start[STATES_MAX];
     for (int32_t i = 0; states->node && i < states->interface->contact_count; i++) {
         memcpy(start, state_of(from, i), sizeof start);
         for (int32_t j = 0; j < stage && !states->frozen; j++)
             for (int32_t k = 0; k < STATES_MAX; k++)
-                start[k] += step * tableau->a[stage][j] * rates_of(states, j, i)[k];
+                start[k] += step * SDIRK2.a[stage][j] * rates_of(states, j, i)[k];
         friction_set_stage(&states->node[i], start, reach);
     }
 }
@@ -112,7 +112,7 @@ void friction_states_end_stage(FrictionStates *states, int32_t stage, State *to)
     keep_rates(states, stage, to);
 }
 
-double friction_states_error(const FrictionStates *states, const Tableau *tableau, double step)
+double friction_states_error(const FrictionStates *states, double step)
 {
     double largest = 0;
     if (!states->node || states->frozen) return 0;
@@ -120,8 +120,8 @@ double friction_states_error(const FrictionStates *states, const Tableau *tablea
         const double *mu_state = states->mu_state + (int64_t)i * STATES_MAX;
         for (int32_t k = 0; k < states->node[i].law->states; k++) {
             double error = 0;
-            for (int32_t j = 0; j <= tableau->stages; j++)
-                error += tableau->error[j] * rates_of(states, j - 1, i)[k];
+            for (int32_t j = 0; j <= SDIRK_STAGES; j++)
+                error += SDIRK2.error[j] * rates_of(states, j - 1, i)[k];
             error = fabs(step * error * mu_state[k]) * states->slip_per_mu;
             if (!isfinite(error)) return INFINITY;
             largest = fmax(largest, error);

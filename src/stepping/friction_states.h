@@ -19,7 +19,7 @@ typedef struct FrictionStates {
     bool act;   // some state changes mu: not where friction heals by nothing
     bool frozen;   // states stay as they are: the block settles, and no time passes for them
     double slip_per_mu;   // that drives it: an error of mu counts as one of u so large, length
-    double *rate;   // [TABLEAU_STAGES_MAX + 1, contact_count, STATES_MAX] g at the start of the
+    double *rate;   // [SDIRK_STAGES + 1, contact_count, STATES_MAX] g at the start of the
         // step and in its stages; owned
     double
         *mu_state;   // [contact_count, STATES_MAX] mu_theta at the end of the last of them; owned
@@ -34,8 +34,8 @@ void friction_states_reset(FrictionStates *states, State *state);
 // The functions stand in the order in which they are called in a step. Stage 0 begins with
 // friction_states_begin.
 void friction_states_begin(FrictionStates *states, const State *from);
-void friction_states_start_stage(FrictionStates *states, const Tableau *tableau, double step,
-                                 int32_t stage, const State *from);
+void friction_states_start_stage(FrictionStates *states, double step, int32_t stage,
+                                 const State *from);
 // Laws that ask for pressure are handed that of the reactions at hand. true: mu has changed by more
 // than rounding, and the contact problem has to be solved once more.
 bool friction_states_press(FrictionStates *states, const double *velocity, const double *reaction);
@@ -43,7 +43,7 @@ bool friction_states_press(FrictionStates *states, const double *velocity, const
 void friction_states_end_stage(FrictionStates *states, int32_t stage, State *to);
 
 // The largest error of mu that the local error of a state makes, as a length; all stages are over.
-double friction_states_error(const FrictionStates *states, const Tableau *tableau, double step);
+double friction_states_error(const FrictionStates *states, double step);
 
 // The stages under way: the judge asks for the last one.
 // Whether mu, not negative, and states are numbers at each node in the stage under way, `at` these

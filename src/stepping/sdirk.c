@@ -7,13 +7,11 @@
 #include <math.h>
 #include <string.h>
 
-bool sdirk_create(const Block *block, TableauKind kind, DtLevels *dt_levels, Sdirk *scheme,
-                  Error *err)
+bool sdirk_create(const Block *block, DtLevels *dt_levels, Sdirk *scheme, Error *err)
 {
     const BulkOperator *system = block->system;
     const Interface *interface = block->interface;
-    *scheme = (Sdirk){.tableau = tableau_of(kind),
-                      .system = block->system,
+    *scheme = (Sdirk){.system = block->system,
                       .interface = interface,
                       .friction = block->friction,
                       .rod = block->rod,
@@ -21,17 +19,17 @@ bool sdirk_create(const Block *block, TableauKind kind, DtLevels *dt_levels, Sdi
     scheme->rhs = NEW_ARRAY(double, system->dof_count, err);
     scheme->force = NEW_ARRAY(double, system->dof_count, err);
     scheme->viscous = NEW_ARRAY(double, system->dof_count, err);
-    int64_t earlier = scheme->tableau.stages - 1, dofs = system->dof_count;
-    dt_levels->gamma = scheme->tableau.gamma;
+    int64_t earlier = SDIRK_STAGES - 1, dofs = system->dof_count;
+    dt_levels->gamma = SDIRK2.gamma;
     scheme->stage_velocity = NEW_ARRAY(double, earlier *dofs, err);
     scheme->stage_impulse = NEW_ARRAY(double, earlier *dofs, err);
-    scheme->stage_elastic = NEW_ARRAY(double, scheme->tableau.stages *dofs, err);
+    scheme->stage_elastic = NEW_ARRAY(double, SDIRK_STAGES *dofs, err);
     scheme->stage_reaction = NEW_ARRAY(double, earlier * interface->count, err);
     scheme->predictor = NEW_ARRAY(double, system->dof_count, err);
     scheme->g = NEW_ARRAY(double, interface->count, err);
     scheme->bound = NEW_ARRAY(double, interface->count, err);
     if (!error_is_clean(err) || !friction_states_create(block, &scheme->memory, err)) return false;
-    if (!branches_create(system, scheme->tableau.stages, &scheme->branches, err)) return false;
+    if (!branches_create(system, SDIRK_STAGES, &scheme->branches, err)) return false;
     return contact_solver_create(interface, &scheme->solver, err);
 }
 
@@ -80,19 +78,18 @@ static bool solve_stage(Sdirk *scheme, int32_t k, int32_t i, const State *from, 
     BulkOperator *system = scheme->system;
     InterfaceOperator *bulk = scheme->dt_levels->level[k];
     const Interface *interface = scheme->interface;
-    const Tableau *tableau = &scheme->tableau;
     Rod *rod = scheme->rod;
     const int32_t *interface_dofs = system->interface_dofs;
     int32_t dofs = system->dof_count, count = to->interface_count;
     size_t bytes = (size_t)dofs * sizeof(double);
-    bool last = i + 1 == tableau->stages, sprung = rod->stiffness != 0;
+    bool last = i + 1 == SDIRK_STAGES, sprung = rod->stiffness != 0;
     double *velocity = last ? to->velocity : scheme->stage_velocity + (int64_t)i * dofs;
     double *momentum = last ? to->momentum : scheme->stage_impulse + (int64_t)i * dofs;
     double *elastic = scheme->stage_elastic + (int64_t)i * dofs;
     double step = dt_level_step(scheme->dt_levels, k),
            scaled = dt_level_reach(scheme->dt_levels, k);
     double rate = 1 / scaled;   // 1/(gamma dt)
-    double time = from->time + tableau->c[i] * step;
+    double time = from->time + SDIRK2.c[i] * step;
     double factor = load_factor(scheme->course, time);
 
     // Start of the stage: u_i* goes into scheme->predictor, K u_i* into scheme->force, M w_i into
@@ -102,7 +99,7 @@ static bool solve_stage(Sdirk *scheme, int32_t k, int32_t i, const State *from, 
     memcpy(to->inertia, from->momentum, bytes);
     scheme->rod_start = from->rod_way;
     for (int32_t j = 0; j < i; j++) {
-        double weight = tableau->a[i][j];
+        double weight = SDIRK2.a[i][j];
         add_scaled(step * weight, scheme->stage_velocity + (int64_t)j * dofs, dofs,
                    scheme->predictor);
         add_scaled(step * weight, scheme->stage_elastic + (int64_t)j * dofs, dofs, scheme->force);
@@ -115,7 +112,7 @@ static bool solve_stage(Sdirk *scheme, int32_t k, int32_t i, const State *from, 
         scheme->rhs[d] = rate * to->inertia[d] + system->load[d] - scheme->force[d];
     if (scheme->course) add_scaled(factor - 1, system->load, dofs, scheme->rhs);
 
-    branches_start_stage(&scheme->branches, tableau, step, i, from, to, scheme->rhs);
+    branches_start_stage(&scheme->branches, step, i, from, to, scheme->rhs);
 
     // bound = (position to reach - u*)/(gamma dt): the plane for normals, the rod for rod nodes.
     // Those of a rod on a spring are for velocities against it, until they are released below.
@@ -135,7 +132,7 @@ static bool solve_stage(Sdirk *scheme, int32_t k, int32_t i, const State *from, 
     if (sprung)
         interface_operator_pull(bulk,
                                 rod->stiffness * (rod_displacement(rod, time) - scheme->rod_start));
-    friction_states_start_stage(&scheme->memory, tableau, step, i, from);
+    friction_states_start_stage(&scheme->memory, step, i, from);
 
     // A v = rhs + r, condensed on the interface, with the conditions of contact. A law that asks
     // for pressure is solved again with the pressures that were found.
@@ -177,19 +174,19 @@ static bool solve_stage(Sdirk *scheme, int32_t k, int32_t i, const State *from, 
         scheme->viscous[d] = scheme->rhs[d] - rate * momentum[d] - scaled * elastic[d];
     for (int32_t c = 0; c < count; c++) scheme->viscous[interface_dofs[c]] += contact.reaction[c];
 
-    double relaxed = branches_end_stage(&scheme->branches, tableau, step, i, velocity, elastic, to,
+    double relaxed = branches_end_stage(&scheme->branches, step, i, velocity, elastic, to,
                                         scheme->viscous, outcome->relaxed);
 
     // Powers. The load's work beyond that of the load as it was goes by stages.
     if (scheme->course)
-        outcome->load_work += step * tableau->a[tableau->stages - 1][i] * (factor - 1) *
+        outcome->load_work += step * SDIRK2.a[SDIRK_STAGES - 1][i] * (factor - 1) *
                               dense_dot(system->load, velocity, dofs);
     outcome->power[i] = energy_stage(interface, velocity, scheme->viscous, dofs, &contact);
     outcome->power[i].viscous += relaxed;
 
     if (!last) {   // dt M a_i and r_i, for later stages
         for (int32_t d = 0; d < dofs; d++)
-            momentum[d] = (momentum[d] - to->inertia[d]) / tableau->gamma;
+            momentum[d] = (momentum[d] - to->inertia[d]) / SDIRK2.gamma;
         memcpy(scheme->stage_reaction + (int64_t)i * count, to->reaction,
                (size_t)count * sizeof(double));
         goto cleanup;
@@ -227,25 +224,24 @@ bool sdirk_step(Sdirk *scheme, int32_t k, const State *from, State *to, StepOutc
     memcpy(to->slip_rate, from->slip_rate, bytes);
     memcpy(to->reaction, from->reaction, bytes);
     friction_states_begin(&scheme->memory, from);
-    for (int32_t i = 0; i < scheme->tableau.stages; i++) {
+    for (int32_t i = 0; i < SDIRK_STAGES; i++) {
         TRY(solve_stage(scheme, k, i, from, to, outcome, err));
         if (!outcome->solved) goto cleanup;
     }
 
     // Size of the local error of u, as stepping/tableau estimates it, and that of friction's
     // states.
-    const Tableau *tableau = &scheme->tableau;
     const BulkOperator *system = scheme->system;
     double step = dt_level_step(scheme->dt_levels, k), *error = scheme->rhs;
-    int32_t dofs = system->dof_count, stages = tableau->stages;
+    int32_t dofs = system->dof_count;
     for (int32_t d = 0; d < dofs; d++)
-        error[d] = step * (tableau->error[0] * from->velocity[d] +
-                           tableau->error[stages] * to->velocity[d]);
-    for (int32_t i = 0; i + 1 < stages; i++)
-        add_scaled(step * tableau->error[i + 1], scheme->stage_velocity + (int64_t)i * dofs, dofs,
+        error[d] = step * (SDIRK2.error[0] * from->velocity[d] +
+                           SDIRK2.error[SDIRK_STAGES] * to->velocity[d]);
+    for (int32_t i = 0; i + 1 < SDIRK_STAGES; i++)
+        add_scaled(step * SDIRK2.error[i + 1], scheme->stage_velocity + (int64_t)i * dofs, dofs,
                    error);
     outcome->error = bulk_operator_size(system, error);
-    double forgets = friction_states_error(&scheme->memory, tableau, step);
+    double forgets = friction_states_error(&scheme->memory, step);
     if (forgets > outcome->error) outcome->error = forgets;
 
     // Now and then the largest |M a + C v + K u + sum_k K_k e_k - f - r|, but for M a all computed
@@ -267,9 +263,8 @@ cleanup:
 void sdirk_add_energy(const Sdirk *scheme, const StepOutcome *outcome, double step,
                       EnergyLedger *ledger)
 {
-    int32_t stages = scheme->tableau.stages;
-    for (int32_t i = 0; i < stages; i++) {
-        double weight = step * scheme->tableau.a[stages - 1][i];
+    for (int32_t i = 0; i < SDIRK_STAGES; i++) {
+        double weight = step * SDIRK2.a[SDIRK_STAGES - 1][i];
         ledger->rod_work += weight * outcome->power[i].rod;
         ledger->viscous += weight * outcome->power[i].viscous;
         ledger->frictional += weight * outcome->power[i].frictional;

@@ -23,7 +23,6 @@
 #include "stepping/tableau.h"
 
 typedef struct Sdirk {
-    Tableau tableau;
     BulkOperator *system;   // not owned, like the next four
     DtLevels *dt_levels;
     const Interface *interface;
@@ -46,7 +45,7 @@ typedef struct Sdirk {
     double *stage_velocity, *stage_impulse, *stage_reaction;
     double *stage_elastic;   // [stages, dof_count] K v_i
     double rod_start;   // work: R* of the stage, where a rod on a spring would be without velocity
-    double rod_rate[TABLEAU_STAGES_MAX];   // v_R of the stages, velocity
+    double rod_rate[SDIRK_STAGES];   // v_R of the stages, velocity
     int64_t steps;   // tried
 } Sdirk;
 
@@ -57,14 +56,13 @@ typedef struct StepOutcome {
         // friction remembers, if that is larger; length
     double residual;   // |M a + C v + K u - f - r| at the end, largest component, force/width; only
         // every 32nd step is looked at, the others say 0
-    StagePower power[TABLEAU_STAGES_MAX];   // of the stages
+    StagePower power[SDIRK_STAGES];   // of the stages
     double load_work;   // of the step
     double relaxed[SPECTRUM_TIMES_MAX];   // by branches of each relaxation time, energy
 } StepOutcome;
 
 // Sets the levels' gamma, before the first of them is built.
-bool sdirk_create(const Block *block, TableauKind kind, DtLevels *dt_levels, Sdirk *scheme,
-                  Error *err);
+bool sdirk_create(const Block *block, DtLevels *dt_levels, Sdirk *scheme, Error *err);
 void sdirk_destroy(Sdirk *scheme);
 
 // Steps from `from` with level k of dt to `to`. Returns false where a library failed (err says

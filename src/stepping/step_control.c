@@ -50,7 +50,7 @@ bool step_control_create(const Block *block, const StepControlDef *def, StepCont
     double longest = def->step_max;
     while (longest < def->relax_step) longest *= 2;   // so that step_max is a level
     dt_levels_init(block->system, longest, def->step_min, &control->dt_levels);
-    TRY(sdirk_create(block, def->scheme, &control->dt_levels, &control->scheme, err));
+    TRY(sdirk_create(block, &control->dt_levels, &control->scheme, err));
     TRY(certificate_create(block, &control->certificate, err));
     if (def->use_certificate && !control->scheme.memory.node)
         TRY(half_step_create(block, &control->certificate, &control->half, err));
@@ -202,12 +202,6 @@ static Verdict judge_step(StepControl *control, int32_t k, const StepOutcome *ou
     return resolved ? STEP_ACCEPTED : STEP_UNCERTIFIED;
 }
 
-// Order of the local error: one more than the scheme's order.
-static double estimate_order(const StepControl *control)
-{
-    return control->scheme.tableau.order + 1;
-}
-
 // The level after a rejection: at least one further down.
 static int32_t shorter_level(const StepControl *control, int32_t k, Verdict verdict,
                              const StepOutcome *outcome)
@@ -215,7 +209,7 @@ static int32_t shorter_level(const StepControl *control, int32_t k, Verdict verd
     int32_t target = k + 1;
     if (verdict == STEP_INACCURATE) {
         double allowed = SAFETY * control->def.tolerance / outcome->error;
-        double shrink = pow(allowed, 1 / estimate_order(control));
+        double shrink = pow(allowed, 1 / LOCAL_ORDER);
         target = dt_level_find(&control->dt_levels, dt_level_step(&control->dt_levels, k) * shrink);
     }
     // With memory what a state withstands goes by the step: one half as long may do.
@@ -229,7 +223,7 @@ static int32_t shorter_level(const StepControl *control, int32_t k, Verdict verd
 // The level after an accepted step: one up when the error allows it and the certificate does.
 static int32_t next_level(StepControl *control, int32_t k, double error, bool retried)
 {
-    double expected = error * exp2(estimate_order(control));
+    double expected = error * exp2(LOCAL_ORDER);
     bool grows = !retried && k > control->coarsest && expected < SAFETY * control->def.tolerance;
     int32_t next = grows ? k - 1 : k, resolving = wave_level(control);
     // A state that a step longer than the waves led to was examined already.

@@ -23,7 +23,6 @@
 enum { STEPS_LOOKED = 20000 };   // an event takes some hundred; under a slow rod also 40000
 
 typedef struct StepControlDef {
-    TableauKind scheme;
     double tolerance;   // of the local error of u in one step, length. The estimate is that error
         // to leading order where motion is smooth (stepping/tableau)
     double step_max;   // longest, time

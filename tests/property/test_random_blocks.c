@@ -96,7 +96,7 @@ TEST(test_every_step)
         double duration = exp(random_between(&random, -4, 1)) * def.block.length *
                           sqrt(def.material.density);
         dt_levels_init(&rig.system, duration, duration * 1e-5, &dt_levels);
-        assert_true(sdirk_create(&rig.block, TABLEAU_SDIRK2, &dt_levels, &scheme, &err));
+        assert_true(sdirk_create(&rig.block, &dt_levels, &scheme, &err));
         assert_true(state_create(&rig.system, &rig.interface, &now, &err));
         assert_true(state_create(&rig.system, &rig.interface, &next, &err));
         assert_non_null(dt_level_operator(&dt_levels, 0, PART_WHOLE, &err));

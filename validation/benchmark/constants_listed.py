@@ -192,8 +192,6 @@ NOT_A_CHOICE = {
     "stepping/step_control.c": {"STEPS_LEFT_MAX": "steps to go at which a run is given up",
                                 "SCANNED_PARTS": "of a contact in space: what its critical area is known to"},
     "stepping/dt_levels.h": {"DT_LEVELS_MAX": SIZE},
-    "stepping/tableau.c": {"VALUES_MAX": "stages and v_n"},
-    "stepping/tableau.h": {"TABLEAU_STAGES_MAX": "of SDIRK3"},
     "reduction/far_patches.h": {"NO_PATCH": "near"},
     "reduction/far_patches.c": {"LAYERS_MAX": SIZE, "LEFT": "counted"},
     "reduction/far_samples.c": {"LEVELS_MAX": SIZE, "POINTS_MAX": SIZE, "ROOM": SIZE},

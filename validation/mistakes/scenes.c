@@ -287,11 +287,11 @@ bool __wrap_spectrum_find(const Materials *materials, int32_t dim, Spectrum *spe
 }
 
 // Stretches of a later stage begin where the step did.
-void __wrap_branches_start_stage(const Branches *branches, const Tableau *tableau, double step,
-                                 int32_t i, const State *from, State *to, double *rhs)
+void __wrap_branches_start_stage(const Branches *branches, double step, int32_t i,
+                                 const State *from, State *to, double *rhs)
 {
     int32_t earlier = made(MISTAKE_BRANCH_LATE) ? 0 : i;
-    __real_branches_start_stage(branches, tableau, step, earlier, from, to, rhs);
+    __real_branches_start_stage(branches, step, earlier, from, to, rhs);
 }
 
 // What springs of branches store is forgotten.

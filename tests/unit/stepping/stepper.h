@@ -14,14 +14,13 @@ typedef struct Stepper {
     State now, next;
 } Stepper;
 
-static inline void stepper_build(const RigDef *def, TableauKind kind, double step_max,
-                                 Stepper *stepper)
+static inline void stepper_build(const RigDef *def, double step_max, Stepper *stepper)
 {
     Error err = {0};
     rig_build(def, &stepper->rig);
     BlockRig *rig = &stepper->rig;
     dt_levels_init(&rig->system, step_max, step_max * 1e-4, &stepper->dt_levels);
-    assert_true(sdirk_create(&rig->block, kind, &stepper->dt_levels, &stepper->scheme, &err));
+    assert_true(sdirk_create(&rig->block, &stepper->dt_levels, &stepper->scheme, &err));
     assert_true(state_create(&rig->system, &rig->interface, &stepper->now, &err));
     assert_true(state_create(&rig->system, &rig->interface, &stepper->next, &err));
 }

@@ -125,38 +125,30 @@ static double largest_difference(const double *a, const double *b, int32_t n)
 // u, v and the stretches of both branches.
 TEST(test_order)
 {
-    static const struct {
-        TableauKind kind;
-        double order, within;
-    } cases[] = {{TABLEAU_EULER, 1, 0.1}, {TABLEAU_SDIRK2, 2, 0.1}, {TABLEAU_SDIRK3, 3, 0.35}};
     RigDef def = branched_def();
     Stepper stepper;
-    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
-        double errors[2][2 + BRANCHES];
-        for (int32_t k = 0; k < 2; k++) {
-            stepper_build(&def, cases[c].kind, 0.02, &stepper);
-            Reference ref = reference_create(&stepper.rig);
-            reference_run(&ref, 1, 2000);
-            for (int32_t s = 0; s < 50 << k; s++) {
-                StepOutcome outcome = do_step(&stepper, k);
-                assert_near("residual", outcome.residual, 0, 2e-15);
-            }
-            const double *got[] = {stepper.now.displacement, stepper.now.velocity,
-                                   stepper.now.stretch, stepper.now.stretch + ref.n};
-            for (int32_t w = 0; w < 2 + BRANCHES; w++) {
-                int32_t own = w;   // in the spectrum's order of times
-                if (w >= 2 && stepper.rig.bulk.spectrum.time[w - 2] != BRANCH[w - 2].time)
-                    own = 5 - w;
-                errors[k][w] = largest_difference(got[w], ref.x + own * ref.n, ref.n);
-            }
-            reference_destroy(&ref);
-            stepper_destroy(&stepper);
+    double errors[2][2 + BRANCHES];
+    for (int32_t k = 0; k < 2; k++) {
+        stepper_build(&def, 0.02, &stepper);
+        Reference ref = reference_create(&stepper.rig);
+        reference_run(&ref, 1, 2000);
+        for (int32_t s = 0; s < 50 << k; s++) {
+            StepOutcome outcome = do_step(&stepper, k);
+            assert_near("residual", outcome.residual, 0, 2e-15);
         }
-        for (int32_t w = 0; w < 2 + BRANCHES; w++)
-            assert_near("order", log2(errors[0][w] / errors[1][w]), cases[c].order,
-                        cases[c].within);
-        if (cases[c].order > 1) assert_true(errors[1][0] < 1e-3 * 3e-3);   // of the motion
+        const double *got[] = {stepper.now.displacement, stepper.now.velocity, stepper.now.stretch,
+                               stepper.now.stretch + ref.n};
+        for (int32_t w = 0; w < 2 + BRANCHES; w++) {
+            int32_t own = w;   // in the spectrum's order of times
+            if (w >= 2 && stepper.rig.bulk.spectrum.time[w - 2] != BRANCH[w - 2].time) own = 5 - w;
+            errors[k][w] = largest_difference(got[w], ref.x + own * ref.n, ref.n);
+        }
+        reference_destroy(&ref);
+        stepper_destroy(&stepper);
     }
+    for (int32_t w = 0; w < 2 + BRANCHES; w++)
+        assert_near("order", log2(errors[0][w] / errors[1][w]), 2, 0.1);
+    assert_true(errors[1][0] < 1e-3 * 3e-3);   // of the motion
 }
 
 // The ledger's imbalance goes down with the square of the step, and branches take their part
@@ -168,7 +160,7 @@ TEST(test_energy_order)
     double missing[3];
     def.material.eta1 = def.material.eta2 = 0;
     for (int32_t k = 0; k < 3; k++) {
-        stepper_build(&def, TABLEAU_SDIRK2, 0.02, &stepper);
+        stepper_build(&def, 0.02, &stepper);
         for (int32_t s = 0; s < 400; s++) do_step(&stepper, 6);   // past the jump of the load
         EnergyLedger ledger = energy_open(&stepper.now);
         for (int32_t s = 0; s < 50 << k; s++) {
@@ -196,7 +188,7 @@ TEST(test_energy_order)
 static double *moved(const RigDef *def)
 {
     Stepper stepper;
-    stepper_build(def, TABLEAU_SDIRK2, 0.02, &stepper);
+    stepper_build(def, 0.02, &stepper);
     int32_t n = stepper.now.dof_count;
     double *u = hand_matrix(n, 1);
     for (int32_t s = 0; s < 50; s++) do_step(&stepper, 0);
