@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Contact, friction and rod of each node after the step that is free of them
-// (stepping/explicit_sweep).
+// The step that is free of contact, friction and rod, by two products with sparse matrices, and
+// these three after it, node by node.
 #include "stepping/explicit_reference.h"
 
 #include "algebra/dense.h"
@@ -17,15 +17,27 @@ bool explicit_reference_create(const ExplicitDef *def, ExplicitReference *scheme
     *scheme = (ExplicitReference){.def = *def};
     scheme->bound = NEW_ARRAY(double, def->interface->count, err);
     int64_t dofs = def->bulk->spectrum.count > 0 ? def->bulk->dof_count : 0;
-    scheme->branch_work = NEW_ARRAY(double, 2 * dofs, err);
+    scheme->branch_work = NEW_ARRAY(double, dofs, err);
     scheme->branch_image = NEW_ARRAY(double, def->bulk->spectrum.count *dofs, err);
-    return error_is_clean(err) && explicit_sweep_create(def->bulk, def->step, &scheme->mesh, err);
+    int32_t all = def->bulk->dof_count;
+    scheme->kick = NEW_ARRAY(double, all, err);
+    scheme->u = NEW_ARRAY(double, all, err);
+    scheme->v = NEW_ARRAY(double, all, err);
+    scheme->u_next = NEW_ARRAY(double, all, err);
+    scheme->v_next = NEW_ARRAY(double, all, err);
+    scheme->elastic = NEW_ARRAY(double, all, err);
+    scheme->viscous = NEW_ARRAY(double, all, err);
+    if (dofs > 0) scheme->pull = NEW_ARRAY(double, dofs, err);
+    if (!error_is_clean(err)) return false;
+    for (int32_t k = 0; k < all; k++) scheme->kick[k] = def->step / def->bulk->mass[k];
+    return true;
 }
 
 void explicit_reference_destroy(ExplicitReference *scheme)
 {
-    explicit_sweep_destroy(&scheme->mesh);
-    memory_free_all(scheme->bound, scheme->branch_work, scheme->branch_image);
+    memory_free_all(scheme->bound, scheme->branch_work, scheme->branch_image, scheme->kick,
+                    scheme->u, scheme->v, scheme->u_next, scheme->v_next, scheme->elastic,
+                    scheme->viscous, scheme->pull);
     *scheme = (ExplicitReference){0};
 }
 
@@ -65,7 +77,8 @@ static int32_t node_under(const ExplicitReference *scheme, int32_t node)
 static double kick_under(const ExplicitReference *scheme, int32_t under, int32_t d)
 {
     const Bulk *bulk = scheme->def.bulk;
-    return under < 0 || bulk->held[node_dof(bulk->dim, under, d)] ? 0 : scheme->mesh.kick[under];
+    int32_t dof = under < 0 ? -1 : node_dof(bulk->dim, under, d);
+    return dof < 0 || bulk->held[dof] ? 0 : scheme->kick[dof];
 }
 
 // sum [dofs] -= the reactions, and what they do to the floor.
@@ -85,7 +98,7 @@ static void subtract_reactions(const ExplicitReference *scheme, const State *sta
 // The forces of all branches at t_n.
 static void add_up_pulls(ExplicitReference *scheme, const State *state)
 {
-    double *sum = scheme->mesh.pull;
+    double *sum = scheme->pull;
     if (!sum) return;
     memset(sum, 0, (size_t)state->dof_count * sizeof *sum);
     for (int32_t k = 0; k < state->branch_count; k++)
@@ -99,14 +112,11 @@ static double advance_branches(ExplicitReference *scheme, State *state, EnergyLe
 {
     const Bulk *bulk = scheme->def.bulk;
     const Spectrum *spectrum = &bulk->spectrum;
-    int32_t dofs = bulk->dof_count, dim = bulk->dim;
+    int32_t dofs = bulk->dof_count;
     double step = scheme->def.step, power = 0;
-    double *velocity = scheme->branch_work, *image = velocity + dofs, *moved = scheme->branch_image;
+    const double *velocity = scheme->v_next;
+    double *image = scheme->branch_work, *moved = scheme->branch_image;
     if (spectrum->count == 0) return 0;
-    for (int32_t i = 0; i < scheme->mesh.node_count; i++)
-        for (int32_t d = 0; d < dim; d++)
-            velocity[node_dof(dim, i, d)] =
-                scheme->mesh.next[explicit_velocity(&scheme->mesh, i) + d];
     memset(moved, 0, (size_t)spectrum->count * (size_t)dofs * sizeof *moved);
     for (int32_t j = 0; j < spectrum->shape_count; j++) {
         sparse_apply(&bulk->pattern, j < spectrum->matrix_count ? bulk->shape[j] : bulk->stiffness,
@@ -136,7 +146,7 @@ static double advance_branches(ExplicitReference *scheme, State *state, EnergyLe
 void explicit_reference_start(ExplicitReference *scheme, State *state)
 {
     const Bulk *bulk = scheme->def.bulk;
-    double *elastic = scheme->mesh.force, *viscous = scheme->mesh.force + bulk->dof_count;
+    double *elastic = scheme->elastic, *viscous = scheme->viscous;
     scheme->time = state->time;
     scheme->rod_way = state->rod_way;
     scheme->steps = 0;
@@ -144,17 +154,12 @@ void explicit_reference_start(ExplicitReference *scheme, State *state)
     sparse_apply(&bulk->pattern, bulk->stiffness, state->displacement, elastic);
     sparse_apply(&bulk->pattern, bulk->damping, state->velocity, viscous);
     add_up_pulls(scheme, state);
-    for (int32_t k = 0; scheme->mesh.pull && k < bulk->dof_count; k++)
-        elastic[k] += scheme->mesh.pull[k];
+    for (int32_t k = 0; scheme->pull && k < bulk->dof_count; k++) elastic[k] += scheme->pull[k];
     subtract_reactions(scheme, state, elastic);
-    for (int32_t i = 0; i < scheme->mesh.node_count; i++) {
-        for (int32_t d = 0; d < bulk->dim; d++) {
-            int32_t dof = node_dof(bulk->dim, i, d);
-            double inertia = bulk->held[dof] ? 0 : bulk->load[dof] - elastic[dof] - viscous[dof];
-            scheme->mesh.now[explicit_place(&scheme->mesh, i) + d] = state->displacement[dof];
-            scheme->mesh.now[explicit_velocity(&scheme->mesh, i) + d] =
-                state->velocity[dof] - 0.5 * scheme->mesh.kick[i] * inertia;
-        }
+    for (int32_t k = 0; k < bulk->dof_count; k++) {
+        double inertia = bulk->held[k] ? 0 : bulk->load[k] - elastic[k] - viscous[k];
+        scheme->u[k] = state->displacement[k];
+        scheme->v[k] = state->velocity[k] - 0.5 * scheme->kick[k] * inertia;
     }
     to_jumps(scheme->def.mesh, state);
 }
@@ -216,20 +221,21 @@ static double resolve_contact(ExplicitReference *scheme, int32_t i, State *state
     const Interface *interface = scheme->def.interface;
     int32_t t = interface_tangent(interface, i), last = interface->dim - 1;
     int32_t node = interface->node[i], under = node_under(scheme, node);
-    double step = scheme->def.step, kick = scheme->mesh.kick[node], power = 0;
+    double step = scheme->def.step, power = 0;
     double start[DIM_MAX], before[DIM_MAX], v[DIM_MAX];
     for (int32_t d = 0; d <= last; d++) {
-        int64_t place = explicit_place(&scheme->mesh, node) + d;
-        int64_t velocity = explicit_velocity(&scheme->mesh, node) + d;
-        start[d] = scheme->mesh.now[place];
-        before[d] = scheme->mesh.now[velocity];
-        v[d] = scheme->mesh.next[velocity];
+        int32_t dof = node_dof(interface->dim, node, d);
+        start[d] = scheme->u[dof];
+        before[d] = scheme->v[dof];
+        v[d] = scheme->v_next[dof];
         if (under < 0) continue;
-        start[d] -= scheme->mesh.now[explicit_place(&scheme->mesh, under) + d];
-        before[d] -= scheme->mesh.now[explicit_velocity(&scheme->mesh, under) + d];
-        v[d] -= scheme->mesh.next[explicit_velocity(&scheme->mesh, under) + d];
+        int32_t below = node_dof(interface->dim, under, d);
+        start[d] -= scheme->u[below];
+        before[d] -= scheme->v[below];
+        v[d] -= scheme->v_next[below];
     }
-    kick += kick_under(scheme, under, last);
+    double kick = scheme->kick[node_dof(interface->dim, node, last)] +
+                  kick_under(scheme, under, last);
     double *reaction = state->reaction + t, *slip_rate = state->slip_rate + t;
     double initial = interface_gap(interface, i);
     double gap = start[last] + initial, bound = -gap / step;
@@ -269,17 +275,17 @@ static double resolve_contact(ExplicitReference *scheme, int32_t i, State *state
         slip_rate[d] = v[d];
         power -= mean_power(reaction[d], before[d], v[d]);
         if (open) continue;
-        double *u = &scheme->mesh.next[explicit_place(&scheme->mesh, node) + d], floor = 0;
+        int32_t dof = node_dof(interface->dim, node, d);
+        double floor = 0;
         if (under >= 0) {
-            double *way = &scheme->mesh.next[explicit_place(&scheme->mesh, under) + d];
-            double *speed = &scheme->mesh.next[explicit_velocity(&scheme->mesh, under) + d];
-            *speed -= kick_under(scheme, under, d) * reaction[d];
-            *way = scheme->mesh.now[explicit_place(&scheme->mesh, under) + d] + step * *speed;
-            v[d] += *speed;
-            floor = *way;
+            int32_t below = node_dof(interface->dim, under, d);
+            scheme->v_next[below] -= kick_under(scheme, under, d) * reaction[d];
+            floor = scheme->u_next[below] = scheme->u[below] + step * scheme->v_next[below];
+            v[d] += scheme->v_next[below];
         }
-        *u = d == last ? floor - initial : floor + (start[d] + step * slip_rate[d]);
-        scheme->mesh.next[explicit_velocity(&scheme->mesh, node) + d] = v[d];
+        scheme->u_next[dof] = d == last ? floor - initial
+                                        : floor + (start[d] + step * slip_rate[d]);
+        scheme->v_next[dof] = v[d];
     }
 
     // States at the end of the step.
@@ -313,7 +319,7 @@ static void lead_rod(ExplicitReference *scheme, double time)
     const Rod *rod = scheme->def.rod;
     double step = scheme->def.step, own = 0, *bound = scheme->bound;
     for (int32_t j = 0; j < interface->rod_count; j++) {
-        double at = scheme->mesh.now[explicit_place(&scheme->mesh, interface->rod_node[j])];
+        double at = scheme->u[node_dof(interface->dim, interface->rod_node[j], 0)];
         bound[interface_rod(interface, j)] =
             rod->stiffness > 0 ? rod_bound_on_spring(rod, j, at, scheme->rod_way, step)
                                : rod_bound(rod, j, at, time, step);
@@ -326,10 +332,11 @@ static void lead_rod(ExplicitReference *scheme, double time)
         before = touching;
         touching = 0;
         for (int32_t j = 0; j < interface->rod_count; j++) {
-            int32_t x = interface_rod(interface, j), node = interface->rod_node[j];
-            double velocity = scheme->mesh.next[explicit_velocity(&scheme->mesh, node)];
+            int32_t x = interface_rod(interface, j);
+            int32_t dof = node_dof(interface->dim, interface->rod_node[j], 0);
+            double velocity = scheme->v_next[dof];
             if (k > 0 && !rod_holds(rod, velocity, bound[x] + own)) continue;
-            double share = 1 / (scheme->mesh.kick[node] + rod_yields(scheme, j));
+            double share = 1 / (scheme->kick[dof] + rod_yields(scheme, j));
             given -= share * (bound[x] - velocity);
             resists += share;
             touching++;
@@ -340,6 +347,23 @@ static void lead_rod(ExplicitReference *scheme, double time)
     scheme->rod_way += step * own;
 }
 
+// u and v a step later as if nothing were touched. Returns v C v, the viscous power.
+static double advance_free(ExplicitReference *scheme)
+{
+    const Bulk *bulk = scheme->def.bulk;
+    double power = 0;
+    sparse_apply(&bulk->pattern, bulk->stiffness, scheme->u, scheme->elastic);
+    sparse_apply(&bulk->pattern, bulk->damping, scheme->v, scheme->viscous);
+    for (int32_t k = 0; k < bulk->dof_count; k++) {
+        double force = scheme->factor * bulk->load[k] - scheme->elastic[k] - scheme->viscous[k];
+        if (scheme->pull) force -= scheme->pull[k];
+        power += scheme->v[k] * scheme->viscous[k];
+        scheme->v_next[k] = scheme->v[k] + scheme->kick[k] * force;
+        scheme->u_next[k] = scheme->u[k] + scheme->def.step * scheme->v_next[k];
+    }
+    return power;
+}
+
 // One step; the powers of the step go to the ledger.
 static void advance_once(ExplicitReference *scheme, State *state, EnergyLedger *ledger)
 {
@@ -348,39 +372,36 @@ static void advance_once(ExplicitReference *scheme, State *state, EnergyLedger *
     double step = scheme->def.step, frictional = 0, pushed = 0, loaded = 0;
     scheme->factor = load_factor(scheme->def.course, scheme->time + step * (double)scheme->steps);
     add_up_pulls(scheme, state);
-    double viscous = explicit_sweep_free(&scheme->mesh, scheme->factor);
+    double viscous = advance_free(scheme);
     for (int32_t i = 0; i < interface->contact_count; i++)
         frictional += resolve_contact(scheme, i, state);
 
     // The rod's nodes.
     lead_rod(scheme, scheme->time + step * (double)(scheme->steps + 1));
     for (int32_t j = 0; j < interface->rod_count; j++) {
-        int32_t x = interface_rod(interface, j), node = interface->rod_node[j];
-        int64_t place = explicit_place(&scheme->mesh, node);
-        double *u = scheme->mesh.next + place, *v = u + explicit_room(&scheme->mesh);
+        int32_t x = interface_rod(interface, j);
+        int32_t dof = node_dof(interface->dim, interface->rod_node[j], 0);
+        double *v = &scheme->v_next[dof];
         double bound = scheme->bound[x], yields = rod_yields(scheme, j), force = 0;
-        bool touches = rod_holds(scheme->def.rod, v[0], bound);
+        bool touches = rod_holds(scheme->def.rod, *v, bound);
         if (touches) {   // v' = v + kick r = bound - yields r
-            force = (bound - v[0]) / (scheme->mesh.kick[node] + yields);
-            v[0] = bound - yields * force;
-            u[0] = scheme->mesh.now[place] + step * v[0];
+            force = (bound - *v) / (scheme->kick[dof] + yields);
+            *v = bound - yields * force;
+            scheme->u_next[dof] = scheme->u[dof] + step * *v;
         }
         state->rod_touches[j] = touches;
         state->reaction[x] = force;
-        state->slip_rate[x] = v[0];
+        state->slip_rate[x] = *v;
         // The rod's power, and what of it is lost where the face is hit.
-        double given = force * v[0];
-        double before = scheme->mesh.now[explicit_velocity(&scheme->mesh, node)];
-        frictional += given - mean_power(force, before, v[0]);
+        double given = force * *v;
+        frictional += given - mean_power(force, scheme->v[dof], *v);
         pushed += given;
     }
 
     // Branches of the materials, and the power of a load that changes, by velocities at the end.
     viscous += advance_branches(scheme, state, ledger);
-    for (int32_t i = 0; scheme->def.course && i < scheme->mesh.node_count; i++)
-        for (int32_t d = 0; d < bulk->dim; d++)
-            loaded += bulk->load[node_dof(bulk->dim, i, d)] *
-                      scheme->mesh.next[explicit_velocity(&scheme->mesh, i) + d];
+    for (int32_t k = 0; scheme->def.course && k < bulk->dof_count; k++)
+        loaded += bulk->load[k] * scheme->v_next[k];
     ledger->viscous += step * viscous;
     ledger->frictional += step * frictional;
     ledger->rod_work += step * pushed;
@@ -392,29 +413,25 @@ bool explicit_reference_advance(ExplicitReference *scheme, int64_t steps, State 
                                 EnergyLedger *ledger, Error *err)
 {
     const Bulk *bulk = scheme->def.bulk;
-    ExplicitSweep *mesh = &scheme->mesh;
     int32_t dofs = bulk->dof_count;
     double step = scheme->def.step, load_work = 0;
     to_nodes(scheme->def.mesh, state);
     for (int64_t k = 0; k < steps; k++) {
         advance_once(scheme, state, ledger);
-        double *spare = mesh->now;
-        mesh->now = mesh->next;
-        mesh->next = spare;
+        double *spare_u = scheme->u, *spare_v = scheme->v;
+        scheme->u = scheme->u_next;
+        scheme->v = scheme->v_next;
+        scheme->u_next = spare_u;
+        scheme->v_next = spare_v;
     }
 
-    // The last step as a state of nodes; `next` still holds the v before it.
-    for (int32_t i = 0; i < mesh->node_count; i++) {
-        for (int32_t d = 0; d < bulk->dim; d++) {
-            int32_t dof = node_dof(bulk->dim, i, d);
-            int64_t place = explicit_velocity(mesh, i) + d;
-            double u = mesh->now[explicit_place(mesh, i) + d], v = mesh->now[place];
-            load_work += bulk->load[dof] * (u - state->displacement[dof]);
-            state->displacement[dof] = u;
-            state->velocity[dof] = v;
-            state->momentum[dof] = bulk->mass[dof] * v;
-            state->inertia[dof] = (v - mesh->next[place]) / mesh->kick[i];
-        }
+    // The last step as a state of nodes; v_next still holds the v before it.
+    for (int32_t k = 0; k < dofs; k++) {
+        load_work += bulk->load[k] * (scheme->u[k] - state->displacement[k]);
+        state->displacement[k] = scheme->u[k];
+        state->velocity[k] = scheme->v[k];
+        state->momentum[k] = bulk->mass[k] * scheme->v[k];
+        state->inertia[k] = (scheme->v[k] - scheme->v_next[k]) / scheme->kick[k];
     }
     sparse_apply(&bulk->pattern, bulk->stiffness, state->displacement, state->elastic_force);
     state->time = scheme->time + step * (double)scheme->steps;
@@ -429,17 +446,16 @@ bool explicit_reference_advance(ExplicitReference *scheme, int64_t steps, State 
             step, state->time);
 
     // The largest |M a + C (v + v')/2 + K u_n + sum_k K_k e_k,n - f - r_n|.
-    double *field = mesh->next, *sum = mesh->force, *viscous = mesh->force + dofs;
+    double *field = scheme->u_next, *sum = scheme->elastic, *viscous = scheme->viscous;
     for (int32_t k = 0; k < dofs; k++)
-        field[k] = state->velocity[k] -
-                   0.5 * mesh->kick[dof_node(bulk->dim, k)] * state->inertia[k];
+        field[k] = state->velocity[k] - 0.5 * scheme->kick[k] * state->inertia[k];
     sparse_apply(&bulk->pattern, bulk->damping, field, viscous);
     for (int32_t k = 0; k < dofs; k++)
         field[k] = state->displacement[k] - step * state->velocity[k];
     sparse_apply(&bulk->pattern, bulk->stiffness, field, sum);
     for (int32_t k = 0; k < dofs; k++)
         sum[k] += state->inertia[k] + viscous[k] - scheme->factor * bulk->load[k];
-    for (int32_t k = 0; mesh->pull && k < dofs; k++) sum[k] += mesh->pull[k];
+    for (int32_t k = 0; scheme->pull && k < dofs; k++) sum[k] += scheme->pull[k];
     subtract_reactions(scheme, state, sum);
     scheme->residual = dense_max_abs(sum, dofs);
 
@@ -455,7 +471,7 @@ void explicit_reference_archive(ExplicitReference *scheme, Archive *archive)
     archive_numbers_of(archive, &scheme->time, &scheme->rod_way);
     archive_count(archive, &scheme->steps);
     archive_number(archive, &scheme->residual);
-    archive_numbers(archive, scheme->mesh.now,
-                    scheme->mesh.now ? explicit_field_size(&scheme->mesh) : 0);
+    archive_numbers(archive, scheme->u, scheme->u ? scheme->def.bulk->dof_count : 0);
+    archive_numbers(archive, scheme->v, scheme->v ? scheme->def.bulk->dof_count : 0);
     archive_numbers(archive, scheme->bound, scheme->bound ? scheme->def.interface->count : 0);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The explicit reference: central differences with lumped mass, nothing shared with the implicit
 // path but the matrices, the friction law and the conditions of contact. An independent check of
-// it, and the yardstick of its speed: the inner loop does what a step needs and nothing else.
+// it, kept plain: two products with sparse matrices and one loop a step.
 //
 //     M (v' - v)/dt = f - K u_n - C v + r_n,   u_n+1 = u_n + dt v',   v, v' at t_n -+ dt/2
 //
@@ -35,7 +35,6 @@
 #include "fem/assembly.h"
 #include "contact/rod.h"
 #include "stepping/energy.h"
-#include "stepping/explicit_sweep.h"
 #include "stepping/load_course.h"
 
 typedef struct ExplicitDef {
@@ -51,9 +50,13 @@ typedef struct ExplicitDef {
 
 typedef struct ExplicitReference {
     ExplicitDef def;   // its parts are not owned
-    ExplicitSweep mesh;   // owned, like the next
-    double *branch_work;   // [2 dof_count] v' and S_j v'; owned
-    double *branch_image;   // [count][dof_count] K_k v' of each branch; owned
+    double *kick;   // [dof_count] dt/mass; owned, like all that follows
+    double *u, *v;   // [dof_count] u at t_n, v at t_n - dt/2
+    double *u_next, *v_next;   // [dof_count] the same a step later
+    double *elastic, *viscous;   // [dof_count] work: K u, C v
+    double *pull;   // [dof_count] forces of the materials' branches at t_n; NULL: there are none
+    double *branch_work;   // [dof_count] S_j v'
+    double *branch_image;   // [count][dof_count] K_k v' of each branch
     double *bound;   // [interface->count] of the last step, as in contact/contact_problem
     double rod_way;   // R at t_n, of a rod on a spring, length
     double time;   // t_n at the start
@@ -77,7 +80,7 @@ void explicit_reference_start(ExplicitReference *scheme, State *state);
 bool explicit_reference_advance(ExplicitReference *scheme, int64_t steps, State *state,
                                 EnergyLedger *ledger, Error *err);
 
-// Lists where the scheme is; `next` and all else follow.
+// Lists where the scheme is; all else follows.
 void explicit_reference_archive(ExplicitReference *scheme, Archive *archive);
 
 #endif

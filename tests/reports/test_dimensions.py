@@ -26,7 +26,6 @@ IDIOMS = [
 ]
 # What is flat by its nature, or counts in twos what is no node: why, and the lines where not the whole file.
 REASONS = {
-    "src/stepping/explicit_sweep.c": ("its kernel takes the plane's pairs (x, z) into one register", r".*"),
     "render/figures/block_page.c": ("a picture is flat", r".*"),
     "render/figures/block_mesh.c": ("a picture is flat", r".*"),
     "render/mesh/mesh_picture.c": ("a picture is flat", r".*"),

@@ -6,7 +6,9 @@ an implicit run cost, from nothing, from the cache, and on the full mesh.
     python3 validation/benchmark/explicit.py [--program build/bin/amontons] [--cells 20 40 80] [-o FOLDER]
 
 First the mean of the periodic peaks of explicit.yaml (20x20) by both schemes. Then the time loop of
-the paper's Figure 1 (U to 0.006) on meshes of `--cells`. The explicit run is done whole up to
+the paper's Figure 1 (U to 0.006) on meshes of `--cells`. The explicit steps are a plain yardstick,
+made to be read (src/stepping/explicit_reference.c): a code made for them would take some half of
+their time. The explicit run is done whole up to
 `--whole` cells; on finer meshes a short stretch is measured and scaled by the number of steps.
 Implicit and explicit runs take turns, and of the implicit ones the median counts. On a busy machine
 believe the processor times: wall times the part of it that the program had a processor. FOLDER gets
