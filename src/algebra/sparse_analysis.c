@@ -22,8 +22,6 @@ void sparse_analysis_destroy(SparseAnalysis *analysis)
         cholmod_free_dense(&analysis->work_y, common);
         cholmod_free_dense(&analysis->work_e, common);
         cholmod_free_dense(&analysis->permuted, common);
-        for (int32_t k = 0; k < PARALLEL_WORKERS_MAX; k++)
-            cholmod_free_dense(&analysis->passages[k], common);
         cholmod_finish(common);
     }
     memory_free(analysis);

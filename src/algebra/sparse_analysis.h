@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The analysis that algebra/sparse_analysis makes; algebra/sparse_factor and algebra/sparse_expand
-// use it; nobody else includes this.
+// The analysis that algebra/sparse_analysis makes; algebra/sparse_factor
+// uses it; nobody else includes this.
 #ifndef AMONTONS_ALGEBRA_SPARSE_ANALYSIS_H
 #define AMONTONS_ALGEBRA_SPARSE_ANALYSIS_H
 
-#include "base/parallel.h"
 #include "algebra/sparse.h"
 
 #include <cholmod.h>
-
-// Columns of one pass over a factor: few where supernodes are narrow, many where BLAS multiplies by
-// them (algebra/sparse_expand).
-enum { PASSAGE_COLUMNS = 16, PASSAGE_COLUMNS_WIDE = 64 };
 
 // L's border stands in the caller's order.
 struct SparseAnalysis {
@@ -25,8 +20,6 @@ struct SparseAnalysis {
     cholmod_dense *forward;   // solve2's workspaces, shared by all factors
     cholmod_dense *work_y, *work_e;
     cholmod_dense *permuted;   // right-hand side in L's order
-    // [size + rows of a supernode, columns of a pass] work of a thread each; NULL: not used yet
-    cholmod_dense *passages[PARALLEL_WORKERS_MAX];
 };
 
 struct SparseFactor {

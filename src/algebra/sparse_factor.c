@@ -9,6 +9,7 @@
 
 #include "algebra/dense.h"
 #include "base/memory.h"
+#include "base/parallel.h"
 
 #include <string.h>
 
@@ -138,4 +139,75 @@ bool sparse_expand(SparseFactor *factor, const double *x_border, double *x, Erro
     const double *permuted = solution->x;
     for (int32_t k = 0; k < size; k++) x[permutation[k]] = permuted[k];
     return true;
+}
+
+enum { COLUMNS = 64 };   // of x that CHOLMOD solves for at once
+
+typedef struct Expansion {
+    const SparseFactor *factor;
+    const double *x_border;   // [border_count * count]
+    int32_t count, pieces;
+    double *x;   // [size * count]
+} Expansion;
+
+// Every chunk of columns whose number is `piece` modulo all.pieces, COLUMNS at a time.
+static bool expand_piece(void *context, int32_t piece, Error *err)
+{
+    const Expansion *all = context;
+    cholmod_factor *factor = all->factor->numeric;
+    const int32_t *permutation = factor->Perm;
+    int64_t size = (int64_t)factor->n, count = all->factor->analysis->border_count;
+    cholmod_common common;
+    cholmod_start(&common);
+    common.print = 0;
+    // CHOLMOD 3 does not look whether it got memory in a substitution: all that it uses is there.
+    size_t n = factor->n, chunk = all->count < COLUMNS ? (size_t)all->count : COLUMNS;
+    cholmod_dense *rhs = cholmod_zeros(n, chunk, CHOLMOD_REAL, &common);
+    cholmod_dense *solution = cholmod_allocate_dense(n, chunk, n, CHOLMOD_REAL, &common);
+    cholmod_dense *work_y = cholmod_allocate_dense(n, chunk, n, CHOLMOD_REAL, &common);
+    size_t gathered = factor->maxesize > 0 ? factor->maxesize : 1;
+    cholmod_dense *work_e =
+        cholmod_allocate_dense(gathered, chunk, gathered, CHOLMOD_REAL, &common);
+    bool done = rhs && solution && work_y && work_e;
+    for (int64_t first = piece * COLUMNS; done && first < all->count;
+         first += (int64_t)all->pieces * COLUMNS) {
+        int64_t columns = all->count - first < COLUMNS ? all->count - first : COLUMNS;
+        rhs->ncol = (size_t)columns;
+        for (int64_t j = 0; j < columns; j++) {
+            double *border = (double *)rhs->x + j * size + (size - count);
+            memcpy(border, all->x_border + (first + j) * count, (size_t)count * sizeof *border);
+            dense_lower_apply_transposed(all->factor->border_factor, (int32_t)count, border);
+        }
+        done = cholmod_solve2(CHOLMOD_Lt, factor, rhs, NULL, &solution, NULL, &work_y, &work_e,
+                              &common);
+        for (int64_t j = 0; done && j < columns; j++) {
+            const double *from = (const double *)solution->x + j * size;
+            double *to = all->x + (first + j) * size;
+            for (int64_t k = 0; k < size; k++) to[permutation[k]] = from[k];
+            for (int64_t k = 0; k < count; k++)
+                to[permutation[size - count + k]] = all->x_border[(first + j) * count + k];
+        }
+    }
+    if (!done)
+        error_set(err, ERROR_MEMORY, __FILE__, __LINE__,
+                  "CHOLMOD: no memory for %d columns of a solution (status %d)", COLUMNS,
+                  common.status);
+    cholmod_free_dense(&rhs, &common);
+    cholmod_free_dense(&solution, &common);
+    cholmod_free_dense(&work_y, &common);
+    cholmod_free_dense(&work_e, &common);
+    cholmod_finish(&common);
+    return done;
+}
+
+bool sparse_expand_many(SparseFactor *factor, const double *x_border, int32_t count, double *x,
+                        Error *err)
+{
+    int32_t chunks = (count + COLUMNS - 1) / COLUMNS;
+    Expansion all = {.factor = factor,
+                     .x_border = x_border,
+                     .count = count,
+                     .pieces = chunks < PARALLEL_WORKERS_MAX ? chunks : PARALLEL_WORKERS_MAX,
+                     .x = x};
+    return parallel_try(all.pieces, expand_piece, &all, err);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Work in pieces that know nothing of each other, in as many threads as the process may use. Pieces
 // follow from the work's size alone, so that what comes out does not depend on the threads. Called
-// by algebra/dense, algebra/sparse_expand and several of reduction/.
+// by algebra/dense, algebra/sparse_factor and several of reduction/.
 #ifndef AMONTONS_BASE_PARALLEL_H
 #define AMONTONS_BASE_PARALLEL_H
 

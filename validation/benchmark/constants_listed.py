@@ -320,9 +320,7 @@ NOT_A_CHOICE = {
         "SAME_RATE": "rounding, with room: what two shifts saw agrees to 1e-7, others differ by 1e-4"},
     "reduction/machine.c": {"LOOSE": "rounding, with room: a matrix that must not be singular"},
     "algebra/sparse_order.c": {"LEAF": "points: 4, 16, 32, 100 leave 0.98, 1, 1.02, 1.12 times the entries on 16 x 32 x 16 cells"},
-    "algebra/sparse_expand.c": {
-        "WIDE_FROM": "entries of L an unknown: 88 on 160 x 160 cells, 180 on 8 x 16 x 8, 410 on 16 x 32 x 16, between the kinds of products: "
-                     "time alone"},
+    "algebra/sparse_factor.c": {"COLUMNS": "solved for at once: time alone"},
     "contact/contact_matrix.c": {"TOGETHER": "unknowns swept at once: time alone",
                                  "PAIR": "of a node"},
     "model/model.c": {
