@@ -7,7 +7,6 @@
 // at least. Nothing allocates, so that the loop of steps may call all of it.
 #include "algebra/dense.h"
 
-#include "algebra/lanes.h"
 #include "algebra/room.h"
 #include "base/system.h"
 
@@ -156,47 +155,15 @@ void dense_symmetric_apply(const double *a, int32_t n, const double *x, double *
     if (n > 0) cblas_dsymv(CblasColMajor, CblasLower, n, 1.0, a, n, x, 1, 0.0, y, 1);
 }
 
-// L^-1 in the place of L, TRIANGLE columns at a time from the last ones on: with both blocks on the
-// diagonal inverted, what is below is -L22^-1 L21 L11^-1. OpenBLAS's own dtrtri takes one column at
-// a time with one thread, which at 322 columns takes three times as long.
-static int invert_lower(double *a, int n)
-{
-    enum { TRIANGLE = 96 };
-    int info = 0;
-    for (int end = n, size; end > 0 && info == 0; end -= size) {
-        size = (end - 1) % TRIANGLE + 1;
-        int first = end - size, below = n - end;
-        double *block = a + first * ((int64_t)n + 1);
-        if (below > 0) {
-            cblas_dtrmm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, below,
-                        size, 1, block + size * ((int64_t)n + 1), n, block + size, n);
-            cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasNoTrans, CblasNonUnit, below,
-                        size, -1, block, n, block + size, n);
-        }
-        dtrtri_("L", "N", &size, block, &n, &info, 1, 1);
-    }
-    return info;
-}
-
 // dlauum leaves L^-T L^-1 in the lower triangle: the upper one is mirrored from it.
 bool dense_invert_factored(double *a, int32_t n)
 {
+    int info = 0;
     CHECK_ROOM(a, (int64_t)n * n);
-    int info = invert_lower(a, n);
+    if (n > 0) dtrtri_("L", "N", &n, a, &n, &info, 1, 1);
     if (n > 0 && info == 0) dlauum_("L", &n, a, &n, &info, 1);
     dense_mirror(a, n);
     return info == 0;
-}
-
-// One pass over a; two of dger's take twice as long.
-FOR_EACH_PROCESSOR void dense_subtract_pair(double *restrict a, int32_t n, const double *was,
-                                            const double *over)
-{
-    const double *restrict first = was, *restrict second = was + n;
-    for (int32_t j = 0; j < n; j++, a += n) {
-        double x = over[2 * j], y = over[2 * j + 1];
-        for (int32_t i = 0; i < n; i++) a[i] -= x * first[i] + y * second[i];
-    }
 }
 
 void dense_add_scaled(double factor, const double *x, int32_t n, double *y)
@@ -320,26 +287,13 @@ double dense_dot(const double *x, const double *y, int32_t n)
     return cblas_ddot(n, x, 1, y, 1);
 }
 
-// fmax would be a call; it passes NaN by, as this does. Side by side, as each comparison waits for
-// the one before it.
+// fmax would be a call; it passes NaN by, as this does.
 double dense_max_abs(const double *x, int32_t n)
 {
-    enum { LANES = 4 };
-    double largest[LANES] = {0};
-    int32_t even = n - n % LANES;
-    for (int32_t i = 0; i < even; i += LANES) {
-        for (int32_t k = 0; k < LANES; k++) {
-            double size = fabs(x[i + k]);
-            largest[k] = size > largest[k] ? size : largest[k];
-        }
-    }
-    for (int32_t i = even; i < n; i++) {
-        double size = fabs(x[i]);
-        largest[0] = size > largest[0] ? size : largest[0];
-    }
-    for (int32_t k = 1; k < LANES; k++)
-        largest[0] = largest[k] > largest[0] ? largest[k] : largest[0];
-    return largest[0];
+    double largest = 0;
+    for (int32_t i = 0; i < n; i++)
+        if (fabs(x[i]) > largest) largest = fabs(x[i]);
+    return largest;
 }
 
 // --- transposes ---------------------------------------------------------------------------------

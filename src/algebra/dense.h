@@ -47,9 +47,6 @@ void dense_lower_square(const double *lower, int32_t n, double *c);
 // Inverse, both triangles, of a symmetric positive definite `a` [n * n] from its Cholesky factor.
 bool dense_invert_factored(double *a, int32_t n);
 
-// a [n * n] -= was over, was [n * 2] and over [2 * n].
-void dense_subtract_pair(double *a, int32_t n, const double *was, const double *over);
-
 // y += factor x
 void dense_add_scaled(double factor, const double *x, int32_t n, double *y);
 

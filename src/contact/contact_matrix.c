@@ -85,11 +85,7 @@ static bool sweep_unknowns(ContactMatrix *matrix, const int32_t *list, int32_t l
         matrix->order[matrix->swept++] = t == 0 ? ~k : k;
         matrix->sweeps++;
     }
-    if (length == PAIR)
-        dense_subtract_pair(matrix->closed, matrix->count, was, over);
-    else
-        dense_multiply(dense_view(was, n, length), dense_view(over, length, n), -1, 1,
-                       matrix->closed);
+    dense_multiply(dense_view(was, n, length), dense_view(over, length, n), -1, 1, matrix->closed);
     for (int32_t t = 0; t < length; t++) {
         memcpy(matrix->closed + list[t] * n, now + t * n, (size_t)n * sizeof(double));
         for (int64_t i = 0; i < n; i++) matrix->closed[i * n + list[t]] = now[t * n + i];

@@ -159,25 +159,6 @@ TEST(test_one_thread)
     assert_alone();
 }
 
-// Against sums of single products.
-TEST(test_subtract_pair)
-{
-    enum { N = 11 };
-    double a[N * N], was[2 * N], over[2 * N], left[N * N];
-    for (int k = 0; k < N * N; k++) a[k] = left[k] = cos(k);
-    for (int k = 0; k < 2 * N; k++) {
-        was[k] = sin(k);
-        over[k] = sin(0.3 * k);
-    }
-    dense_subtract_pair(left, N, was, over);
-    for (int i = 0; i < N; i++) {
-        for (int j = 0; j < N; j++) {
-            double taken = was[i] * over[2 * j] + was[N + i] * over[2 * j + 1];
-            assert_near("less both", left[j * N + i], a[j * N + i] - taken, 1e-15);
-        }
-    }
-}
-
 // Long enough for several blocks of rows and a rest.
 TEST(test_two_vectors_at_once)
 {
