@@ -155,17 +155,15 @@ bool output_open(Simulation *simulation, Error *err)
 {
     const Scene *scene = &simulation->scene;
     Window *window = &simulation->window;
-    WindowDef def = scene_window(scene);
-    *window = window_of(&def, &simulation->events);
+    WindowDef def = window->def = scene_window(scene);
     const char *compared = scene->output.compare;   // not found out when all is computed
     if (*compared && !scene_blame(scene, "output.compare", open_check(compared, err), err))
         return false;
     if (scene->output.history) {
         if (!open_history(simulation, err)) return false;
-        recorders_add(!def.given                     ? &simulation->recorders
-                      : scene->output.window.history ? &window->inside
-                                                     : &window->outside,
-                      &simulation->history, history_record);
+        bool in_part = def.given && scene->output.window.history;
+        recorders_add(in_part ? &window->inside : &simulation->recorders, &simulation->history,
+                      history_record);
     }
     if (scene->output.fields) {
         FieldsDef fields = {.every_U = scene->output.fields_every_U,
@@ -199,15 +197,11 @@ void output_warn_of_window(Simulation *simulation)
 {
     const Window *window = &simulation->window;
     if (!window->def.given || window->steps > 0) return;
-    if (window_is_sought(window))
-        warnings_add(&simulation->warnings,
-                     "nothing written in output.window: the block slid %d time%s", window->slidings,
-                     window->slidings == 1 ? "" : "s");
-    else
-        warnings_add(&simulation->warnings,
-                     "nothing written in output.window: the run, to U = %g and t = %g, does not "
-                     "come to it",
-                     simulation->seen.U, simulation->seen.t);
+    warnings_add(
+        &simulation->warnings,
+        "nothing written in output.window: the run, to U = %g and t = %g, does not come to "
+        "it",
+        simulation->seen.U, simulation->seen.t);
 }
 
 // The module `render` draws; it is loaded here and only here.

@@ -137,9 +137,9 @@ static bool archive_parts(Simulation *simulation, Archive *archive, Error *err)
     if (archive_reads(archive)) {
         const Rod *rod = &simulation->rod;
         bool steered = rod->since != 0 || rod->velocity != simulation->scene.rod.velocity;
-        simulation->end_moved = until[0] != simulation->scene.time.until_U ||
-                                until[1] != simulation->scene.time.until_t;
-        if (!simulation->end_moved)
+        bool moved = until[0] != simulation->scene.time.until_U ||
+                     until[1] != simulation->scene.time.until_t;
+        if (!moved)
             simulation->t_end = end;
         else if (steered)
             simulation->t_end = steering_end(simulation);
@@ -165,23 +165,16 @@ static bool archive_parts(Simulation *simulation, Archive *archive, Error *err)
     for (int32_t k = 0; k < warnings->count && !archive->failed; k++)
         archive_text(archive, warnings->text[k], RUN_WARNING_SIZE);
 
-    return true;
-}
-
-// And what was written of it.
-static bool archive_output(Simulation *simulation, Archive *archive, Error *err)
-{
-    if (!fields_archive(&simulation->fields, archive, err)) return false;
-    if (!simulation->window.def.given) return true;
-    window_archive(&simulation->window, archive);
-    return kept_states_archive(&simulation->kept, archive, err);
+    if (simulation->window.def.given) window_archive(&simulation->window, archive);
+    return fields_archive(&simulation->fields, archive, err);
 }
 
 // --- save and restore ---------------------------------------------------------------------------
 
 // Saves in two passes: the first measures. What it allocates itself is not the loop's.
-static bool save(Simulation *simulation, bool output, SavedState *state, Error *err)
+bool amontons_simulation_save(Simulation *simulation, SavedState *state, Error *err)
 {
+    NUMBERS_HAVE_A_POINT;
     Archive archive = archive_measure();
     Hash hash = hash_start();
     char checksum[HASH_TEXT_SIZE];
@@ -189,11 +182,11 @@ static bool save(Simulation *simulation, bool output, SavedState *state, Error *
     int64_t before = simulation_allocations(simulation);
     int64_t in_loop = before - simulation->allocations_before;
     *state = (SavedState){0};
+    if (!steering_is_open(simulation, err)) return false;
     for (int pass = 0; pass < 2; pass++) {
         TRY(archive_head(simulation, &archive, &head, err));
         TRY(archive_parts(simulation, &archive, err));
-        if (output) TRY(archive_output(simulation, &archive, err));
-        if (output) archive_report(simulation, in_loop, &archive);
+        archive_report(simulation, in_loop, &archive);
         if (pass == 1) break;
         state->size = archive.at + CHECKSUM_SIZE;
         TRY((state->bytes = memory_bytes(state->size, err)));
@@ -207,18 +200,6 @@ cleanup:
     if (!error_is_clean(err)) amontons_state_free(state);
     simulation->allocations_before += simulation_allocations(simulation) - before;
     return error_is_clean(err);
-}
-
-bool amontons_simulation_save(Simulation *simulation, SavedState *state, Error *err)
-{
-    NUMBERS_HAVE_A_POINT;
-    *state = (SavedState){0};
-    return steering_is_open(simulation, err) && save(simulation, true, state, err);
-}
-
-bool saved_state_keep(Simulation *simulation, SavedState *state, Error *err)
-{
-    return save(simulation, false, state, err);
 }
 
 // Opens the archive in the state and checks it as a whole.
@@ -243,37 +224,23 @@ bool saved_state_fits(Simulation *simulation, const SavedState *state, SavedHead
 }
 
 // The arrays that a caller sees are those of the step that was saved.
-static bool restore(Simulation *simulation, bool output, const SavedState *state, Error *err)
+bool amontons_simulation_restore(Simulation *simulation, const SavedState *state, Error *err)
 {
+    NUMBERS_HAVE_A_POINT;
     Archive archive;
     SavedHead head;
+    if (!steering_is_open(simulation, err)) return false;
     TRY(open_archive(state, &archive, err));
     TRY(archive_head(simulation, &archive, &head, err));
     TRY(archive_parts(simulation, &archive, err));
-    if (output) TRY(archive_output(simulation, &archive, err));
-    if (output) TRY(history_take_back(&simulation->history, &head.history, err));
+    TRY(history_take_back(&simulation->history, &head.history, err));
     simulation->seen = observe(&simulation->control, &simulation->model.scales);
     TRY(contact_arrays_record(&simulation->contact, &simulation->seen, err));
-    if (output) archive_report(simulation, 0, &archive);
+    archive_report(simulation, 0, &archive);
     TRY(archive_check(&archive, true, err));
 cleanup:
     if (!error_is_clean(err)) error_context(err, "the state cannot be put back");
     return error_is_clean(err);
-}
-
-bool amontons_simulation_restore(Simulation *simulation, const SavedState *state, Error *err)
-{
-    NUMBERS_HAVE_A_POINT;
-    return steering_is_open(simulation, err) && restore(simulation, true, state, err);
-}
-
-// Its allocations do not count as those of the loop.
-bool saved_state_take_back(Simulation *simulation, const SavedState *state, Error *err)
-{
-    int64_t before = simulation_allocations(simulation);
-    bool done = restore(simulation, false, state, err);
-    simulation->allocations_before += simulation_allocations(simulation) - before;
-    return done;
 }
 
 bool amontons_state_write(const SavedState *state, const char *path, Error *err)

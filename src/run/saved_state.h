@@ -16,9 +16,4 @@ typedef struct SavedHead {
 // not so.
 bool saved_state_fits(Simulation *simulation, const SavedState *state, SavedHead *head, Error *err);
 
-// Keeps where the computation stands, without what was written of it and what the report counts:
-// run/rewind needs this. Taken back, the simulation goes the same way again.
-bool saved_state_keep(Simulation *simulation, SavedState *state, Error *err);
-bool saved_state_take_back(Simulation *simulation, const SavedState *state, Error *err);
-
 #endif

@@ -15,7 +15,6 @@
 #include "run/one_mesh.h"
 #include "run/output.h"
 #include "run/report.h"
-#include "run/rewind.h"
 #include "run/saved_state.h"
 #include "run/start.h"
 #include "run/summary.h"
@@ -70,9 +69,7 @@ static bool open_recorders(Simulation *simulation, Error *err)
     for (size_t k = 0; k < sizeof recorders / sizeof *recorders; k++)
         recorders_add(&simulation->recorders, recorders[k].self, recorders[k].record);
     if (result_folder_is_ours(&simulation->folder) && !output_open(simulation, err)) return false;
-    bool in_part = simulation->window.def.given;
-    recorders_add(in_part ? &simulation->window.outside : &simulation->recorders, simulation,
-                  report_step);
+    recorders_add(&simulation->recorders, simulation, report_step);
     return true;
 }
 
@@ -369,10 +366,8 @@ bool simulation_loop(Simulation *simulation, Error *err)
 {
     Error unseen = {0}, lost = {0};
     bool finished = simulation->goes_on && simulation_is_finished(simulation);
-    if (!rewind_start(simulation, err)) return false;
     while (!finished) {
         if (!amontons_simulation_step(simulation, NULL, &finished, err)) return false;
-        if (!rewind_follow(simulation, &finished, err)) return false;
         checkpoint_when_due(simulation);
         if (simulation_may_go_on(simulation, &unseen)) continue;
 
@@ -477,7 +472,6 @@ void amontons_simulation_destroy(Simulation *simulation)
     step_control_destroy(&simulation->control);
     rod_destroy(&simulation->rod);
     model_destroy(&simulation->model);
-    kept_states_destroy(&simulation->kept);
     result_folder_release(&simulation->folder);
     memory_free_all(simulation->block_motion, simulation);
 }

@@ -15,9 +15,9 @@
 #include "record/history.h"
 #include "record/pads.h"
 #include "record/program_readings.h"
-#include "record/steady.h"
 #include "record/rotation.h"
-#include "run/kept_states.h"
+#include "record/steady.h"
+#include "record/window.h"
 #include "run/result/result_folder.h"
 #include "stepping/explicit_reference.h"
 
@@ -62,7 +62,6 @@ struct Simulation {
     Fields fields;
     Recorders recorders;
     Window window;   // part of the run that is written; one of the recorders where it is given
-    KeptStates kept;   // where the window may begin; owned
     double
         *block_motion;   // [nodes * 4] displacement, velocity of the mesh; NULL: not asked; owned
     double t_end;   // time; INFINITY: the rod no longer goes where the scene ends
@@ -76,7 +75,6 @@ struct Simulation {
     char identity[HASH_TEXT_SIZE];   // of scene, bulk and interface; empty: not asked for yet
     bool closed;   // simulation_finish has been called
     bool goes_on;   // from a checkpoint
-    bool end_moved;   // whose scene ended elsewhere
     int32_t resumed;   // so many times since t = 0
     bool checkpoint_failed;   // and the run was warned of it
     double checkpoint_at, checkpoint_cost;   // wall clock of the last one; how long it took, s

@@ -341,16 +341,6 @@ static bool check_output(const Check *check)
     const Scene *scene = check->scene;
     const SceneWindow *window = &scene->output.window;
     WindowDef def = scene_window(scene);
-    if (is_given(check, "output.window.around") && def.around == 0)
-        return blame(check, "output.window.around",
-                     "found `%.60s`; allowed: `sliding` and its number, from 1, as in `sliding 3`",
-                     window->around);
-    if (is_given(check, "output.window.last") && def.last == 0)
-        return blame(check, "output.window.last",
-                     "found `%.60s`; allowed: from `1 sliding` to `%d slidings`", window->last,
-                     WINDOW_SLIDINGS_MAX);
-    if (def.around > 0 && def.last > 0)
-        return blame(check, "output.window.last", "give either this or around");
     if (!(def.to_U > def.from_U))
         return blame(check, "output.window.to_U", "%g is not more than from_U (%g)", def.to_U,
                      def.from_U);

@@ -364,11 +364,6 @@ static const SceneKey keys[] = {
     NUMBER(output.window.to_U, "length", RANGE_POSITIVE, NULL, "Up to this displacement."),
     NUMBER(output.window.from_t, "time", RANGE_NOT_NEGATIVE, NULL, "From this time on."),
     NUMBER(output.window.to_t, "time", RANGE_POSITIVE, NULL, "Up to this time."),
-    WORDS(KEY_TEXT, output.window.around, NULL,
-          "`sliding 3`: the third time that the whole block slides, from the step before slip gets "
-          "rapid to the one in which all is slow again."),
-    WORDS(KEY_TEXT, output.window.last, NULL,
-          "`2 slidings`: from the end of the one before them to the end of the run."),
     WORDS(KEY_FLAG, output.window.history, NULL,
           "true: history.h5 has the steps of the window only; else all."),
     KEY("output.probes", KEY_ITEMS, output.probes.count, "length", RANGE_ANY, NULL,
@@ -398,6 +393,10 @@ const SceneKey *scene_keys(int32_t *count)
     return keys;
 }
 
+static const char WINDOW_INSTEAD[] =
+    "runs repeat to the bit: run, read U of the sliding in run.json (U_start and U_stop in "
+    "results.events), and run again with from_U and to_U";
+
 // Keys of earlier versions that are gone, and what takes their place.
 static const struct {
     const char *name, *instead;
@@ -405,6 +404,8 @@ static const struct {
     {"contact.radius",
      "a round contact is a formula, `contact.gap: \"(x - X)^2 / (2 * R)\"`, where X is the x of "
      "the block's middle and R the radius; a radius of 0 is left out"},
+    {"output.window.around", WINDOW_INSTEAD},
+    {"output.window.last", WINDOW_INSTEAD},
 };
 
 int32_t scene_key_index(const char *name)
@@ -470,8 +471,9 @@ bool scene_key_refuse(const YamlDocument *document, YamlNode node, const char *n
 {
     for (size_t k = 0; k < sizeof retired_keys / sizeof retired_keys[0]; k++)
         if (strcmp(retired_keys[k].name, name) == 0)
-            return yaml_key_error(document, node, err, "%s: this key of version 0.2 is gone: %s",
-                                  name, retired_keys[k].instead);
+            return yaml_key_error(document, node, err,
+                                  "%s: this key of an earlier version is gone: %s", name,
+                                  retired_keys[k].instead);
     const char *nearest = scene_key_nearest(name);
     return yaml_key_error(
         document, node, err, "%s: unknown key%s%s%s (`amontons info keys` lists them all)", name,

@@ -34,10 +34,9 @@ typedef struct SceneProgram {
     bool repeat;
 } SceneProgram;
 
-// output.window: 0 and empty texts are not given.
+// output.window: 0 is not given.
 typedef struct SceneWindow {
     double from_U, to_U, from_t, to_t;
-    char around[SCENE_TEXT_SIZE], last[SCENE_TEXT_SIZE];   // "sliding 3", "2 slidings"
     bool history;   // it, too, is written in the window alone
 } SceneWindow;
 

@@ -6,7 +6,6 @@
 #include "record/window.h"
 #include "scene/scene.h"
 
-// `around` and `last` are 0 where they are not given, or not "sliding 3" and "2 slidings".
 WindowDef scene_window(const Scene *scene);
 
 #endif

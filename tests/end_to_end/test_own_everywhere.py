@@ -150,9 +150,9 @@ class OwnEverywhere(Driven):
         self.assertLess(abs(found[0][0] - found[1][0]), found[0][1] + found[1][1])
 
     def test_window(self):
-        """What is kept of the last sliding has the bits of the run in full."""
+        """What is kept of a part of the run has the bits of the run in full."""
         self.amontons("run", "own.yaml", "-q", "-o", "full")
-        self.amontons("run", "own.yaml", "-q", "-o", "window", "--set", "output.window={last: 1 sliding, history: true}")
+        self.amontons("run", "own.yaml", "-q", "-o", "window", "--set", "output.window={from_U: 0.01, to_U: 0.012, history: true}")
         with h5py.File(self.folder / "full/history.h5") as full, h5py.File(self.folder / "window/history.h5") as window:
             t, state = window["series/time"][()], window["interface/state"][()]
             first = numpy.searchsorted(full["series/time"][()], t[0])

@@ -232,7 +232,7 @@ output: {{figures: [], fields: {{every_U: 5e-4}}, probes: {{g: {{at: [0.3, 0.2, 
 
     def test_window(self):
         folder = self.run_scene(FIG1, "window", *SMALL[:1], "output.fields=none", "output.figures=[]", "time.until={U: 0.008}",
-                                "output.window={around: sliding 1, history: true}", "output.probes.g.at=[0.5, 0.1]")
+                                "output.window={from_U: 3.3e-3, to_U: 3.4e-3, history: true}", "output.probes.g.at=[0.5, 0.1]")
         found = self.arrays(folder)
         self.assertGreater(len(found["series/time"]), 3)
         self.assertEqual(len(found["series/time"]), len(found["probes/strain"]))

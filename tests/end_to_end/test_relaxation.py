@@ -273,14 +273,6 @@ class Relaxation(OwnCache):
         for key, values in arrays.items():
             numpy.testing.assert_array_equal(values, resumed[key], key)
 
-    def test_windows(self):
-        """A window about a sliding, for which the run goes back, leaves it with the same bits, energies of branches, too."""
-        here = ["time.until.U=0.01"]
-        whole, _ = self.run_scene(BLOCK, "no-window", *here)
-        made, _ = self.run_scene(BLOCK, "window", *here, "output.fields={every_step: true}", "output.window={around: sliding 2}")
-        self.assertEqual((made["results"], made["energy"]), (whole["results"], whole["energy"]))
-        self.assertGreater(len(list((self.folder / "window" / "fields").glob("bulk*.vtu"))), 5)
-
     def test_sweep(self):
         """A branch's modulus and time vary in a study."""
         (self.folder / "scene.yaml").write_text(BLOCK)

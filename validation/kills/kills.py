@@ -39,7 +39,7 @@ CASES = {
     "block, full mesh": (FIG1, [*SMALL, "output.fields=none", "reduction.use=never"]),
     "block, explicit": (FIG1, [*SMALL, "output.fields=none", "mesh.set.nx=8", "mesh.set.nz=8",
                                 "time.scheme=explicit", "time.until.U=0.002"]),
-    "block, window": (FIG1, [*SMALL, "output.fields={every_step: true}", "output.window={last: 2 slidings}",
+    "block, window": (FIG1, [*SMALL, "output.fields={every_step: true}", "output.window={from_U: 0.01694}",
                              "time.until.U=0.02"]),
     "four pads": (PADS, ["mesh.set.size_contact=0.025", "output.figures=[force]", "time.until.U=0.04"]),
     "block, until periodic": (FIG1, [*SMALL, "output.fields=none",

@@ -46,10 +46,7 @@
     X(MISTAKE_ROD_WAY, "rod-way")                                                                  \
     X(MISTAKE_MACHINE_RIGID, "machine-rigid")                                                      \
     X(MISTAKE_MACHINE_FORCE, "machine-force")                                                      \
-    X(MISTAKE_WINDOW_FIRST, "window-first")                                                        \
     X(MISTAKE_WINDOW_FORGOTTEN, "window-forgotten")                                                \
-    X(MISTAKE_STATES_FORGOTTEN, "states-forgotten")                                                \
-    X(MISTAKE_STATE_ROUNDED, "state-rounded")                                                      \
     X(MISTAKE_MEMORY_LAGGED, "memory-lagged")                                                      \
     X(MISTAKE_MEMORY_KEPT, "memory-kept")                                                          \
     X(MISTAKE_MEMORY_GROWS, "memory-grows")                                                        \

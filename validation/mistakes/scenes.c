@@ -10,8 +10,7 @@
 #include "contact/rod_course.h"
 #include "model/node_laws.h"
 #include "model/gaps.h"
-#include "run/kept_states.h"
-#include "run/saved_state.h"
+#include "record/window.h"
 #include "scene/keys.h"
 #include "scene/materials.h"
 #include "scene/profile.h"
@@ -35,10 +34,7 @@ REPLACED(load_next);
 REPLACED(rod_course_way);
 REPLACED(machine_soften);
 REPLACED(machine_refer);
-REPLACED(window_take_back);
 REPLACED(window_archive);
-REPLACED(kept_states_archive);
-REPLACED(saved_state_take_back);
 REPLACED(friction_state);
 REPLACED(friction_rested);
 REPLACED(moving_set_find);
@@ -152,32 +148,9 @@ void __wrap_machine_refer(MachineColumn *column, double *g)
 
 // --- output by window ---------------------------------------------------------------------------
 
-// The state that it is taken back to is not looked at.
-bool __wrap_window_take_back(Window *window, const Observation *seen, Error *err)
-{
-    if (!made(MISTAKE_WINDOW_FIRST)) return __real_window_take_back(window, seen, err);
-    Observation before = *seen;
-    before.t = -INFINITY;
-    return __real_window_take_back(window, &before, err);
-}
-
 void __wrap_window_archive(Window *window, Archive *archive)
 {
     if (!made(MISTAKE_WINDOW_FORGOTTEN)) __real_window_archive(window, archive);
-}
-
-bool __wrap_kept_states_archive(KeptStates *kept, Archive *archive, Error *err)
-{
-    return made(MISTAKE_STATES_FORGOTTEN) || __real_kept_states_archive(kept, archive, err);
-}
-
-// One displacement is off by its rounding.
-bool __wrap_saved_state_take_back(Simulation *simulation, const SavedState *state, Error *err)
-{
-    bool done = __real_saved_state_take_back(simulation, state, err);
-    double *displacement = simulation->control.now.displacement;
-    if (made(MISTAKE_STATE_ROUNDED)) displacement[0] = nextafter(displacement[0], INFINITY);
-    return done;
 }
 
 // --- friction that remembers --------------------------------------------------------------------

@@ -31,10 +31,7 @@ TABLE = (
     ("rod-way", "U is the velocity of the moment times t", "test_programs.Programs.test_rigid_block"),
     ("machine-rigid", "the spring is twice as stiff in steps", "test_machine.Machine.test_rigid_block"),
     ("machine-force", "its force is 1 % too small", "test_machine.Machine.test_rigid_block"),
-    ("window-first", "the step a window begins with is left out", "test_windows.Windows.test_last"),
     ("window-forgotten", "a checkpoint does not have the window", "test_windows.Windows.test_killed"),
-    ("states-forgotten", "a checkpoint does not have the states that a run may be taken back to",
-     "test_windows.Windows.test_killed"),
     ("memory-lagged", "friction takes the state that a stage began with", "test_memory.Memory.test_velocity_steps"),
     ("memory-kept", "slip takes nothing away from what is remembered", "test_memory.Memory.test_rigid_block_that_sticks"),
     ("memory-fresh", "contacts have rested for no time when the rod begins", "test_memory.Memory.test_rigid_block_that_sticks"),
@@ -56,7 +53,6 @@ TABLE = (
     ("states-steady", "what `stability` lets slip remembers the start, not steady slip", "test_own_stability.OwnStability.test_two_states"),
     ("states-clock", "a law of one's own remembers on its slow path as if it were the drive",
      "test_own_stability.OwnStability.test_same_as_built_in"),
-    ("state-rounded", "a run that is taken back is off by one rounding", "test_windows.Windows.test_around"),
 )
 
 

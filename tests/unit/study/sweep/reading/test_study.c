@@ -323,7 +323,7 @@ TEST(test_faults)
         {"varry: {}\n", ":2:1: study: unknown key `varry`; did you mean `vary`?"},
         {"vary: {load.presure: [1]}\n", ":2:8: load.presure: unknown key; did you mean"},
         {"vary: {contact.radius: [1, 2]}\n",
-         ":2:8: contact.radius: this key of version 0.2 is gone"},
+         ":2:8: contact.radius: this key of an earlier version is gone"},
         {"set: {colour: red}\n", ":2:7: colour: unknown key ("},
         {"cases: [{}, {rod: {kind: glued}}]\n", "rod.kind: found `glued`"},
         {"vary: {load.pressure: [1, -2]}\n", ":2:27: load.pressure: found `-2`; allowed"},
