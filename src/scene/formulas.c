@@ -52,11 +52,3 @@ bool scene_formula_number(const SceneSetting *formula, FormulaLookUp look_up, co
     snprintf(text, SCENE_NUMBER_SIZE, "%.15g", result);
     return true;
 }
-
-bool scene_work_out(const Scene *scene, const SceneSetting *formula, const char *name,
-                    YamlDocument **value, Error *err)
-{
-    char text[SCENE_NUMBER_SIZE];
-    return scene_formula_number(formula, scene_number, scene, text, err) &&
-           yaml_parse(name, text, 0, value, err);
-}

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Values of a scene that are worked out of its others: `= 6 * load.pressure`. Used by
-// scene/scene_read for those of the file and of --set, and by study/sweep for points of a study.
+// Values of a scene that are worked out of its others: `= 6 * load.pressure`.
 #ifndef AMONTONS_SCENE_FORMULAS_H
 #define AMONTONS_SCENE_FORMULAS_H
 
@@ -19,9 +18,6 @@ enum { SCENE_NUMBER_SIZE = 40 };   // of a number with 15 digits
 // messages and tables show is what is computed with.
 bool scene_formula_number(const SceneSetting *formula, FormulaLookUp look_up, const void *context,
                           char text[SCENE_NUMBER_SIZE], Error *err);
-// The same over `scene`, as a document of its own, called `name` in errors. Owned by the caller.
-bool scene_work_out(const Scene *scene, const SceneSetting *formula, const char *name,
-                    YamlDocument **value, Error *err);
 
 const MeshParameter *scene_mesh_parameter(const Scene *scene, const char *key);   // NULL: none
 

@@ -175,9 +175,9 @@ typedef struct SceneSetting {
 typedef struct SceneSource SceneSource;   // a file read once, for many scenes of other settings
 bool scene_source_open(const char *path, bool trusted, SceneSource **source, Error *err);
 void scene_source_close(SceneSource *source);   // also of one half opened
-bool scene_source_begin(SceneSource *source, const SceneSetting *settings, int32_t count,
-                        Scene *scene, Error *err);
-// The scene made last, with one setting more: the value of a formula over it, perhaps.
-bool scene_source_add(SceneSource *source, const SceneSetting *setting, Scene *scene, Error *err);
+// The scene of the file with `settings` ([count]), of which later ones win; formulas among them are
+// worked out last, in their order, each over the scene that all else and those before make.
+bool scene_source_make(SceneSource *source, const SceneSetting *settings, int32_t count,
+                       Scene *scene, Error *err);
 
 #endif

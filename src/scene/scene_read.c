@@ -5,10 +5,11 @@
 //
 // A value that is a formula (`= 6 * load.pressure`), wherever a number may stand, is left out when
 // settings are stored first. Formulas are then worked out, each after those that it depends on,
-// what they give stands in for their texts, and all settings are stored again.
+// what they give stands in for their texts, and all settings are stored again. Formulas of settings
+// from outside of the file follow one by one.
 //
 // A later setting wins, key by key; a map given whole (--set time.until={t: 3}) first gives its
-// keys their defaults back. `sources` remembers where each value stands, for errors of the checks.
+// keys their defaults back. `places` remembers where each value stands, for errors of the checks.
 #include "scene/scene.h"
 
 #include "base/memory.h"
@@ -40,36 +41,36 @@ typedef struct FormulaSetting {
     int32_t before;   // settings that were gathered before it; later ones replace it
 } FormulaSetting;
 
-typedef struct Reader {
+struct SceneSource {
+    char path[SCENE_TEXT_SIZE];
     const SceneKey *keys;   // [key_count]
     int32_t key_count;
     YamlDocument *defaults;   // a list of the keys' defaults, in their order
     YamlDocument *file;
-    YamlDocument **overrides;   // [override_count] those of --set, and the values of its formulas
-    int32_t override_count;
-    Setting *settings;   // [setting_count] of SETTINGS_MAX, later ones win
-    int32_t setting_count;
+    Setting *settings;   // [setting_count] of SETTINGS_MAX, later ones win: first the file's
+    int32_t setting_count, file_count;
     FormulaSetting *formulas;   // [formula_count] of FORMULAS_MAX, in their order
-    int32_t formula_count;
-    SceneValue sources[SCENE_KEYS_MAX];
+    int32_t formula_count, file_formulas;
+    SceneValue places[SCENE_KEYS_MAX];   // where each value of the scene at hand stands
     bool trusted;   // Scene.trusted of what is read
-} Reader;
+};
 
 // --- gathering ----------------------------------------------------------------------------------
 
 // SETTINGS_MAX is several times what a scene with every key has.
-static bool add_setting(Reader *reader, const Setting *setting, Error *err)
+static bool add_setting(SceneSource *source, const Setting *setting, Error *err)
 {
-    if (reader->setting_count == SETTINGS_MAX)
+    if (source->setting_count == SETTINGS_MAX)
         return REFUSE(err, "more than %d settings of keys", SETTINGS_MAX);
-    reader->settings[reader->setting_count++] = *setting;
+    source->settings[source->setting_count++] = *setting;
     return true;
 }
 
-static bool gather(Reader *reader, const char *name, const SceneValue *value, Error *err);
+static bool gather(SceneSource *source, const char *name, const SceneValue *value, Error *err);
 
 // An empty map (`load:` alone) is taken as one without keys.
-static bool gather_children(Reader *reader, const char *name, const SceneValue *value, Error *err)
+static bool gather_children(SceneSource *source, const char *name, const SceneValue *value,
+                            Error *err)
 {
     const YamlDocument *document = value->document;
     YamlKind kind = yaml_kind(document, value->node);
@@ -79,7 +80,7 @@ static bool gather_children(Reader *reader, const char *name, const SceneValue *
         char path[SCENE_KEY_SIZE];
         SceneValue child = {.document = document, .node = item};
         snprintf(path, sizeof path, "%s%s%.60s", name, *name ? "." : "", yaml_key(document, item));
-        if (!gather(reader, path, &child, err)) return false;
+        if (!gather(source, path, &child, err)) return false;
     }
     return true;
 }
@@ -87,17 +88,17 @@ static bool gather_children(Reader *reader, const char *name, const SceneValue *
 // Formulas in the value of a key, at whatever depth of its lists and maps: "load.pressure",
 // "materials.pads.young", "material.relaxation.0.shear", "load.tractions.1.x". Words of items that
 // take texts have none.
-static bool gather_formulas(Reader *reader, const SceneItems *items, const char *name,
+static bool gather_formulas(SceneSource *source, const SceneItems *items, const char *name,
                             const SceneValue *value, Error *err)
 {
     YamlKind kind = yaml_kind(value->document, value->node);
     int32_t number = 0;
     if (scene_is_formula(value->document, value->node)) {
-        if (reader->formula_count == FORMULAS_MAX)
+        if (source->formula_count == FORMULAS_MAX)
             return yaml_error(value->document, value->node, err, "%s: more than %d formulas", name,
                               FORMULAS_MAX);
-        FormulaSetting *formula = &reader->formulas[reader->formula_count++];
-        *formula = (FormulaSetting){.value = *value, .before = reader->setting_count};
+        FormulaSetting *formula = &source->formulas[source->formula_count++];
+        *formula = (FormulaSetting){.value = *value, .before = source->setting_count};
         snprintf(formula->name, sizeof formula->name, "%s", name);
         return true;
     }
@@ -111,51 +112,52 @@ static bool gather_formulas(Reader *reader, const SceneItems *items, const char 
         bool is_text = kind == YAML_MAP && items &&
                        yaml_kind(value->document, node) == YAML_SCALAR &&
                        !scene_part_has_numbers(items, word);
-        if (!is_text && !gather_formulas(reader, items, path, &child, err)) return false;
+        if (!is_text && !gather_formulas(source, items, path, &child, err)) return false;
     }
     return true;
 }
 
 // Adds the setting of a key, with the formulas that are in it.
-static bool gather_key(Reader *reader, const char *name, const Setting *setting, Error *err)
+static bool gather_key(SceneSource *source, const char *name, const Setting *setting, Error *err)
 {
-    const SceneKey *key = &reader->keys[setting->key];
-    if (!add_setting(reader, setting, err)) return false;
+    const SceneKey *key = &source->keys[setting->key];
+    if (!add_setting(source, setting, err)) return false;
     return !scene_key_has_numbers(key->type) ||
-           gather_formulas(reader, key->items, name, &setting->value, err);
+           gather_formulas(source, key->items, name, &setting->value, err);
 }
 
 // Turns the value standing under `name` into settings of keys.
-static bool gather(Reader *reader, const char *name, const SceneValue *value, Error *err)
+static bool gather(SceneSource *source, const char *name, const SceneValue *value, Error *err)
 {
     Setting setting = {.key = scene_key_index(name), .value = *value};
     if (setting.key >= 0) {
-        if (!gather_key(reader, name, &setting, err)) return false;
-        bool has_children = reader->keys[setting.key].type == KEY_FIELDS &&
+        if (!gather_key(source, name, &setting, err)) return false;
+        bool has_children = source->keys[setting.key].type == KEY_FIELDS &&
                             yaml_kind(value->document, value->node) == YAML_MAP;
-        return !has_children || gather_children(reader, name, value, err);
+        return !has_children || gather_children(source, name, value, err);
     }
-    if (scene_key_is_group(name)) return gather_children(reader, name, value, err);
+    if (scene_key_is_group(name)) return gather_children(source, name, value, err);
     return scene_key_refuse(value->document, value->node, name, err);
 }
 
 // A value given for `name` from outside of the file; `mesh.set.NAME` sets a single parameter,
 // `materials.NAME.young` and `material.relaxation.0.shear` a single number.
-static bool gather_outside(Reader *reader, const char *name, const SceneValue *value, Error *err)
+static bool gather_outside(SceneSource *source, const SceneSetting *given, Error *err)
 {
-    Setting setting = {.key = -1, .value = *value};
+    const char *name = given->key;
+    Setting setting = {.key = -1, .value = {.document = given->document, .node = given->node}};
     if (strlen(name) >= SCENE_KEY_SIZE)
         return REFUSE(err, "%.80s...: unknown key (`amontons info keys` lists them all)", name);
     setting.key = scene_key_above(name, &setting.value.part);
     if (setting.key >= 0) {
         snprintf(setting.group, sizeof setting.group, "%s", setting.value.part);
-        return gather_key(reader, name, &setting, err);
+        return gather_key(source, name, &setting, err);
     }
     if (scene_key_is_group(name) && scene_key_index(name) < 0) {
         snprintf(setting.group, sizeof setting.group, "%s", name);
-        if (!add_setting(reader, &setting, err)) return false;
+        if (!add_setting(source, &setting, err)) return false;
     }
-    return gather(reader, name, value, err);
+    return gather(source, name, &setting.value, err);
 }
 
 bool scene_override_parse(const char *text, char key[SCENE_KEY_SIZE], YamlDocument **document,
@@ -178,38 +180,38 @@ static bool store_value(const SceneKey *key, const SceneValue *value, Scene *sce
 }
 
 // Gives `group` and every key below it ("": all) its default; a key without one becomes zero.
-static bool store_defaults(Reader *reader, const char *group, Scene *scene, Error *err)
+static bool store_defaults(SceneSource *source, const char *group, Scene *scene, Error *err)
 {
     size_t length = strlen(group);
-    YamlNode node = yaml_first(reader->defaults, YAML_ROOT);
-    for (int32_t k = 0; k < reader->key_count; k++) {
-        const SceneKey *key = &reader->keys[k];
-        SceneValue value = {.document = reader->defaults, .node = node};
-        node = yaml_next(reader->defaults, node);
+    YamlNode node = yaml_first(source->defaults, YAML_ROOT);
+    for (int32_t k = 0; k < source->key_count; k++) {
+        const SceneKey *key = &source->keys[k];
+        SceneValue value = {.document = source->defaults, .node = node};
+        node = yaml_next(source->defaults, node);
         bool is_in = strncmp(key->name, group, length) == 0 &&
                      (key->name[length] == '.' || key->name[length] == 0);
         if (length && !is_in) continue;
         scene->given[k] = false;
         scene->line[k] = 0;
-        reader->sources[k] = (SceneValue){0};
+        source->places[k] = (SceneValue){0};
         if (!key->standard) scene_value_clear(key, scene);
         if (key->standard && !store_value(key, &value, scene, err)) return false;
     }
     return true;
 }
 
-static bool store_setting(Reader *reader, const Setting *setting, Scene *scene, Error *err)
+static bool store_setting(SceneSource *source, const Setting *setting, Scene *scene, Error *err)
 {
     static const char fields[] = "output.fields";
-    if (setting->key < 0) return store_defaults(reader, setting->group, scene, err);
-    const SceneKey *key = &reader->keys[setting->key];
+    if (setting->key < 0) return store_defaults(source, setting->group, scene, err);
+    const SceneKey *key = &source->keys[setting->key];
     SceneValue value = setting->value;
     if (value.part) value.part = setting->group;
     bool none = scene_key_may_be_none(key) &&
                 yaml_kind(value.document, value.node) == YAML_SCALAR &&
                 strcmp(yaml_text(value.document, value.node), "none") == 0;
-    if (none) return store_defaults(reader, key->name, scene, err);
-    if (key->type == KEY_FIELDS && !store_defaults(reader, fields, scene, err)) return false;
+    if (none) return store_defaults(source, key->name, scene, err);
+    if (key->type == KEY_FIELDS && !store_defaults(source, fields, scene, err)) return false;
     if (!store_value(key, &value, scene, err)) return false;
     bool is_part_of_fields = strncmp(key->name, fields, strlen(fields)) == 0 &&
                              key->type != KEY_FIELDS;
@@ -218,33 +220,33 @@ static bool store_setting(Reader *reader, const Setting *setting, Scene *scene, 
         scene->given[scene_key_index(fields)] = true;
     }
     scene->given[setting->key] = true;
-    bool inside = value.document == reader->file;
+    bool inside = value.document == source->file;
     scene->line[setting->key] = inside ? yaml_line(value.document, value.node) : 0;
-    reader->sources[setting->key] = value;
+    source->places[setting->key] = value;
     return true;
 }
 
 // `units` first, wherever it stands: numbers are read by it.
-static bool store_settings(Reader *reader, Scene *scene, Error *err)
+static bool store_settings(SceneSource *source, Scene *scene, Error *err)
 {
     int32_t units = scene_key_index("units");
-    if (!store_defaults(reader, "", scene, err)) return false;
-    for (int32_t i = 0; i < reader->setting_count; i++)
-        if (reader->settings[i].key == units &&
-            !store_setting(reader, &reader->settings[i], scene, err))
+    if (!store_defaults(source, "", scene, err)) return false;
+    for (int32_t i = 0; i < source->setting_count; i++)
+        if (source->settings[i].key == units &&
+            !store_setting(source, &source->settings[i], scene, err))
             return false;
-    for (int32_t i = 0; i < reader->setting_count; i++)
-        if (reader->settings[i].key != units &&
-            !store_setting(reader, &reader->settings[i], scene, err))
+    for (int32_t i = 0; i < source->setting_count; i++)
+        if (source->settings[i].key != units &&
+            !store_setting(source, &source->settings[i], scene, err))
             return false;
     return true;
 }
 
 // Settings from number `first` on.
-static bool store_from(Reader *reader, int32_t first, Scene *scene, Error *err)
+static bool store_from(SceneSource *source, int32_t first, Scene *scene, Error *err)
 {
-    for (int32_t i = first; i < reader->setting_count; i++)
-        if (!store_setting(reader, &reader->settings[i], scene, err)) return false;
+    for (int32_t i = first; i < source->setting_count; i++)
+        if (!store_setting(source, &source->settings[i], scene, err)) return false;
     return true;
 }
 
@@ -252,7 +254,7 @@ static bool store_from(Reader *reader, int32_t first, Scene *scene, Error *err)
 
 // Numbers of a scene of which some formulas are not worked out yet.
 typedef struct Numbers {
-    const Reader *reader;
+    const SceneSource *source;
     const Scene *scene;
     const bool *waiting;   // [formula_count]
 } Numbers;
@@ -260,41 +262,41 @@ typedef struct Numbers {
 static bool find_number(const void *context, const char *name, double *value)
 {
     const Numbers *numbers = context;
-    for (int32_t k = 0; k < numbers->reader->formula_count; k++)
-        if (numbers->waiting[k] && strcmp(numbers->reader->formulas[k].name, name) == 0)
+    for (int32_t k = 0; k < numbers->source->formula_count; k++)
+        if (numbers->waiting[k] && strcmp(numbers->source->formulas[k].name, name) == 0)
             return false;
     if (*numbers->scene->material.from && strcmp(name, "material.young") == 0) return false;
     return scene_number(numbers->scene, name, value);
 }
 
-// Formulas from number `first` on stand for themselves again.
-static void forget_values(const Reader *reader, int32_t first)
+// Formulas stand for themselves again.
+static void forget_values(const SceneSource *source)
 {
     Error none = {0};   // nothing is allocated
-    for (int32_t k = first; k < reader->formula_count; k++)
-        yaml_stand_in(reader->formulas[k].value.document, reader->formulas[k].value.node, NULL,
+    for (int32_t k = 0; k < source->formula_count; k++)
+        yaml_stand_in(source->formulas[k].value.document, source->formulas[k].value.node, NULL,
                       &none);
 }
 
 // Works out formulas over what else the scene has, in rounds: all that name none that is waiting,
 // after which settings are stored again. ERROR_INPUT: what is wrong with one, or that some wait
 // for each other.
-static bool work_out_formulas(Reader *reader, Scene *scene, Error *err)
+static bool work_out_formulas(SceneSource *source, Scene *scene, Error *err)
 {
     bool waiting[FORMULAS_MAX] = {false}, known[FORMULAS_MAX];
     int32_t left = 0, found = 1;
-    Numbers numbers = {reader, scene, waiting};
-    forget_values(reader, 0);
+    Numbers numbers = {source, scene, waiting};
+    forget_values(source);
 
     // A formula waits unless what was gathered later gives its key, or a map that this is in.
-    for (int32_t k = 0; k < reader->formula_count; k++) {
-        const FormulaSetting *formula = &reader->formulas[k];
+    for (int32_t k = 0; k < source->formula_count; k++) {
+        const FormulaSetting *formula = &source->formulas[k];
         waiting[k] = true;
-        for (int32_t i = formula->before; i < reader->setting_count; i++) {
-            const Setting *setting = &reader->settings[i];
+        for (int32_t i = formula->before; i < source->setting_count; i++) {
+            const Setting *setting = &source->settings[i];
             char name[2 * SCENE_KEY_SIZE];
             bool below = setting->key >= 0 && setting->value.part;
-            const char *key = setting->key >= 0 ? reader->keys[setting->key].name : setting->group;
+            const char *key = setting->key >= 0 ? source->keys[setting->key].name : setting->group;
             snprintf(name, sizeof name, "%s%s%s", key, below ? "." : "",
                      below ? setting->group : "");
             size_t length = strlen(name);
@@ -302,8 +304,8 @@ static bool work_out_formulas(Reader *reader, Scene *scene, Error *err)
                 (!formula->name[length] || formula->name[length] == '.'))
                 waiting[k] = false;
         }
-        for (int32_t later = k + 1; later < reader->formula_count; later++)
-            if (strcmp(reader->formulas[later].name, formula->name) == 0) waiting[k] = false;
+        for (int32_t later = k + 1; later < source->formula_count; later++)
+            if (strcmp(source->formulas[later].name, formula->name) == 0) waiting[k] = false;
         left += waiting[k];
     }
 
@@ -311,8 +313,8 @@ static bool work_out_formulas(Reader *reader, Scene *scene, Error *err)
     for (; left > 0 && found > 0; left -= found) {
         found = 0;
         memset(known, 0, sizeof known);
-        for (int32_t k = 0; k < reader->formula_count; k++) {
-            const FormulaSetting *formula = &reader->formulas[k];
+        for (int32_t k = 0; k < source->formula_count; k++) {
+            const FormulaSetting *formula = &source->formulas[k];
             SceneSetting setting = {formula->name, formula->value.document, formula->value.node};
             char text[SCENE_NUMBER_SIZE];
             Error ignored = {0};
@@ -323,15 +325,15 @@ static bool work_out_formulas(Reader *reader, Scene *scene, Error *err)
             known[k] = true;
             found++;
         }
-        for (int32_t k = 0; k < reader->formula_count; k++) waiting[k] = waiting[k] && !known[k];
-        if (found > 0 && !store_settings(reader, scene, err)) return false;
+        for (int32_t k = 0; k < source->formula_count; k++) waiting[k] = waiting[k] && !known[k];
+        if (found > 0 && !store_settings(source, scene, err)) return false;
     }
     if (left == 0) return true;
 
     // The first formula that waits is wrong, or waits for itself.
     int32_t k = 0;
     while (!waiting[k]) k++;
-    const FormulaSetting *formula = &reader->formulas[k];
+    const FormulaSetting *formula = &source->formulas[k];
     SceneSetting setting = {formula->name, formula->value.document, formula->value.node};
     char ignored[SCENE_NUMBER_SIZE];
     return scene_formula_number(&setting, scene_number, scene, ignored, err) &&
@@ -356,45 +358,50 @@ static bool resolve_file(const char *path, const char *key, char *name, Error *e
     return true;
 }
 
-// Reads the values that the file gives. *scene is overwritten, and of no use after a failure.
-static bool begin_reading(Reader *reader, const char *path, Scene *scene, Error *err)
+bool scene_source_open(const char *path, bool trusted, SceneSource **out, Error *err)
 {
-    *scene = (Scene){.trusted = reader->trusted};
-    reader->keys = scene_keys(&reader->key_count);
-    if (!yaml_read(path, &reader->file, err)) return false;
+    SceneSource *source = *out = NEW_ARRAY(SceneSource, 1, err);
+    if (!source) return false;
+    source->trusted = trusted;
+    source->keys = scene_keys(&source->key_count);
+    if (!yaml_read(path, &source->file, err)) return false;
     if (strlen(path) >= SCENE_TEXT_SIZE)
         return REFUSE(err, "%.80s...: a path of more than 511 bytes", path);
-    memcpy(scene->path, path, strlen(path) + 1);
-    if (!(reader->settings = NEW_ARRAY(Setting, SETTINGS_MAX, err)) ||
-        !(reader->formulas = NEW_ARRAY(FormulaSetting, FORMULAS_MAX, err)))
+    memcpy(source->path, path, strlen(path) + 1);
+    if (!(source->settings = NEW_ARRAY(Setting, SETTINGS_MAX, err)) ||
+        !(source->formulas = NEW_ARRAY(FormulaSetting, FORMULAS_MAX, err)))
         return false;
 
     // The table's defaults are texts, read by the same parser as a scene's values: a default can be
     // typed as it is shown.
     char text[16 * SCENE_KEYS_MAX] = "[";
     size_t used = 1;
-    for (int32_t k = 0; k < reader->key_count; k++)
+    for (int32_t k = 0; k < source->key_count; k++)
         used += (size_t)snprintf(text + used, sizeof text - used, "%s, ",
-                                 reader->keys[k].standard ? reader->keys[k].standard : "~");
+                                 source->keys[k].standard ? source->keys[k].standard : "~");
     snprintf(text + used - 2, sizeof text - used, "]");
-    if (!yaml_parse("defaults", text, 0, &reader->defaults, err)) return false;
+    if (!yaml_parse("defaults", text, 0, &source->defaults, err)) return false;
 
-    SceneValue root = {.document = reader->file, .node = YAML_ROOT};
-    YamlKind kind = yaml_kind(reader->file, YAML_ROOT);
+    SceneValue root = {.document = source->file, .node = YAML_ROOT};
+    YamlKind kind = yaml_kind(source->file, YAML_ROOT);
     if (kind == YAML_NOTHING)
         return yaml_error(
-            reader->file, YAML_ROOT, err,
+            source->file, YAML_ROOT, err,
             "the scene is empty; a scene is a map of keys (`amontons info keys` lists them)");
     if (kind != YAML_MAP)
-        return yaml_error(reader->file, YAML_ROOT, err,
+        return yaml_error(source->file, YAML_ROOT, err,
                           "not a scene: a scene is a map of keys, as in `units: normalised` "
                           "(`amontons info keys` lists them)");
-    return gather_children(reader, "", &root, err);
+    if (!gather_children(source, "", &root, err)) return false;
+    source->file_count = source->setting_count;
+    source->file_formulas = source->formula_count;
+    return true;
 }
 
 // Is called when everything is stored.
-static bool finish_reading(Reader *reader, const char *path, Scene *scene, Error *err)
+static bool finish_reading(SceneSource *source, Scene *scene, Error *err)
 {
+    const char *path = scene->path;
     char key[SCENE_KEY_SIZE];
     const char *word = NULL;
     SceneProfile profile;   // read again when the contact is known
@@ -406,7 +413,7 @@ static bool finish_reading(Reader *reader, const char *path, Scene *scene, Error
             return false;
     done = scene_material_files(scene, &word, err);
     if (!done) return scene_blame(scene, word, false, err);
-    if (!scene_check(scene, reader->sources, reader->file, err)) return false;
+    if (!scene_check(scene, source->places, source->file, err)) return false;
     if (!friction_has_drop(&scene->friction))
         scene->friction.mu_kinetic = scene->friction.mu_static;
     if (!resolve_file(path, "mesh.file", scene->mesh.file, err)) return false;
@@ -420,126 +427,74 @@ static bool finish_reading(Reader *reader, const char *path, Scene *scene, Error
                               &scene->friction, &word, err);
     snprintf(key, sizeof key, "friction.%s", done ? "law" : word);
     return scene_blame(scene, key, done, err) &&
-           scene_contact_laws(&reader->sources[scene_key_index("friction.contacts")], scene, err);
+           scene_contact_laws(&source->places[scene_key_index("friction.contacts")], scene, err);
 }
 
-// Errors have been written by now: they carry their texts with them.
-static void destroy_reader(Reader *reader)
+void scene_source_close(SceneSource *source)
 {
-    for (int32_t i = 0; i < reader->override_count; i++) yaml_destroy(reader->overrides[i]);
-    memory_free_all(reader->overrides, reader->settings, reader->formulas);
-    yaml_destroy(reader->file);
-    yaml_destroy(reader->defaults);
+    if (!source) return;
+    memory_free_all(source->settings, source->formulas);
+    yaml_destroy(source->file);
+    yaml_destroy(source->defaults);
+    memory_free(source);
+}
+
+bool scene_source_make(SceneSource *source, const SceneSetting *settings, int32_t count,
+                       Scene *scene, Error *err)
+{
+    *scene = (Scene){.trusted = source->trusted};
+    memcpy(scene->path, source->path, sizeof scene->path);
+    for (int32_t i = 0; i < count; i++)
+        if (!scene_is_formula(settings[i].document, settings[i].node))   // needs the others: below
+            TRY(gather_outside(source, &settings[i], err));
+    TRY(store_settings(source, scene, err));
+    TRY(work_out_formulas(source, scene, err));
+
+    // Formulas of settings, in their order, over the scene that all else and those before make.
+    for (int32_t i = 0; i < count; i++) {
+        const SceneSetting *setting = &settings[i];
+        const bool none[FORMULAS_MAX] = {false};
+        Numbers numbers = {source, scene, none};
+        char text[SCENE_NUMBER_SIZE];
+        int32_t first = source->setting_count;
+        if (!scene_is_formula(setting->document, setting->node)) continue;
+        TRY(scene_formula_number(setting, find_number, &numbers, text, err));
+        TRY(yaml_stand_in(setting->document, setting->node, text, err));
+        TRY(gather_outside(source, setting, err));
+        TRY(store_from(source, first, scene, err));
+        TRY(work_out_formulas(source, scene, err));
+    }
+    TRY(finish_reading(source, scene, err));
+cleanup:
+    // The next scene begins with the file alone, and formulas stand for themselves again.
+    forget_values(source);
+    source->setting_count = source->file_count;
+    source->formula_count = source->file_formulas;
+    for (int32_t i = 0; i < count; i++)
+        yaml_stand_in(settings[i].document, settings[i].node, NULL, &(Error){0});
+    return error_is_clean(err);
 }
 
 bool scene_read(const char *path, const char *const *overrides, int32_t override_count,
                 bool trusted, Scene *scene, Error *err)
 {
-    Reader reader = {.trusted = trusted};
-    char name[SCENE_KEY_SIZE];
-    TRY(begin_reading(&reader, path, scene, err));
-    TRY((reader.overrides = NEW_ARRAY(YamlDocument *, 2 * (int64_t)override_count, err)));
+    typedef char Key[SCENE_KEY_SIZE];
+    SceneSource *source = NULL;
+    SceneSetting *settings = NEW_ARRAY(SceneSetting, override_count, err);
+    YamlDocument **documents = NEW_ARRAY(YamlDocument *, override_count, err);
+    Key *keys = NEW_ARRAY(Key, override_count, err);
+    TRY(error_is_clean(err));
+    TRY(scene_source_open(path, trusted, &source, err));
     for (int32_t i = 0; i < override_count; i++) {
-        YamlDocument **document = &reader.overrides[i];
-        TRY(scene_override_parse(overrides[i], name, document, err));
-        reader.override_count++;
-        if (scene_is_formula(*document, YAML_ROOT)) continue;   // needs the others: below
-        TRY(gather_outside(&reader, name, &(SceneValue){.document = *document, .node = YAML_ROOT},
-                           err));
+        TRY(scene_override_parse(overrides[i], keys[i], &documents[i], err));
+        settings[i] = (SceneSetting){keys[i], documents[i], YAML_ROOT};
     }
-    TRY(store_settings(&reader, scene, err));
-    TRY(work_out_formulas(&reader, scene, err));
-
-    // Formulas of --set, in their order, over the scene that all else and those before make.
-    for (int32_t i = 0; i < override_count; i++) {
-        const YamlDocument *formula = reader.overrides[i];
-        YamlDocument **value = &reader.overrides[reader.override_count];
-        char shown[3 * SCENE_KEY_SIZE];
-        int32_t first = reader.setting_count;
-        if (!scene_is_formula(formula, YAML_ROOT)) continue;
-        snprintf(name, sizeof name, "%.*s", (int)strcspn(overrides[i], "="), overrides[i]);
-        snprintf(shown, sizeof shown, "--set %s, value of `%.80s`", name,
-                 yaml_text(formula, YAML_ROOT));
-        SceneSetting setting = {.key = name, .document = formula, .node = YAML_ROOT};
-        TRY(scene_work_out(scene, &setting, shown, value, err));
-        reader.override_count++;
-        TRY(gather_outside(&reader, name, &(SceneValue){.document = *value, .node = YAML_ROOT},
-                           err));
-        TRY(store_from(&reader, first, scene, err));
-        TRY(work_out_formulas(&reader, scene, err));
-    }
-    TRY(finish_reading(&reader, path, scene, err));
+    TRY(scene_source_make(source, settings, override_count, scene, err));
 cleanup:
-    destroy_reader(&reader);
+    scene_source_close(source);
+    for (int32_t i = 0; documents && i < override_count; i++) yaml_destroy(documents[i]);
+    memory_free_all(settings, documents, keys);
     return error_is_clean(err);
-}
-
-// --- many scenes of one file ---------------------------------------------------------------------
-
-struct SceneSource {
-    Reader reader;   // its settings: first those of the file, then those of the scene at hand
-    int32_t file_count, file_formulas;   // of the file
-    SceneValue file_sources[SCENE_KEYS_MAX];
-    Scene file, made;   // what the file alone gives; the scene at hand, not finished
-};
-
-bool scene_source_open(const char *path, bool trusted, SceneSource **source, Error *err)
-{
-    SceneSource *made = *source = NEW_ARRAY(SceneSource, 1, err);
-    if (!made) return false;
-    made->reader.trusted = trusted;
-    if (!begin_reading(&made->reader, path, &made->file, err)) return false;
-    made->file_count = made->reader.setting_count;
-    made->file_formulas = made->reader.formula_count;
-    if (!store_settings(&made->reader, &made->file, err)) return false;
-    memcpy(made->file_sources, made->reader.sources, sizeof made->file_sources);
-    return true;
-}
-
-void scene_source_close(SceneSource *source)
-{
-    if (source) destroy_reader(&source->reader);
-    memory_free(source);
-}
-
-static bool finish_copy(SceneSource *source, Scene *scene, Error *err)
-{
-    memcpy(scene, &source->made, sizeof *scene);
-    bool done = work_out_formulas(&source->reader, scene, err) &&
-                finish_reading(&source->reader, source->made.path, scene, err);
-    forget_values(&source->reader, 0);   // while the documents of settings are there
-    return done;
-}
-
-// Other units than the file's change what its numbers mean: all is stored anew.
-bool scene_source_begin(SceneSource *source, const SceneSetting *settings, int32_t count,
-                        Scene *scene, Error *err)
-{
-    Reader *reader = &source->reader;
-    int32_t units = scene_key_index("units");
-    bool other_units = false;
-    reader->setting_count = source->file_count;
-    reader->formula_count = source->file_formulas;
-    for (int32_t i = 0; i < count; i++) {
-        SceneValue value = {.document = settings[i].document, .node = settings[i].node};
-        if (!gather_outside(reader, settings[i].key, &value, err)) return false;
-    }
-    for (int32_t i = source->file_count; i < reader->setting_count; i++)
-        other_units = other_units || reader->settings[i].key == units;
-    memcpy(&source->made, &source->file, sizeof source->made);
-    memcpy(reader->sources, source->file_sources, sizeof reader->sources);
-    return (other_units ? store_settings(reader, &source->made, err)
-                        : store_from(reader, source->file_count, &source->made, err)) &&
-           finish_copy(source, scene, err);
-}
-
-bool scene_source_add(SceneSource *source, const SceneSetting *setting, Scene *scene, Error *err)
-{
-    int32_t first = source->reader.setting_count;
-    SceneValue value = {.document = setting->document, .node = setting->node};
-    return gather_outside(&source->reader, setting->key, &value, err) &&
-           store_from(&source->reader, first, &source->made, err) &&
-           finish_copy(source, scene, err);
 }
 
 bool scene_blame(const Scene *scene, const char *key, bool done, Error *err)

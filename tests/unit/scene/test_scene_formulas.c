@@ -89,11 +89,11 @@ TEST(formulas_of_many_scenes)
         char text[20];
         snprintf(text, sizeof text, "%g", 0.01 * k);
         assert_true(yaml_parse("value", text, 0, &value, &err));
-        SceneSetting setting = {"load.pressure", value, YAML_ROOT};
-        if (!scene_source_begin(source, &setting, 1, scene, &err)) fail_msg("%s", err.message);
+        SceneSetting settings[] = {{"load.pressure", value, YAML_ROOT},
+                                   {"material.young", value, YAML_ROOT}};
+        if (!scene_source_make(source, settings, 1, scene, &err)) fail_msg("%s", err.message);
         assert_near("number", scene->time.until_U, 0.06 * k, 1e-14);
-        setting.key = "material.young";
-        assert_true(scene_source_add(source, &setting, scene, &err));
+        assert_true(scene_source_make(source, settings, 2, scene, &err));
         assert_near("number", scene->material.eta1, 0.02 * k, 1e-14);
         yaml_destroy(value);
     }

@@ -47,7 +47,6 @@ enum {
     STUDY_COLUMNS_MAX = 64,
     STUDY_RECORDS_MAX = 64,
     STUDY_SETTINGS_MAX = 200,   // for a point
-    STUDY_FORMULAS_MAX = 32,
     STUDY_RANGE_MAX = 10000,   // points of a range
     STUDY_POINTS_MAX = 1000000,
     STUDY_PLOTS_MAX = 8,

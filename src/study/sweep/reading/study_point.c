@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The scene of one point of a study: settings are gathered in order, then the formulas are worked
-// out one by one, each over the scene that those before it have changed.
+// The scene of one point of a study: its settings, in order.
 #include "study/sweep/reading/study_point.h"
 
 #include "base/memory.h"
@@ -14,9 +13,6 @@
 typedef struct PointSettings {
     SceneSetting list[STUDY_SETTINGS_MAX];
     int32_t count;
-    SceneSetting formulas[STUDY_FORMULAS_MAX];
-    int32_t formula_count;
-    YamlDocument *values[STUDY_FORMULAS_MAX];   // of the formulas; owned
 } PointSettings;
 
 // --- values of a scene --------------------------------------------------------------------------
@@ -54,16 +50,11 @@ void study_add_words(const Scene *scene, const char *key, char *words, int32_t s
 
 // --- gathering ----------------------------------------------------------------------------------
 
-// Formulas are put aside, to be worked out when all plain values are in.
 static bool add(PointSettings *settings, const SceneSetting *setting, Error *err)
 {
-    bool is_formula = scene_is_formula(setting->document, setting->node);
-    int32_t room = is_formula ? STUDY_FORMULAS_MAX : STUDY_SETTINGS_MAX;
-    int32_t *count = is_formula ? &settings->formula_count : &settings->count;
-    if (*count == room)
-        return REFUSE(err, "more than %d %s for a point of a study", room,
-                      is_formula ? "formulas" : "settings");
-    (is_formula ? settings->formulas : settings->list)[(*count)++] = *setting;
+    if (settings->count == STUDY_SETTINGS_MAX)
+        return REFUSE(err, "more than %d settings for a point of a study", STUDY_SETTINGS_MAX);
+    settings->list[settings->count++] = *setting;
     return true;
 }
 
@@ -94,13 +85,15 @@ bool study_scene(const Study *study, const PointChoice *choice, Scene *scene, Er
 
     // A formula of `set` that --set replaces is not worked out.
     int32_t kept = 0;
-    for (int32_t k = 0; k < settings->formula_count; k++) {
+    for (int32_t k = 0; k < settings->count; k++) {
+        const SceneSetting *setting = &settings->list[k];
         bool replaced = false;
         for (int32_t i = 0; i < study->override_count; i++)
-            replaced = replaced || strcmp(study->override_keys[i], settings->formulas[k].key) == 0;
-        if (!replaced) settings->formulas[kept++] = settings->formulas[k];
+            replaced = replaced || strcmp(study->override_keys[i], setting->key) == 0;
+        if (!replaced || !scene_is_formula(setting->document, setting->node))
+            settings->list[kept++] = *setting;
     }
-    settings->formula_count = kept;
+    settings->count = kept;
 
     for (int32_t k = 0; k < study->override_count; k++)
         TRY(add(settings, &study->overrides[k], err));
@@ -115,24 +108,8 @@ bool study_scene(const Study *study, const PointChoice *choice, Scene *scene, Er
         TRY(add(settings, &setting, err));
     }
     if (choice->baseline) TRY(add_map(settings, study->file, study->rank.baseline, err));
-
-    // The scene is made anew after each formula: the next one may use its value.
-    TRY(scene_source_begin(study->source, settings->list, settings->count, scene, err));
-    for (int32_t k = 0; k < settings->formula_count; k++) {
-        const SceneSetting *formula = &settings->formulas[k];
-        char name[SCENE_TEXT_SIZE + 120];
-        snprintf(name, sizeof name, "%s:%d:%d, value of `%.80s`", study->path,
-                 yaml_line(formula->document, formula->node),
-                 yaml_column(formula->document, formula->node),
-                 yaml_text(formula->document, formula->node));
-        TRY(scene_work_out(scene, formula, name, &settings->values[k], err));
-        SceneSetting value = {
-            .key = formula->key, .document = settings->values[k], .node = YAML_ROOT};
-        TRY(scene_source_add(study->source, &value, scene, err));
-    }
+    TRY(scene_source_make(study->source, settings->list, settings->count, scene, err));
 cleanup:
-    for (int32_t k = 0; settings && k < settings->formula_count; k++)
-        yaml_destroy(settings->values[k]);
     memory_free(settings);
     return error_is_clean(err);
 }

@@ -345,7 +345,7 @@ TEST(test_faults)
         {"cases: [3]\n", ":2:9: cases: found `3`; allowed: a map"},
         {"set: 3\n", "set: found `3`; allowed: a map"},
         {"set: {rod.width: = 2 * rod.heigth}\n", ":2:18: rod.width: `rod.heigth` is no number"},
-        {"set: {rod.width: = -1}\n", "value of `= -1`"},
+        {"set: {rod.width: = -1}\n", ":2:18: rod.width: found `-1`; allowed"},
         {"record: [mu_N]\n", ":2:10: record: unknown name `mu_N`; did you mean `mu_M`?"},
         {"record: [qqqqqq]\n", "a path in run.json"},
         {"record: 3\n", "record: found `3`"},
