@@ -46,12 +46,6 @@ double material_bulk(const Material *material)
     return material->young / (3 * (1 - 2 * material->poisson));
 }
 
-static void set_moduli(double shear, double bulk, Material *material)
-{
-    material->young = 9 * bulk * shear / (3 * bulk + shear);
-    material->poisson = (3 * bulk - 2 * shear) / (2 * (3 * bulk + shear));
-}
-
 Material material_at_once(const Material *material)
 {
     Material made = *material;
@@ -61,21 +55,10 @@ Material material_at_once(const Material *material)
         shear += material->branch[k].shear;
         bulk += material->branch[k].bulk;
     }
-    set_moduli(shear, bulk, &made);
+    made.young = 9 * bulk * shear / (3 * bulk + shear);
+    made.poisson = (3 * bulk - 2 * shear) / (2 * (3 * bulk + shear));
     made.branch_count = 0;
     return made;
-}
-
-bool material_relax(Material *material)
-{
-    double shear = material_shear(material), bulk = material_bulk(material);
-    for (int32_t k = 0; k < material->branch_count; k++) {
-        shear -= material->branch[k].shear;
-        bulk -= material->branch[k].bulk;
-    }
-    if (!(shear > 0 && bulk > 0)) return false;
-    if (material->branch_count > 0) set_moduli(shear, bulk, material);
-    return true;
 }
 
 // The stress that keeps the faces in place in plane strain.

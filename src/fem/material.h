@@ -40,10 +40,6 @@ double material_bulk(const Material *material);
 // response, and it has no branches.
 Material material_at_once(const Material *material);
 
-// Makes E and nu, which are those of the short-time response, those of the long-time one. false:
-// its branches resist more than all of it, and it is as it was.
-bool material_relax(Material *material);
-
 // stress = deviator * strain + trace * tr(strain) I, stress; of the viscous part, * time.
 typedef struct Moduli {
     double deviator, trace;

@@ -26,8 +26,6 @@ _Static_assert(MATERIALS_MAX == SCENE_MATERIALS_MAX + 1, "a material for each re
 // material, touch the floor and no other material does.
 static const double FLOOR_PART = 0.9;
 
-// Branches, and the modulus as that of the long-time response. A scene that leaves none was refused
-// (scene/check).
 static void set_branches(const Scene *scene, const SceneMaterial *region, Material *material)
 {
     const SceneRelaxation *relaxation = scene_material_relaxation(scene, region);
@@ -36,10 +34,6 @@ static void set_branches(const Scene *scene, const SceneMaterial *region, Materi
         material->branch[k] = (Branch){.time = relaxation->branch[k].time,
                                        .shear = relaxation->branch[k].shear,
                                        .bulk = relaxation->branch[k].bulk};
-    if (!scene_material_is_short(scene, region)) return;
-    material->young = region ? scene_material_number(scene, region, MATERIAL_YOUNG_SHORT)
-                             : scene->material.young_short;
-    material_relax(material);
 }
 
 Model model_of(const Scene *scene)

@@ -91,8 +91,6 @@ static bool check_required(const Check *check)
             needed = false;
         else if (word && !key->standard)
             needed = friction_use(&scene->friction, word) == FRICTION_MUST;
-        else if (strcmp(key->name, "material.young") == 0 && scene->material.young_short > 0)
-            needed = false;
         else if (strcmp(key->name, "rod.velocity") == 0)
             needed = scene->rod.kind != ROD_NONE && !is_static(scene);
         else if (strcmp(key->name, "load.pressure") == 0)
@@ -142,12 +140,7 @@ static bool check_friction(const Check *check)
     return true;
 }
 
-static const char *const TWO_MODULI =
-    "the long-time modulus (young) and the short-time one (young_short) are both given; one "
-    "follows from the other and relaxation";
-
-// Branches know bulk moduli in space, which nu = 1/2 has none of. They may not resist more than all
-// of the material does at once.
+// Branches know bulk moduli in space, which nu = 1/2 has none of.
 static bool check_relaxation(const Check *check, const SceneMaterial *region, const char *key)
 {
     const Scene *scene = check->scene;
@@ -155,9 +148,6 @@ static bool check_relaxation(const Check *check, const SceneMaterial *region, co
     const char *name = region ? region->group : "", *dot = region ? "." : "";
     double poisson = region ? scene_material_number(scene, region, MATERIAL_POISSON)
                             : scene->material.poisson;
-    double young = region ? scene_material_number(scene, region, MATERIAL_YOUNG_SHORT)
-                          : scene->material.young_short;
-    double shear = young / (2 * (1 + poisson)), bulk = young / (3 * (1 - 2 * poisson));
     if (relaxation->count > 0 && !(poisson < 0.5))
         return blame(check, key, "%s%srelaxation: poisson is %g; branches need less than 0.5", name,
                      dot, poisson);
@@ -175,17 +165,7 @@ static bool check_relaxation(const Check *check, const SceneMaterial *region, co
                              "%s%srelaxation: the time %g stands twice; add up the moduli", name,
                              dot, branch->time);
     }
-    if (!scene_material_is_short(scene, region)) return true;
-    for (int32_t k = 0; k < relaxation->count; k++) {
-        shear -= relaxation->branch[k].shear;
-        bulk -= relaxation->branch[k].bulk;
-    }
-    if (shear > 0 && bulk > 0) return true;
-    return blame(
-        check, key,
-        "%s%syoung_short: %g leaves a %s modulus of %g after all branches have relaxed; it "
-        "must be above 0",
-        name, dot, young, shear > 0 ? "bulk" : "shear", shear > 0 ? bulk : shear);
+    return true;
 }
 
 // The block and what rests on it: its load, its materials, the names of its boundaries.
@@ -214,15 +194,9 @@ static bool check_block(const Check *check)
         if (scene->material.plane == PLANE_STRAIN && poisson >= 0.5)
             return blame(check, "materials", "%s.poisson: %g; plane strain needs less than 0.5",
                          region->group, poisson);
-        if (region->given[MATERIAL_YOUNG] && region->given[MATERIAL_YOUNG_SHORT])
-            return blame(check, "materials", "%s: %s", region->group, TWO_MODULI);
         if (!check_relaxation(check, region, "materials")) return false;
     }
-    bool is_short = scene->material.young_short > 0;
-    if (is_given(check, "material.young") && is_short)
-        return blame(check, "material.young_short", "%s", TWO_MODULI);
-    if (!check_relaxation(check, NULL, is_short ? "material.young_short" : "material.relaxation"))
-        return false;
+    if (!check_relaxation(check, NULL, "material.relaxation")) return false;
 
     // One boundary has one meaning. A block's own boundary may have the name that a base's floor
     // has where nothing is given.

@@ -70,14 +70,10 @@ bool scene_friction_law(const Scene *scene, const char *formula, double pressure
 
     // The slip rate up to which the law is asked: friction.velocity_max, or the speed of sound, the
     // fastest of all regions.
-    double young = scene->material.young_short > 0 ? scene->material.young_short
-                                                   : scene->material.young;
-    double fastest = sqrt(young / scene->material.density);
+    double fastest = sqrt(scene->material.young / scene->material.density);
     for (int32_t i = 0; i < scene->materials.count; i++) {
         const SceneMaterial *region = &scene->materials.region[i];
-        bool is_short = scene_material_is_short(scene, region);
-        young =
-            scene_material_number(scene, region, is_short ? MATERIAL_YOUNG_SHORT : MATERIAL_YOUNG);
+        double young = scene_material_number(scene, region, MATERIAL_YOUNG);
         double density = scene_material_number(scene, region, MATERIAL_DENSITY);
         fastest = fmax(fastest, sqrt(young / density));
     }

@@ -73,7 +73,6 @@ static const ScenePart MATERIAL[] = {NUMBER("young", MATERIAL_YOUNG),
                                      NUMBER("density", MATERIAL_DENSITY),
                                      NUMBER("eta1", MATERIAL_ETA1),
                                      NUMBER("eta2", MATERIAL_ETA2),
-                                     NUMBER("young_short", MATERIAL_YOUNG_SHORT),
                                      GIVEN(SceneMaterial, "relaxation", relaxation, has_relaxation),
                                      GIVEN(SceneMaterial, "from", from, has_from),
                                      {0}};

@@ -127,6 +127,8 @@ static bool set_word(const SceneKey *key, int32_t k, const SceneValue *value, Sc
         }
         snprintf(whole, sizeof whole, "%s.%.60s", items->like ? items->like : "", given);
         bool known = items->like && scene_key_index(whole) >= 0;
+        if (scene_key_instead(whole))
+            return scene_key_refuse(value->document, value->node, whole, err);
         return yaml_key_error(value->document, value->node, err,
                               "%s: unknown key `%.60s`%s%s%s; allowed: %s%s", path, given,
                               known ? ", which is for the whole block (" : "", known ? whole : "",

@@ -105,8 +105,6 @@ void scene_write_json(const Scene *scene, JsonWriter *json, const char *name, co
         // A key that may be left out and was has no value to show.
         bool part_of_fields = strncmp(keys[k].name, "output.fields.", 14) == 0;
         bool left_out = !keys[k].standard && !scene->given[k];
-        left_out = left_out ||
-                   (scene->material.young_short > 0 && strcmp(keys[k].name, "material.young") == 0);
         if (keys[k].type == KEY_FIELDS ? scene->output.fields
                                        : (part_of_fields && !scene->output.fields) || left_out)
             continue;

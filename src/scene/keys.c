@@ -81,9 +81,6 @@ static const SceneKey keys[] = {
     NUMBER(material.young, "stress", RANGE_POSITIVE, "1",
            "Young's modulus E; with `relaxation` that of the long-time response.",
            .given_in_si = true),
-    NUMBER(material.young_short, "stress", RANGE_POSITIVE, NULL,
-           "In the place of `young`: E (and with it `poisson`) of the short-time response, before "
-           "any branch of `relaxation` has relaxed."),
     NUMBER(material.poisson, "1", RANGE_POISSON, NULL,
            "Poisson's ratio; below 0.5 in plane strain.", .must_be_given = true),
     NUMBER(material.density, "density", RANGE_POSITIVE, "1", "Mass density rho.",
@@ -115,7 +112,7 @@ static const SceneKey keys[] = {
            "stress", "strain"),
     KEY("materials", KEY_ITEMS, materials.count, "1", RANGE_ANY, NULL,
         "Materials of regions, by the names of physical surfaces (volumes): those of young, "
-        "young_short, poisson, density, eta1, eta2, relaxation, from that differ there from "
+        "poisson, density, eta1, eta2, relaxation, from that differ there from "
         "`material`.",
         .items = &scene_material_items),
     KEY("friction.law", KEY_CHOICE, friction.kind, "1", RANGE_ANY, "linear-weakening",
@@ -404,6 +401,9 @@ static const struct {
     {"contact.radius",
      "a round contact is a formula, `contact.gap: \"(x - X)^2 / (2 * R)\"`, where X is the x of "
      "the block's middle and R the radius; a radius of 0 is left out"},
+    {"material.young_short",
+     "give `young` of the long-time response: `young: = E0 - 2*(1 + nu)*(g1 + g2)`, with E0 of the "
+     "short-time response and the branches' shear g1, g2, says the same where nu is the same"},
     {"output.window.around", WINDOW_INSTEAD},
     {"output.window.last", WINDOW_INSTEAD},
 };
@@ -467,13 +467,19 @@ const char *scene_key_nearest(const char *name)
     return nearest < 0 ? NULL : names[nearest];
 }
 
-bool scene_key_refuse(const YamlDocument *document, YamlNode node, const char *name, Error *err)
+const char *scene_key_instead(const char *name)
 {
     for (size_t k = 0; k < sizeof retired_keys / sizeof retired_keys[0]; k++)
-        if (strcmp(retired_keys[k].name, name) == 0)
-            return yaml_key_error(document, node, err,
-                                  "%s: this key of an earlier version is gone: %s", name,
-                                  retired_keys[k].instead);
+        if (strcmp(retired_keys[k].name, name) == 0) return retired_keys[k].instead;
+    return NULL;
+}
+
+bool scene_key_refuse(const YamlDocument *document, YamlNode node, const char *name, Error *err)
+{
+    const char *instead = scene_key_instead(name);
+    if (instead)
+        return yaml_key_error(document, node, err, "%s: this key of an earlier version is gone: %s",
+                              name, instead);
     const char *nearest = scene_key_nearest(name);
     return yaml_key_error(
         document, node, err, "%s: unknown key%s%s%s (`amontons info keys` lists them all)", name,

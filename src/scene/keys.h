@@ -115,6 +115,8 @@ const char *scene_key_nearest(const char *name);
 // Refuses `name`, which is no key of a scene, at the key of `node`: says what takes the place of a
 // key that is gone, else which known one is nearest. Returns false.
 bool scene_key_refuse(const YamlDocument *document, YamlNode node, const char *name, Error *err);
+// Says how to do without a key of earlier versions; NULL: `name` is none. Static storage.
+const char *scene_key_instead(const char *name);
 
 // Least and largest size of a number that is not 0. Beyond them a product of some numbers is 0 or
 // infinite, and loops that double a step do not end.

@@ -290,7 +290,7 @@ bool scene_material_files(Scene *scene, const char **key, Error *err)
         SceneMaterial *region = &scene->materials.region[k];
         const bool *given = region->given;
         if (!region->has_from) continue;
-        if (given[MATERIAL_YOUNG] || given[MATERIAL_YOUNG_SHORT] || region->has_relaxation)
+        if (given[MATERIAL_YOUNG] || region->has_relaxation)
             return REFUSE_AT(err, key, "materials", "%s: `from` %s", region->group, BESIDE);
         bool found = scene_material_file(scene, region, &data, &fit, key, err);
         material_data_destroy(&data);
@@ -307,8 +307,7 @@ bool scene_material_files(Scene *scene, const char **key, Error *err)
         region->has_from = false;
     }
     if (!is_given(scene, "material.from")) return true;
-    if (is_given(scene, "material.young") || is_given(scene, "material.young_short") ||
-        is_given(scene, "material.relaxation"))
+    if (is_given(scene, "material.young") || is_given(scene, "material.relaxation"))
         return REFUSE_AT(err, key, "material.from", "%s", BESIDE);
     bool done = scene_material_file(scene, NULL, &data, &fit, key, err);
     material_data_destroy(&data);

@@ -11,21 +11,15 @@ const char *scene_region_name(const Scene *scene, int32_t k)
 
 double scene_material_number(const Scene *scene, const SceneMaterial *region, int32_t k)
 {
-    const double whole[SCENE_MATERIAL_NUMBERS] = {
-        scene->material.young, scene->material.poisson, scene->material.density,
-        scene->material.eta1,  scene->material.eta2,    scene->material.young_short};
+    const double whole[SCENE_MATERIAL_NUMBERS] = {scene->material.young, scene->material.poisson,
+                                                  scene->material.density, scene->material.eta1,
+                                                  scene->material.eta2};
     return region->given[k] ? region->number[k] : whole[k];
 }
 
 const SceneRelaxation *scene_material_relaxation(const Scene *scene, const SceneMaterial *region)
 {
     return region && region->has_relaxation ? &region->relaxation : &scene->material.relaxation;
-}
-
-bool scene_material_is_short(const Scene *scene, const SceneMaterial *region)
-{
-    bool own = region && (region->given[MATERIAL_YOUNG] || region->given[MATERIAL_YOUNG_SHORT]);
-    return own ? region->given[MATERIAL_YOUNG_SHORT] : scene->material.young_short > 0;
 }
 
 bool scene_branches_find(const Scene *scene, const char *path, double *number)

@@ -13,9 +13,6 @@ double scene_material_number(const Scene *scene, const SceneMaterial *region, in
 // The branches of a region (NULL: of `material`): its own, or else those of `material`.
 const SceneRelaxation *scene_material_relaxation(const Scene *scene, const SceneMaterial *region);
 
-// Its Young's modulus is given as that of the short-time response (young_short).
-bool scene_material_is_short(const Scene *scene, const SceneMaterial *region);
-
 // Name of material k of a model: 0 is `material`, then the regions follow in their order.
 const char *scene_region_name(const Scene *scene, int32_t k);
 

@@ -62,7 +62,7 @@ typedef struct Scene {
         SceneNames body;   // regions that are the block; none: all
     } groups;
     struct {
-        double young, poisson, density, eta1, eta2, young_short;
+        double young, poisson, density, eta1, eta2;
         SceneRelaxation relaxation;
         char from[SCENE_TEXT_SIZE];   // measured moduli, as in SceneMaterial
         bool eta_from_file;   // eta1 was found with the branches
