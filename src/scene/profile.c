@@ -3,13 +3,10 @@
 
 #include "base/memory.h"
 #include "base/order.h"
-#include "base/units.h"
 #include "io/text/csv_reader.h"
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
-#include <strings.h>
 
 enum { COLUMNS_MAX = 3 };
 
@@ -25,73 +22,44 @@ typedef struct Table {
     ProfilePoint *points;   // [count] as they stand in the file; owned
 } Table;
 
-static const char *const NAMES[] = {"x", "y", "gap"};
-static const char HEADS[] =
+static const char *const NAMES[COLUMNS_MAX][4] = {{"x", "X"}, {"y", "Y"}, {"gap", "Gap", "GAP"}};
+static const char WANTED[] =
     "wanted: x and gap, of a height map x, y and gap, in any order: `x, gap`, or with units `x "
-    "[mm], gap [um]`, `x/mm, gap/um`, `x_mm, gap_um`, `mm, um` (a gap is how far the surface lies "
-    "below its highest point: of heights z it is their largest less z)";
-
-// Finds which of NAMES a column is, with the unit behind it; the unit alone ("mm"): *name -1.
-// false: it is none of these.
-static bool read_head(const CsvTable *csv, int32_t k, int32_t *name, CsvUnit *unit)
-{
-    const char *head = csv_name(csv, k);
-    double one = 1;
-    for (*name = 0; *name < COLUMNS_MAX; ++*name) {
-        size_t length = strlen(NAMES[*name]);
-        if (strncasecmp(head, NAMES[*name], length) != 0) continue;
-        if (head[length] && !csv_take_unit(head + length, unit)) continue;
-        if (!head[length]) *unit = csv_unit_of_row(csv, k);
-        return true;
-    }
-    *name = -1;
-    *unit = (CsvUnit){head, (int32_t)strlen(head)};
-    return unit_to_si(head, "length", &one);
-}
+    "[mm], gap [um]`, `x/mm, gap/um`, `x_mm, gap_um` (a gap is how far the surface lies below its "
+    "highest point: of heights z it is their largest less z)";
 
 // place[x, y, gap]: which column of the file it is, -1: none; scale: what a 1 in it is, length.
-// *columns: how many these are.
 static bool read_heads(const CsvTable *csv, SceneUnits units, int32_t place[COLUMNS_MAX],
-                       double scale[COLUMNS_MAX], int32_t *columns, Error *err)
+                       double scale[COLUMNS_MAX], Error *err)
 {
-    // The column of errors of the gap, which says nothing of the surface's shape; -1: none.
-    int32_t error = -1;
-    for (int32_t k = 0; csv->named && error < 0 && k < csv->columns; k++) {
-        int32_t name;
-        CsvUnit unit;
-        if (read_head(csv, k, &name, &unit) && name == COLUMNS_MAX - 1)
-            csv_find_error(csv, k, &error, &unit);
-    }
-    *columns = csv->columns - (error >= 0);
+    int32_t error = -1;   // the column of the gap's errors, which says nothing of the shape
+    CsvUnit unit[COLUMNS_MAX], ignored;
     for (int32_t k = 0; k < COLUMNS_MAX; k++) {
         place[k] = -1;
         scale[k] = 1;
+        if (csv->named && !csv_find_any(csv, NAMES[k], &place[k], &unit[k], err)) return false;
     }
-    bool heads = csv->named;
-    for (int32_t k = 0; k < csv->columns; k++) {
-        int32_t name = -1;
-        CsvUnit unit = {"", 0};
-        if (k == error) continue;
-        if (heads && !read_head(csv, k, &name, &unit)) {
-            if (!csv->named_by_comment)
-                return csv_refuse(csv, -1, k, err, "is no column of a surface; %s", HEADS);
-            heads = false;   // the comment is another one: columns are in the order of NAMES
-            k = -1;
-            for (int32_t n = 0; n < COLUMNS_MAX; n++) {
-                place[n] = -1;
-                scale[n] = 1;
-            }
-            continue;
-        }
-        if (name < 0) name = k < *columns - 1 ? k : COLUMNS_MAX - 1;
-        if (*columns > COLUMNS_MAX || (*columns == 2 && name == 1) || place[name] >= 0)
-            return csv_refuse(csv, -1, k, err, "cannot stand there: there are %d columns; %s",
-                              *columns, HEADS);
-        place[name] = k;
-        if (!csv_to_scene(csv, k, unit, "length", units == UNITS_SI, &scale[name], err))
+    if (place[0] < 0 || place[2] < 0) {
+        // Names are needed where the first row is no numbers; a comment may be about anything.
+        if (csv->named && !csv->named_by_comment)
+            return REFUSE(err, "%s:%d: there is no column %s; %s", csv->path, csv->line[0],
+                          place[0] < 0 ? "x" : "gap", WANTED);
+        if (csv->columns < 2 || csv->columns > COLUMNS_MAX)
+            return REFUSE(err, "%s:%d: %d column%s without names; %s", csv->path, csv->line[1],
+                          csv->columns, csv->columns == 1 ? "" : "s", WANTED);
+        place[0] = 0;
+        place[1] = csv->columns == COLUMNS_MAX ? 1 : -1;
+        place[2] = csv->columns - 1;
+        return true;
+    }
+    csv_find_error(csv, place[2], &error, &ignored);
+    for (int32_t k = 0; k < csv->columns; k++)
+        if (k != place[0] && k != place[1] && k != place[2] && k != error)
+            return csv_refuse(csv, -1, k, err, "is no column of a surface; %s", WANTED);
+    for (int32_t k = 0; k < COLUMNS_MAX; k++)
+        if (place[k] >= 0 &&
+            !csv_to_scene(csv, place[k], unit[k], "length", units == UNITS_SI, &scale[k], err))
             return false;
-    }
-    if (*columns == 1) return REFUSE(err, "%s:%d: one column; %s", csv->path, csv->line[0], HEADS);
     return true;
 }
 
@@ -133,7 +101,8 @@ bool scene_profile_read(const Scene *scene, SceneProfile *profile, Error *err)
     *profile = (SceneProfile){0};
     if (!*table.path) return true;
     TRY(csv_read_bare(table.path, &csv, err));
-    TRY(read_heads(&csv, scene->units, place, scale, &table.columns, err));
+    TRY(read_heads(&csv, scene->units, place, scale, err));
+    table.columns = place[1] < 0 ? 2 : COLUMNS_MAX;
     if (csv.rows == 0)
         FAIL(err, ERROR_INPUT, "%s has 0 points; two or more are needed", table.path);
 

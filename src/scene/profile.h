@@ -17,8 +17,8 @@ typedef struct SceneProfile {
 
 // A table (io/text/csv_reader) of two or three numbers a line. Points of three are those of a grid,
 // in any order. The first line, or a comment above the numbers, may name the columns, in any order
-// and in an SI scene with units: `x [mm], gap [um]`, `x/mm, y/mm, gap/um`, `x_mm, gap_um`, `mm,
-// um`; else they are x and gap, or x, y and gap. ERROR_INPUT with file, line and column: also for
+// and in an SI scene with units: `x [mm], gap [um]`, `x/mm, y/mm, gap/um`, `x_mm, gap_um`; else
+// they are x and gap, or x, y and gap. ERROR_INPUT with file, line and column: also for
 // names that are none of these.
 bool scene_profile_read(const Scene *scene, SceneProfile *profile, Error *err);
 void scene_profile_destroy(SceneProfile *profile);   // zeroed is fine

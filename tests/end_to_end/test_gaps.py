@@ -109,7 +109,7 @@ class Gaps(OwnCache):
             f" {100 * x:g} ;\t{1000 * gap:g} \r\n" for x, gap in places))
         si = ["units=si", "material={poisson: 0.499, plane: strain, young: 1, density: 1, eta1: 1, eta2: 1}"]
         _, wanted = self.static("points", f"contact.gap={listed}")
-        heads = ("x/mm, gap/um", "mm, um", "x_mm, gap_um", "x in mm; gap in um", "X mm\tGap um",
+        heads = ("x/mm, gap/um", "x_mm, gap_um", "x in mm; gap in um", "X mm\tGap um",
                  "x / mm, gap / µm", "x, gap\nmm, um", "mm, um\nx, gap", "# measured in a hurry\n# x_mm, gap_um")
         for k, head in enumerate(heads):
             (self.folder / f"head{k}.csv").write_text(f"{head}\n" + "".join(
@@ -155,12 +155,13 @@ class Gaps(OwnCache):
                             ("0,0\n\n2,-1", [":3:3: ", "at x = 2 the gap is -1"]), ("0,0\n1,0", ["goes from x = 0 to 1", "from 0 to 2"]),
                             ("x [mm], gap [um]\n0,0\n2000,0", [":1:1: x [mm] has a unit", "normalised"]),
                             ("0,0", ["has 1 point; two or more"]), ("0 0\n0 0 1\n", [":2: 3 cells, the first row has 2"]),
-                            ("0 0 1 2\n", [":1:1: ", "there are 4 columns"]),
-                            ("place\n0 0\n", [":1:1: place is no column"]), ("O.1, 0.2\n0 0\n2 0", [":1:1: O.1 is no column of a surface", "wanted: x and gap"]),
-                            ("# \n  x,0,2\n0 0\n2 0", [":3: 1 cell, the first row has 3"]), ("position, depth\n0 0\n2 0", [":1:1: position is no column"]),
+                            ("0 0 1 2\n", [":1: 4 columns without names"]),
+                            ("place\n0 0\n", [":1: there is no column x"]), ("O.1, 0.2\n0 0\n2 0", [":1: there is no column x", "wanted: x and gap"]),
+                            ("# \n  x,0,2\n0 0\n2 0", [":3: 1 cell, the first row has 3"]), ("position, depth\n0 0\n2 0", [":1: there is no column x"]),
                             ("x, way, gap\n0,0,0\n", [":1:4: way is no column"]), ("x, x, gap\n0,0,0\n", ["x stands twice, in column 1 and in column 2"]),
-                            ("x\n0 0\n2 0", ["bad.csv:1: one column"]), ("x (mm, gap\n0 0\n2 0", [":1:1: x (mm is no column"]),
-                            ("x_s, gap_s\n0 0\n2 0", [":1:1: x_s has a unit"]), ("x " + 99 * "y" + ", gap\n0 0\n2 0", [":1:1: "]),
+                            ("x\n0 0\n2 0", ["bad.csv:1: there is no column gap"]), ("x (mm, gap\n0 0\n2 0", [":1: there is no column x"]),
+                            ("x_s, gap_s\n0 0\n2 0", [":1:1: x_s has a unit"]), ("x " + 99 * "y" + ", gap\n0 0\n2 0", [":1: there is no column x"]),
+                            ("mm, um\n0,0\n2,0", [":1: there is no column x"]),
                             ("0,1e999\n2,0", [":1:3: ", "`1e999` is no number"])):
             (self.folder / "bad.csv").write_text(text)
             said = self.call("run", "contact.profile=bad.csv", status=2, flags=("-o", self.folder / "no", "--overwrite"))

@@ -479,7 +479,8 @@ int32_t csv_column(const CsvTable *table, const char *name)
 
 // --- units --------------------------------------------------------------------------------------
 
-CsvUnit csv_unit_of_row(const CsvTable *table, int32_t column)
+// Length 0: there is none.
+static CsvUnit unit_of_row(const CsvTable *table, int32_t column)
 {
     const char *cell = table->units ? table->units[column] : "";
     CsvUnit unit = in_brackets(cell);
@@ -489,7 +490,7 @@ CsvUnit csv_unit_of_row(const CsvTable *table, int32_t column)
 // Takes the text behind a name as a unit. Text in brackets always is one, so that a wrong unit is
 // reported. Text behind a slash, a blank, an underscore or `in` is one if it is known: F_T/F_N,
 // x_error and U/L are names.
-bool csv_take_unit(const char *rest, CsvUnit *unit)
+static bool take_unit(const char *rest, CsvUnit *unit)
 {
     const char *at = rest + strspn(rest, BLANKS);
     *unit = in_brackets(at);
@@ -509,12 +510,12 @@ void csv_split(const CsvTable *table, int32_t column, int32_t *name_length, CsvU
 {
     const char *name = csv_name(table, column), *end = name + strlen(name);
     for (const char *at = name + 1; at < end; at++) {
-        if (!strchr("/ \t([", *at) || !csv_take_unit(at, unit)) continue;
+        if (!strchr("/ \t([", *at) || !take_unit(at, unit)) continue;
         *name_length = (int32_t)(at - name);
         return;
     }
     *name_length = (int32_t)(end - name);
-    *unit = csv_unit_of_row(table, column);
+    *unit = unit_of_row(table, column);
 }
 
 // Primes of E' and E'' as people write them, and as the keyboard has them.
@@ -533,7 +534,7 @@ static bool is_called(const CsvTable *table, int32_t column, const char *name, C
 {
     const char *own = csv_name(table, column);
     bool word = strlen(name) >= WORD_LENGTH;
-    *unit = csv_unit_of_row(table, column);
+    *unit = unit_of_row(table, column);
     while (*name) {
         bool between = strchr(" _", *name) && *own && strchr(" _", *own);
         bool letter = word && tolower((unsigned char)*own) == tolower((unsigned char)*name);
@@ -549,7 +550,7 @@ static bool is_called(const CsvTable *table, int32_t column, const char *name, C
         own += strlen(PRIMES[k].written);
         name += strlen(PRIMES[k].plain);
     }
-    return !*own || csv_take_unit(own, unit);
+    return !*own || take_unit(own, unit);
 }
 
 static bool find_named(const CsvTable *table, const char *name, int32_t *column, CsvUnit *unit,

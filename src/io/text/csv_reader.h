@@ -65,9 +65,6 @@ bool csv_find(const CsvTable *table, const char *name, int32_t *column, CsvUnit 
 // The same of a quantity that people call by one of these names, of which the last is NULL.
 bool csv_find_any(const CsvTable *table, const char *const *names, int32_t *column, CsvUnit *unit,
                   Error *err);
-CsvUnit csv_unit_of_row(const CsvTable *table, int32_t column);   // length 0: there is none
-// Reads the unit that stands behind a name in `rest`. Returns false where it is none.
-bool csv_take_unit(const char *rest, CsvUnit *unit);
 // The name of a column without its unit, and the unit; length 0: it has none.
 void csv_split(const CsvTable *table, int32_t column, int32_t *name_length, CsvUnit *unit);
 // *column: the one that holds the errors of column `of`, with its own unit: NAME_error, NAME error,
