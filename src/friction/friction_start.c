@@ -95,31 +95,6 @@ double friction_forgets(const FrictionNode *node, double speed)
     return slowest;
 }
 
-int32_t friction_count_steady(const FrictionNode *node, double speed, double states[2])
-{
-    static const double STARTS[] = {1e-6, 1e-3, 1, 1e3, 1e6};   // times the states at the start
-    static const double SAME_STATE = 1e-3;   // relative
-    double kept[STATES_MAX] = {0};
-    int32_t count = 0;
-    for (size_t s = 0; s < sizeof STARTS / sizeof *STARTS; s++) {
-        FrictionNode tried = *node;
-        bool differs = false;
-        for (int32_t k = 0; k < tried.law->states; k++)
-            tried.from[k] = STARTS[s] * (node->law->start[k] != 0 ? node->law->start[k] : 1);
-        if (!friction_find_steady(&tried, speed)) continue;
-        for (int32_t k = 0; k < tried.law->states; k++) {
-            double size = fmax(fmax(fabs(tried.from[k]), fabs(kept[k])), fabs(node->law->start[k]));
-            bool differs_here = count > 0 && fabs(tried.from[k] - kept[k]) > SAME_STATE * size;
-            if (differs_here && !differs) states[0] = kept[k], states[1] = tried.from[k];
-            differs = differs || differs_here;
-        }
-        if (differs) return 2;
-        if (count == 0) memcpy(kept, tried.from, sizeof kept);
-        count = 1;
-    }
-    return count;
-}
-
 // mu over one of its arguments: speed (0), pressure (1), state k (2 + k), the others as they are.
 typedef struct Course {
     FrictionNode node;

@@ -30,10 +30,6 @@ static inline bool friction_never_holds(double rests, double rises, double refer
     return rests <= NO_FRICTION * reference && rises > 0;
 }
 
-// Number of states of steady slip found at this speed from the states at the start and from others
-// far from them: 0, 1, or 2 for several. states: one value of two of these where there are several.
-int32_t friction_count_steady(const FrictionNode *node, double speed, double states[2]);
-
 // node->from becomes the states of steady slip. Returns false where none is found from there, and
 // leaves it as it was.
 bool friction_find_steady(FrictionNode *node, double speed);

@@ -229,7 +229,6 @@ bool simulation_create_by(const Scene *scene, const RunOptions *options, double 
                       &simulation->warnings);
     warnings_of_units(&simulation->model, &simulation->warnings);
     warnings_of_gaps(&simulation->model, &simulation->warnings);
-    warnings_of_states(&simulation->model, &simulation->warnings);
     warnings_of_rod(scene, &simulation->model.interface, simulation->model.height,
                     &simulation->warnings);
     if (options->resume)

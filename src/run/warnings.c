@@ -15,7 +15,7 @@
 #include "run/warnings.h"
 
 #include "answers/drop_series.h"
-#include "friction/friction_start.h"
+#include "friction/friction.h"
 #include "model/step_rule.h"
 #include "scene/keys.h"
 #include "scene/materials.h"
@@ -443,26 +443,6 @@ void warnings_of_gaps(const Model *model, RunWarnings *warnings)
             "nodes come down along z and are pressed along z, an error of the square of "
             "the slope, %.0f %%",
             slope.steepest, slope.at[0], across, 100 * fmin(slope.steepest * slope.steepest, 1));
-}
-
-void warnings_of_states(const Model *model, RunWarnings *warnings)
-{
-    const FrictionNode *node = &model->friction.whole;
-    double speed = model->scene->rod.velocity, states[2] = {0};
-    if (!friction_is_own(node->law) || node->law->states == 0 || !(speed > 0)) return;
-    int32_t count = friction_count_steady(node, speed, states);
-    if (count == 0)
-        warnings_add(
-            warnings,
-            "the states of friction.state do not come to steady slip at the rod's velocity "
-            "%.3g: what the run gives depends on where they begin, and how long it is",
-            speed);
-    if (count == 2)
-        warnings_add(warnings,
-                     "the states of friction.state have several values of steady slip at the rod's "
-                     "velocity %.3g, such as %.3g and %.3g: which of them contacts come to depends "
-                     "on where they begin",
-                     speed, states[0], states[1]);
 }
 
 // Less of the strip than this may miss the face, relative to its width: rounding of either.

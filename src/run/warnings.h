@@ -49,8 +49,6 @@ void warnings_of_units(const Model *model, RunWarnings *warnings);
 // A gap under the contact as large as the block, or so steep where the block may touch that nodes
 // which come down along z do not describe it.
 void warnings_of_gaps(const Model *model, RunWarnings *warnings);
-// States of one's own law that have several values of steady slip at the rod's velocity, or none.
-void warnings_of_states(const Model *model, RunWarnings *warnings);
 // The rod's strip against the extent of its face; height: H, length.
 void warnings_of_rod(const Scene *scene, const Interface *interface, double height,
                      RunWarnings *warnings);

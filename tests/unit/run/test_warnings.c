@@ -146,19 +146,6 @@ TEST(test_gaps)
     assert_int_equal(warnings_of("contact={gap: 'max(0, 0.5 - x)^2 / 2'}", NULL).count, 0);
 }
 
-TEST(test_states)
-{
-    static const char law[] = "friction={law: formula, formula: 0.3 + 0.1 * s / (1 + s), "
-                              "state: {s: {rate: '%s', start: 0.1}}}";
-    char setting[300];
-    snprintf(setting, sizeof setting, law, "v * (s * (1 - s) * (s - 0.2)) * 1e5");
-    assert_true(is_warned(setting, NULL, "several values of steady slip"));
-    snprintf(setting, sizeof setting, law, "v * 1e5");
-    assert_true(is_warned(setting, NULL, "do not come to steady slip"));
-    snprintf(setting, sizeof setting, law, "(1 - v * s / 1e-2) / 10");
-    assert_false(is_warned(setting, NULL, "steady slip"));
-}
-
 // A block as a drawing in mm makes it, and moduli in GPa, in an SI scene.
 TEST(test_units)
 {
