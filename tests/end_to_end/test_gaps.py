@@ -109,8 +109,8 @@ class Gaps(OwnCache):
             f" {100 * x:g} ;\t{1000 * gap:g} \r\n" for x, gap in places))
         si = ["units=si", "material={poisson: 0.499, plane: strain, young: 1, density: 1, eta1: 1, eta2: 1}"]
         _, wanted = self.static("points", f"contact.gap={listed}")
-        heads = ("x/mm, gap/um", "x_mm, gap_um", "x in mm; gap in um", "X mm\tGap um",
-                 "x / mm, gap / µm", "x, gap\nmm, um", "mm, um\nx, gap", "# measured in a hurry\n# x_mm, gap_um")
+        heads = ("x/mm, gap/um", "x_mm, gap_um", "x in mm, gap in um", "X mm, Gap um",
+                 "x / mm, gap / µm", "x, gap\nmm, um", "# measured in a hurry\n# x_mm, gap_um")
         for k, head in enumerate(heads):
             (self.folder / f"head{k}.csv").write_text(f"{head}\n" + "".join(
                 f"{1000 * x:g}, {1e6 * gap:g}\n" for x, gap in places))
@@ -156,11 +156,11 @@ class Gaps(OwnCache):
                             ("x [mm], gap [um]\n0,0\n2000,0", [":1:1: x [mm] has a unit", "normalised"]),
                             ("0,0", ["has 1 point; two or more"]), ("0 0\n0 0 1\n", [":2: 3 cells, the first row has 2"]),
                             ("0 0 1 2\n", [":1: 4 columns without names"]),
-                            ("place\n0 0\n", [":1: there is no column x"]), ("O.1, 0.2\n0 0\n2 0", [":1: there is no column x", "wanted: x and gap"]),
-                            ("# \n  x,0,2\n0 0\n2 0", [":3: 1 cell, the first row has 3"]), ("position, depth\n0 0\n2 0", [":1: there is no column x"]),
+                            ("place\n0 0\n", [":1: there is no column x"]), ("O.1, 0.2\n0, 0\n2, 0", [":1: there is no column x", "wanted: x and gap"]),
+                            ("# \n  x,0,2\n0 0\n2 0", [":3: 1 cell, the first row has 3"]), ("position, depth\n0, 0\n2, 0", [":1: there is no column x"]),
                             ("x, way, gap\n0,0,0\n", [":1:4: way is no column"]), ("x, x, gap\n0,0,0\n", ["x stands twice, in column 1 and in column 2"]),
-                            ("x\n0 0\n2 0", ["bad.csv:1: there is no column gap"]), ("x (mm, gap\n0 0\n2 0", [":1: there is no column x"]),
-                            ("x_s, gap_s\n0 0\n2 0", [":1:1: x_s has a unit"]), ("x " + 99 * "y" + ", gap\n0 0\n2 0", [":1: there is no column x"]),
+                            ("x\n0 0\n2 0", ["bad.csv:1: there is no column gap"]), ("x (mm, gap\n0, 0\n2, 0", [":1: there is no column x"]),
+                            ("x_s, gap_s\n0, 0\n2, 0", [":1:1: x_s has a unit"]), ("x " + 99 * "y" + ", gap\n0, 0\n2, 0", [":1: there is no column x"]),
                             ("mm, um\n0,0\n2,0", [":1: there is no column x"]),
                             ("0,1e999\n2,0", [":1:3: ", "`1e999` is no number"])):
             (self.folder / "bad.csv").write_text(text)
@@ -169,7 +169,7 @@ class Gaps(OwnCache):
                 self.assertIn(word, said)
         said = self.call("info", "contact.profile=none.csv", status=2)
         self.assertIn("none.csv: No such file", said)
-        (self.folder / "bad.csv").write_text("x [kg], gap\n0 0\n2 0\n")
+        (self.folder / "bad.csv").write_text("x [kg], gap\n0, 0\n2, 0\n")
         said = self.call("info", "contact.profile=bad.csv", "units=si", "material={young: 1, density: 1, eta1: 1, eta2: 1}",
                          "material.poisson=0.3", status=2)
         self.assertIn("`kg`, which is no unit of length; allowed: m, mm, um", said)

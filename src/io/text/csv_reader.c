@@ -85,50 +85,28 @@ static int32_t count_cells(const char *line, char separator, bool *numbers)
     }
 }
 
-// Finds the separators of the names and of the cells below them. Both are the one that divides both
-// lines into equally many; else each line has its own, which divides the second line into numbers
-// and the first into names. If the first line holds numbers, 0,5 1,2 are two with decimal commas.
-static void find_separators(const char *text, char *names, char *cells)
+// Finds what separates the cells: the first that divides the first two lines into equally many,
+// more than one. Where their widths differ it is the first that divides the first line: the error
+// then counts its cells. If the first line holds numbers, 0,5 1,2 are two with decimal commas.
+static char find_separator(const char *text)
 {
     const char *first = text;
-    bool numbers;
+    char found = 0;
+    bool ignored, numbers;
     while (*first && is_left_out(first)) first = next_line(first);
     const char *second = next_line(first);
     while (*second && is_left_out(second)) second = next_line(second);
     int32_t by_blanks = count_cells(first, ' ', &numbers);
-    *names = *cells = by_blanks > 1 && numbers ? ' ' : ',';
-    for (const char *one = SEPARATORS; *one; one++)
-        if (count_cells(first, *one, &numbers) > 1 && numbers && (*one != ',' || *cells != ' ')) {
-            *names = *cells = *one;
-            return;
-        }
-    if (*cells == ' ' || !*second) {
-        for (const char *one = SEPARATORS; *one && *cells == ','; one++)
-            if (count_cells(first, *one, &numbers) > 1) *names = *cells = *one;
-        return;
-    }
+    numbers = numbers && by_blanks > 1;
     for (const char *one = SEPARATORS; *one; one++) {
-        int32_t count = count_cells(first, *one, &numbers);
-        if (count < 2 || count_cells(second, *one, &numbers) != count) continue;
-        *names = *cells = *one;
-        return;
+        int32_t count = count_cells(first, *one, &ignored);
+        if (count < 2 || (*one == ',' && numbers)) continue;
+        if (count_cells(second, *one, &ignored) == count) return *one;
+        if (!found) found = *one;
     }
-    for (const char *one = ALL_SEPARATORS; *one; one++) {
-        int32_t count = count_cells(second, *one, &numbers);
-        bool other;
-        for (const char *above = ALL_SEPARATORS; count > 1 && numbers && *above; above++)
-            if (count_cells(first, *above, &other) == count) {
-                *names = *above;
-                *cells = *one;
-                return;
-            }
-    }
-    for (const char *one = SEPARATORS; *one; one++)   // the widths differ: by the names, and told
-        if (count_cells(first, *one, &numbers) > 1) {
-            *names = *cells = *one;
-            return;
-        }
-    if (by_blanks > 1 && count_cells(second, ',', &numbers) == 1) *names = *cells = ' ';
+    if (found) return found;
+    bool alike = by_blanks > 1 && count_cells(second, ' ', &ignored) == by_blanks;
+    return numbers || alike ? ' ' : ',';
 }
 
 // --- cells --------------------------------------------------------------------------------------
@@ -175,7 +153,6 @@ typedef struct Reading {
     int32_t line;   // of the file
     int32_t count, room, byte_room;   // cells
     int32_t lines, line_room;   // rows
-    char names_separator;   // of the first row
 } Reading;
 
 static bool add_cell(Reading *reading, const char *cell, int32_t byte, Error *err)
@@ -198,7 +175,7 @@ static bool read_row(Reading *reading, Error *err)
         return false;
     table->line[reading->lines++] = reading->line;
     char *line_start = reading->line_start;
-    char separator = reading->lines == 1 ? reading->names_separator : table->separator;
+    char separator = table->separator;
     for (bool ends = false; !ends; width++) {
         char *from = reading->at;
         if (separator != '\t') from += strspn(from, BLANKS);
@@ -292,40 +269,22 @@ static bool is_dimensionless(const char *text, int32_t length)
     return length == 1 && strchr("-1%", *text);
 }
 
-// All cells of a row [-1: of the names] are units, or empty or dashes where there is none. A row of
-// ones or dashes alone is one of values.
-static bool is_of_units(const CsvTable *table, int32_t row)
-{
-    int32_t units = 0;
-    for (int32_t k = 0; k < table->columns; k++) {
-        const char *cell = csv_cell(table, row, k);
-        CsvUnit unit = in_brackets(cell);
-        if (unit.length == 0) unit = (CsvUnit){cell, (int32_t)strlen(cell)};
-        if (*cell && !is_unit(unit.text, unit.length)) return false;
-        units += *cell && !is_dimensionless(unit.text, unit.length);
-    }
-    return units > 0;
-}
-
-// A row of units below the names, or above them, is none of values.
+// A row of units below the names is none of values. Its cells are units, or empty or dashes where
+// there is none; a row of ones or dashes alone is one of values.
 static bool take_units(CsvTable *table, Error *err)
 {
-    double value;
+    int32_t columns = table->columns, units = 0;
     if (table->rows < 1 || !table->named || table->named_by_comment) return true;
-    bool below = is_of_units(table, 0), above = !below && is_of_units(table, -1);
-    for (int32_t k = 0; above && k < table->columns; k++)
-        above = *csv_cell(table, 0, k) &&
-                !is_number(csv_cell(table, 0, k), strlen(csv_cell(table, 0, k)), &value);
-    if (!below && !above) return true;
-    if (!(table->units = memory_array(table->columns, sizeof *table->units, err))) return false;
-    int32_t columns = table->columns, kept = above ? 1 : 0;   // rows that stay before the values
-    memcpy(table->units, table->cells + (size_t)(below ? columns : 0),
-           (size_t)columns * sizeof *table->units);
-    if (kept > 0) {
-        memcpy(table->cells, table->cells + columns, (size_t)columns * sizeof *table->cells);
-        memcpy(table->byte, table->byte + columns, (size_t)columns * sizeof *table->byte);
-        table->line[0] = table->line[1];
+    for (int32_t k = 0; k < columns; k++) {
+        const char *cell = csv_cell(table, 0, k);
+        CsvUnit unit = in_brackets(cell);
+        if (unit.length == 0) unit = (CsvUnit){cell, (int32_t)strlen(cell)};
+        if (*cell && !is_unit(unit.text, unit.length)) return true;
+        units += *cell && !is_dimensionless(unit.text, unit.length);
     }
+    if (units == 0) return true;
+    if (!(table->units = memory_array(columns, sizeof *table->units, err))) return false;
+    memcpy(table->units, table->cells + columns, (size_t)columns * sizeof *table->units);
     size_t rest = (size_t)(table->rows - 1) * (size_t)columns;
     memmove(table->cells + columns, table->cells + 2 * columns, rest * sizeof *table->cells);
     memmove(table->byte + columns, table->byte + 2 * columns, rest * sizeof *table->byte);
@@ -348,7 +307,7 @@ static bool read_table(const char *path, bool may_be_bare, CsvTable *table, Erro
         FAIL(err, ERROR_INPUT, "%s is no text in UTF-8: it holds zero bytes", path);
 
     // The rows, and the comment above them.
-    find_separators(table->text, &reading.names_separator, &table->separator);
+    table->separator = find_separator(table->text);
     reading.at = reading.line_start = table->text;
     while (*reading.at) {
         char *line = reading.at;
@@ -639,17 +598,6 @@ void csv_find_error(const CsvTable *table, int32_t of, int32_t *column, CsvUnit 
     if (mean && mean > name + 1 && !mean[4]) mean[-1] = 0;
     for (*column = 0; *column < table->columns; ++*column)
         if (*column != of && length < CSV_UNIT_SIZE && is_named_error(table, *column, name, unit))
-            return;
-
-    // The error of a quotient, l/L, is that of the numerator, l_error, over the same: without a
-    // unit. Not where the numerator is a column by itself.
-    char *slash = strchr(name, '/');
-    if (slash) *slash = 0;
-    bool is_column = false;
-    for (int32_t k = 0; slash && k < table->columns; k++)
-        is_column = is_column || is_called(table, k, name, unit);
-    for (*column = 0; slash && !is_column && *column < table->columns; ++*column)
-        if (*column != of && is_named_error(table, *column, name, unit) && unit->length == 0)
             return;
 
     *column = of + 1;

@@ -20,8 +20,7 @@ typedef struct CsvTable {
     const char **cells;   // [(rows + 1) * columns] the names first, "" where there are none; owned
     int32_t *line;   // [rows + 1] of the file, from 1; owned
     int32_t *byte;   // [(rows + 1) * columns] where in its line each cell begins, from 1; owned
-    const char *
-        *units;   // [columns] of a row of units beside the names; NULL: there is none; owned
+    const char **units;   // [columns] of a row of units below the names; NULL: there is none; owned
     char separator;   // ',', ';', '\t' or ' '
     bool decimal_comma;
     bool named;   // there are names
@@ -68,8 +67,8 @@ bool csv_find_any(const CsvTable *table, const char *const *names, int32_t *colu
 // The name of a column without its unit, and the unit; length 0: it has none.
 void csv_split(const CsvTable *table, int32_t column, int32_t *name_length, CsvUnit *unit);
 // *column: the one that holds the errors of column `of`, with its own unit: NAME_error, NAME error,
-// err, std, sd in the place of error, sigma_NAME; l_error beside l/L; else one to its right that is
-// called error, err, std, sd or +- alone; -1: there is none.
+// err, std, sd in the place of error, sigma_NAME; else one to its right that is called error, err,
+// std, sd or +- alone; -1: there is none.
 void csv_find_error(const CsvTable *table, int32_t of, int32_t *column, CsvUnit *unit);
 // Finds the factor that converts numbers of the column to SI base units. dimension NULL: any.
 // ERROR_INPUT: the unit is not of this dimension.
