@@ -237,7 +237,7 @@ static void try_all(bool (*work)(Error *), int32_t standard)
     if (!work(&err)) fail_msg("%s", err.message);
     int32_t count = file_faults_list(faults, FAULTS_MAX);
     file_faults_start(NULL);
-    assert_in_range(count, 10, FAULTS_MAX - 1);
+    assert_in_range(count, 5, FAULTS_MAX - 1);   // the least is that of `info`: 8
     for (int32_t k = 0; k < count; k += every, tried++) try_one(work, faults[k]);
     print_message("%d of %d faults\n", tried, count);
     if (!work(&err)) fail_msg("and then: %s", err.message);
@@ -264,7 +264,7 @@ static void test_run(void **state)
                                      "output.fields={every_t: 0.5}", "output.figures=[force]",
                                      "reduction.use=always", "reduction.cache=true", NULL});
     try_all(run, 97);
-    try_all(look, 13);
+    try_all(look, 1);
     try_all(draw, 41);
     try_all(report, 101);
     close_scene();
