@@ -27,7 +27,6 @@ IDIOMS = [
 # What is flat by its nature, or counts in twos what is no node: why, and the lines where not the whole file.
 REASONS = {
     "render/figures/block_page.c": ("a picture is flat", r".*"),
-    "render/figures/block_mesh.c": ("a picture is flat", r".*"),
     "render/mesh/mesh_picture.c": ("a picture is flat", r".*"),
     "render/plot/map_cells.c": ("a picture is flat", r"d < 2; d"),
     "render/view/contact_plane.c": ("a floor is flat", r".*"),

@@ -153,9 +153,10 @@ NOT_A_CHOICE = {
     "friction/laws/table.c": {"BETWEEN": "looks between two points"},
     "friction/friction_response.c": {"DECADES": "looks", "DECADE": "looks", "HALVINGS": "all digits"},
     "friction/friction_start.c": {
-        "SLIGHT": "rounding of a formula that touches 0", "LEFT": "1/e", "NO_FRICTION": "rounding of a law that is 0 at rest",
+        "SLIGHT": "rounding of a formula that touches 0", "LEFT": "1/e",
         "DECADES": "looks", "DECADE": "looks", "STAYS": "a state that is steady: rounding of stages of 1e29",
         "FIRST": "of a rest: nothing", "GROWTH": "the midpoint rule errs by 1e-5 of an exponential"},
+    "friction/friction_start.h": {"NO_FRICTION": "rounding of a law that is 0 at rest"},
     "friction/friction_make.c": {
         "DECADE": "looks", "DECADES": "looks", "LAST": "looks",
         "SAME": "rounding of a formula", "JUMP": "halved as long as it is larger",
@@ -191,6 +192,7 @@ NOT_A_CHOICE = {
     "stepping/step_control.c": {"STEPS_LEFT_MAX": "steps to go at which a run is given up",
                                 "SCANNED_PARTS": "of a contact in space: what its critical area is known to"},
     "stepping/dt_levels.h": {"DT_LEVELS_MAX": SIZE},
+    "stepping/tableau.h": {"SDIRK_STAGES": "of SDIRK2", "LOCAL_ORDER": "of SDIRK2: its order and one"},
     "reduction/far_patches.h": {"NO_PATCH": "near"},
     "reduction/far_patches.c": {"LAYERS_MAX": SIZE, "LEFT": "counted"},
     "reduction/far_samples.c": {"LEVELS_MAX": SIZE, "POINTS_MAX": SIZE, "ROOM": SIZE},
@@ -306,7 +308,6 @@ NOT_A_CHOICE = {
         "FLUSH_SHARE": "It is the part of the time that a slow disk may take; it changes time, and what a kill may cost, alone."},
     "record/pads.h": {"PADS_ORDER_SIZE": "It is room of a text; names for which there is none are counted."},
     "record/probes.c": {"READINGS_MAX": "It counts displacements and strains of the largest dimension."},
-    "record/window.h": {"WINDOW_SLIDINGS_MAX": "slidings that a scene may ask for as the last: room for their states"},
     "record/observation.h": {"RECORDERS_MAX": SIZE},
     "model/gaps.c": {"ROUNDING": "digits of a file, far below a cell"},
     "model/assemble.c": {

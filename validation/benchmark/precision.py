@@ -250,7 +250,7 @@ FIGURES = {
     "precision-mu": drawn("Meshes and elements", "processor time (s)", f"relative error of {MU}", 9, 2),
     "precision-slip": drawn("Meshes and elements", "processor time (s)", "relative error of slip", 9, 5),
     "precision-smooth": drawn("Meshes and elements", "contact nodes", f"relative error of {MU[:-4]} before fast slip", 1, 6),
-    "precision-time": drawn("Schemes and step tolerances", "steps", "relative error of the slip map", 7, 5),
+    "precision-time": drawn("Step tolerances", "steps", "relative error of the slip map", 7, 5),
 }
 
 
