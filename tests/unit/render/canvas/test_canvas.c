@@ -263,7 +263,7 @@ TEST_BETWEEN(sizes_have_limits, canvas_begin, canvas_end)
 }
 
 // White paper becomes dark, ink light, and a hue stays the same.
-TEST(dark_paper_turns_lightness)
+TEST(dark_paper_is_inverted_and_keeps_hue)
 {
     Color paper = color_on_dark((Color){1, 1, 1, 1}), ink = color_on_dark((Color){0, 0, 0, 0.5F});
     Color red = color_on_dark((Color){0.6F, 0.1F, 0.1F, 1});
