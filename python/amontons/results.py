@@ -65,10 +65,9 @@ class History(Mapping):
 
     def __init__(self, path: Path) -> None:
         self._file = _open_arrays(path)
-        count = self._file.attrs.get("parts", 0)   # of a long run that has not ended: docs/formats.md
-        if not 0 <= count <= 1000000:
-            raise ValueError(f"{path}: it says not how many parts it has")
-        self._parts = [_open_arrays(path.with_name(f"{path.name}.{k + 1}")) for k in range(int(count))]
+        if "parts" in self._file.attrs:
+            raise ValueError(f"{path} has only the last rows, those before are in {path.name}.1, ...: the run was killed, and an "
+                             "earlier version of amontons wrote it, which alone can continue it (--resume) and join them")
         self._names: list[str] = []
         self._file.visititems(lambda name, item: self._names.append(name) if hasattr(item, "shape") else None)
         self._read: dict[str, np.ndarray] = {}
@@ -77,24 +76,8 @@ class History(Mapping):
         if name not in self._read:
             if name not in self._names:
                 raise KeyError(f"{name}; there are: {', '.join(self._names)}")
-            self._read[name] = self._whole(name)
+            self._read[name] = self._file[name][()]
         return self._read[name]
-
-    def _whole(self, name: str) -> np.ndarray:
-        """The rows of all parts; those that an earlier one has beyond the next one's first do not count."""
-        found, end = [self._file[name][()]], int(self._file[name].attrs.get("first_row", 0))
-        for part in reversed(self._parts):
-            if end <= 0:
-                break
-            first = int(part[name].attrs.get("first_row", 0))
-            if first < end:
-                if part[name].shape[0] < end - first:
-                    raise ValueError(f"{part.filename}: rows of {name} are missing")
-                found.insert(0, part[name][:end - first])
-                end = first
-        if end > 0:
-            raise ValueError(f"{self._file.filename}: the first rows of {name} are missing")
-        return found[0] if len(found) == 1 else np.concatenate(found)
 
     def __getattr__(self, name: str) -> np.ndarray:
         if not name.startswith("_"):

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "run/checkpoint.h"
 
-#include "base/child_process.h"
 #include "base/clock.h"
 #include "run/warnings.h"
 
@@ -80,37 +79,12 @@ bool checkpoint_read(const char *folder, SavedState *state, Error *err)
     return amontons_state_read(path, state, err);
 }
 
-typedef struct HistoryTry {
-    const char *folder;
-    const HistoryEnd *end;
-} HistoryTry;
-
-// Cuts the history in a child process, which ends without writing: this looks up its chunks, too. A
-// history has no row in a window that the run has not reached.
-static bool try_history(void *context, FILE *reply, Error *err)
+bool checkpoint_check_history(const char *folder, const HistoryEnd *end, Error *err)
 {
-    const HistoryTry *try = context;
-    ArrayFile *file = result_file_open(try->folder, err);
-    bool fits = file && history_has_end(file, try->end, err);
+    ArrayFile *file = result_file_open(folder, err);
+    bool fits = file && history_has_end(file, end, err);
     array_file_abandon(file);
-    if (!fits || !reply) return fits;
-    file = result_file_reopen(try->folder, err);
-    return file && result_file_cut(file, try->end->rows > 0, err);
-}
-
-// HDF5 crashes on some files whose writer was killed in the middle of a flush.
-bool checkpoint_try_history(const char *folder, const HistoryEnd *end, Error *err)
-{
-    char path[PATH_SIZE];
-    HistoryTry try = {folder, end};
-    snprintf(path, sizeof path, "%s/history.h5", folder);
-    ChildWork work = {.path = path,
-                      .reader = "HDF5",
-                      .seconds = 600,
-                      .advice = "say --overwrite to begin anew",
-                      .read = try_history,
-                      .context = &try};
-    if (child_do(&work, err)) return true;
+    if (fits) return true;
     err->code = ERROR_INPUT;
     error_context(err, "the history cannot be gone on with (--overwrite begins anew)");
     return false;

@@ -16,7 +16,7 @@ bool checkpoint_at_end(Simulation *simulation, Error *err);
 
 // Reads the checkpoint of `folder`. ERROR_INPUT: there is none.
 bool checkpoint_read(const char *folder, SavedState *state, Error *err);
-// Checks that the history there is that of the checkpoint and can be continued (else ERROR_INPUT).
-bool checkpoint_try_history(const char *folder, const HistoryEnd *end, Error *err);
+// Checks that the history of `folder` is that of the checkpoint. ERROR_INPUT: it is another one.
+bool checkpoint_check_history(const char *folder, const HistoryEnd *end, Error *err);
 
 #endif

@@ -147,7 +147,7 @@ static bool go_on(Simulation *simulation, const SavedState *state, Error *err)
              "(--extend U=...)",
              simulation->t_end, head.time);
     if (simulation->scene.output.history)
-        TRY(checkpoint_try_history(simulation->folder.path, &head.history, err));
+        TRY(checkpoint_check_history(simulation->folder.path, &head.history, err));
     TRY(result_folder_take_up(&simulation->folder, err));
     simulation->goes_on = true;
     start_programs(simulation);

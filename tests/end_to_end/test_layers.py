@@ -272,7 +272,7 @@ class Layers(unittest.TestCase):
         owners = {
             "gmshc.h": r"src/io/mesh/mesh_\w+_module\.c",
             "cholmod.h": r"src/algebra/sparse\w*\.[ch]",
-            "hdf5.h": r"src/io/hdf5/(array_(file_module|pieces|series)|hdf5_library)\.[ch]",
+            "hdf5.h": r"src/io/hdf5/(array_(file_module|series)|hdf5_library)\.[ch]",
             "libfyaml.h": r"src/io/text/yaml_\w+\.[ch]",
             "cairo[\\w-]*.h": CAIRO,
             "(?:osmesa|egl|gl|glext).h": r"nothing: render/canvas/gl_names.h has their names",

@@ -6,8 +6,7 @@
 //
 // A file being written is in memory; array_file_flush puts all of it on the disk, as `path`.part,
 // and array_file_close renames that. What a killed run leaves is the .part file, readable as of the
-// last flush; of a long file with earlier parts beside it, .part.1, .part.2, ..., which readers of
-// this file put together. A flush that fails (ERROR_FILE: full disk, quota) leaves the one before.
+// last flush. A flush that fails (ERROR_FILE: full disk, quota) leaves the one before.
 #ifndef AMONTONS_IO_HDF5_ARRAY_FILE_H
 #define AMONTONS_IO_HDF5_ARRAY_FILE_H
 
@@ -57,8 +56,8 @@ bool array_file_append(ArrayFile *file, const char *name, const double *values, 
 // A series with all its rows. stride: doubles from one row to the next; 0: they stand without gaps.
 bool array_file_write(ArrayFile *file, const ArraySeries *series, const double *values,
                       int32_t stride, int64_t rows, Error *err);
-// A reader finds all that was appended so far, also after a kill or a power cut. It takes at most
-// as long as 8 MB need to reach the disk; where nothing has changed since, no time.
+// A reader finds all that was appended so far, also after a kill or a power cut. It takes as long
+// as the whole file needs to reach the disk; where nothing has changed since, no time.
 bool array_file_flush(ArrayFile *file, Error *err);
 // Keeps only the first `rows` rows of the series. ERROR_FILE: it has fewer, or there is none.
 bool array_file_cut(ArrayFile *file, const char *name, int64_t rows, Error *err);

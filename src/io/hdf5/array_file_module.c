@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A file that is being written is one in memory. array_file_flush puts its bytes on the disk beside
 // the file that is there, and replaces that by renaming: a kill, a full disk or a power cut leaves
-// the one or the other, each whole, which any program can read. Where the file has grown
-// beyond PIECE_BYTES it is put aside as a piece, which is not written again, and a new one goes on
-// (io/hdf5/array_pieces); the end joins them. HDF5's own way, SWMR, allows no new arrays or
-// attributes while writing, takes twice the time, marks a killed writer's file so that ordinary
-// readers refuse it, and has HDF5 write to a disk that may be full, on which it crashes.
+// the one or the other, each whole, which any program can read. HDF5's own way, SWMR, allows no new
+// arrays or attributes while writing, takes twice the time, marks a killed writer's file so that
+// ordinary readers refuse it, and has HDF5 write to a disk that may be full, on which it crashes.
 #include "io/hdf5/array_file.h"
 
 #include "base/memory.h"
 #include "base/transfer.h"
 #include "io/files/file_lock.h"
 #include "io/files/part_file.h"
-#include "io/hdf5/array_pieces.h"
+#include "io/hdf5/array_series.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -20,16 +18,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#define FIRST_PIECE ".part.1"
 enum { FIRST_SERIES = 16 };   // room for series before the list grows
-// Written at each flush at most; the files of most runs are smaller.
-enum { PIECE_BYTES = 8 << 20 };
 
 struct ArrayFile {
     const ArrayFileModule *module;   // stands first
     char path[PATH_MAX + 8];   // what is read, or what a written file will be called
     hid_t id;   // of the file in memory, or of the one that is read; 0: not open
-    ArrayPieces pieces;   // of which `id` is the last
     bool writing;   // created here: what follows is in use
     bool changed;   // since the last flush
     int64_t flushed;   // bytes of the last flush
@@ -67,80 +61,30 @@ static bool hand_over_all(ArrayFile *file, Error *err)
     return true;
 }
 
-// A new file in memory goes on after `from`, and takes the place of file->id.
-static bool put_aside(ArrayFile *file, hid_t from, Error *err)
-{
-    const char *path = file->part.part;
-    hid_t next = hdf5_memory_create(path, err);
-    file->broken = true;   // should it end half done
-    if (next < 0 || !array_pieces_begin(from, next, true, path, err)) return false;
-    for (int32_t s = 0; s < file->series_count; s++)
-        if (!series_move(&file->series[s], next, path, err)) return false;
-    file->broken = false;
-    if (file->id > 0) H5Fclose(file->id);
-    file->id = file->pieces.last = next;
-    file->pieces.count++;
-    return true;
-}
-
-// Two turns where the file has become too large.
 static bool hdf5_flush(ArrayFile *file, Error *err)
 {
-    char name[PATH_MAX + 24];
-    const char *last = file->part.part;
+    const char *part = file->part.part;
     struct stat status;
     PartFile next = {0};
-    void *bytes = NULL;
+    int64_t size = 0;
     if (!file->writing) return true;
 
-    // Somebody may have removed or cut the last piece, which is written again; earlier ones are
-    // lost.
-    if (!file_is_named(last, file->part.descriptor) || fstat(file->part.descriptor, &status) != 0 ||
+    // Somebody may have removed or cut what was written.
+    if (!file_is_named(part, file->part.descriptor) || fstat(file->part.descriptor, &status) != 0 ||
         status.st_size != file->flushed)
         file->changed = true;
-    for (int32_t number = 1; number <= file->pieces.count; number++) {
-        array_piece_name(&file->pieces, number, name);
-        if (lstat(name, &status) != 0 || !S_ISREG(status.st_mode))
-            return FAULT(err, ERROR_FILE,
-                         "%s is gone, and with it the rows of the history that it held", name);
-    }
     if (!file->changed) return true;
     if (!may_change(file, err) || !hand_over_all(file, err)) return false;
-    while (file->changed) {
-        int64_t size = 0;
-        bytes = hdf5_memory_bytes(file->id, last, &size, err);
-        if (!bytes) {
-            file->broken = err->code == ERROR_LIBRARY;
-            return false;
-        }
-        if (size > PIECE_BYTES) {
-            // The bytes become a piece of their own.
-            snprintf(name, sizeof name, "%s.%d", last, (int)file->pieces.count + 1);
-            TRY(part_file_put(name, true, bytes, size, err));
-            TRY(put_aside(file, file->id, err));
-        } else {
-            // They become the last piece. What was a piece without a number gets one first: a kill
-            // between the two leaves that one alone (FIRST_PIECE).
-            TRY(part_file_begin_next(&file->part, &next, err));
-            TRY(part_file_write(&next, bytes, size, err));
-            bool moved = file->pieces.unnamed;
-            snprintf(name, sizeof name, "%s.%d", last, (int)file->pieces.count);
-            if (moved && rename(last, name) != 0)
-                FAIL(err, ERROR_FILE, "cannot rename %s to %s: %s", last, name, strerror(errno));
-            file->pieces.unnamed = false;
-            if (!part_file_take_next(&file->part, &next, err)) {
-                if (moved) file->pieces.unnamed = rename(name, last) == 0;
-                goto cleanup;
-            }
-            file->changed = false;
-        }
-        H5free_memory(bytes);
-        bytes = NULL;
-        file->flushed = size;
-    }
+    const void *bytes = hdf5_memory_bytes(file->id, part, &size, err);
+    file->broken = !bytes;
+    TRY(bytes);
+    TRY(part_file_begin_next(&file->part, &next, err));
+    TRY(part_file_write(&next, bytes, size, err));
+    TRY(part_file_take_next(&file->part, &next, err));
+    file->changed = false;
+    file->flushed = size;
 cleanup:
     part_file_discard(&next);
-    if (bytes) H5free_memory(bytes);
     return error_is_clean(err);
 }
 
@@ -176,7 +120,6 @@ static ArrayFile *hdf5_create(const char *path, Error *err)
     TRY(part_file_create(&file->part, path, err));
     snprintf(file->path, sizeof file->path, "%s", path);
     TRY((file->id = hdf5_memory_create(file->part.part, err)) > 0);
-    file->pieces = (ArrayPieces){.path = file->part.part, .last = file->id};
     return file;
 cleanup:
     part_file_discard(&file->part);
@@ -184,75 +127,64 @@ cleanup:
     return NULL;
 }
 
+// Earlier versions kept a long history that was being written in several files.
+static bool refuse_parts(const ArrayFile *file, const char *path, Error *err)
+{
+    if (H5Aexists(file->id, "parts") <= 0) return true;
+    return REFUSE(
+        err,
+        "%s has only the last rows, those before are in %s.1, ...: the run was killed, and "
+        "an earlier version of amontons wrote it, which alone can continue it (--resume) "
+        "and join them",
+        path, path);
+}
+
 // Nothing is written before the first flush; a finished file is called .part again.
 static ArrayFile *hdf5_reopen(const char *path, Error *err)
 {
-    char first[PATH_MAX + 24], part[PATH_MAX + 24], *bytes = NULL;
-    hid_t before = -1;
+    char *bytes = NULL;
     struct stat status;
     ArrayFile *file = new_file(err);
     if (!file) return NULL;
     file->writing = true;
     file->series_capacity = FIRST_SERIES;
     TRY((file->series = NEW_ARRAY(SeriesWriter, file->series_capacity, err)));
-
-    // A file that was killed while it became a piece is what it was.
-    snprintf(part, sizeof part, "%.*s.part", PATH_MAX, path);
-    snprintf(first, sizeof first, "%.*s" FIRST_PIECE, PATH_MAX, path);
-    if (access(path, F_OK) != 0 && access(part, F_OK) != 0) rename(first, part);
     TRY(part_file_reopen(&file->part, path, err));
-    const char *last = file->part.part;
+    const char *part = file->part.part;
     snprintf(file->path, sizeof file->path, "%s", path);
-    file->pieces = (ArrayPieces){.path = last};
     if (fstat(file->part.descriptor, &status) != 0)
-        FAIL(err, ERROR_FILE, "cannot read %s: %s", last, strerror(errno));
+        FAIL(err, ERROR_FILE, "cannot read %s: %s", part, strerror(errno));
     file->flushed = status.st_size;
-    if (status.st_size > PIECE_BYTES) {
-        // A file of any length, as the end joins them, stays where it is and becomes a piece.
-        TRY((before = hdf5_disk_open(last, err)) >= 0);
-        TRY(array_pieces_count(before, last, &file->pieces.count, err));
-        TRY(put_aside(file, before, err));
-        file->pieces.unnamed = true;
-        H5Fclose(before);
-    } else {
-        // A short one is read into the memory.
-        TRY(bytes = memory_bytes(status.st_size, err));
-        if (transfer_read(file->part.descriptor, bytes, status.st_size, 0) != status.st_size)
-            FAIL(err, ERROR_FILE, "cannot read %s: %s", last, strerror(errno ? errno : EIO));
-        TRY((file->id = hdf5_memory_open(last, bytes, status.st_size, err)) > 0);
-        TRY(array_pieces_count(file->id, last, &file->pieces.count, err));
+    TRY(bytes = memory_bytes(file->flushed, err));
+    if (transfer_read(file->part.descriptor, bytes, file->flushed, 0) != file->flushed) {
+        error_set(err, ERROR_FILE, __FILE__, __LINE__, "cannot read %s: %s", part,
+                  strerror(errno ? errno : EIO));
         memory_free(bytes);
+        goto cleanup;
     }
-    file->pieces.last = file->id;
+    TRY((file->id = hdf5_memory_open(part, bytes, file->flushed, err)) > 0);
+    TRY(refuse_parts(file, part, err));
     return file;
 cleanup:
-    if (before >= 0) H5Fclose(before);
-    memory_free(bytes);
     destroy(file);
     return NULL;
 }
 
-// Opens `path` or, where only that stands, `path`.part or FIRST_PIECE.
+// Opens `path` or, where only that stands, `path`.part.
 static ArrayFile *hdf5_open(const char *path, Error *err)
 {
-    static const char *const ends[] = {"", ".part", FIRST_PIECE};
     char part[PATH_MAX + 8];
-    int cause = 0;
-    bool found = false;
     ArrayFile *file = new_file(err);
     if (!file) return NULL;
     if (!part_file_name(path, part))
         FAIL(err, ERROR_FILE, "the name of the file to read is empty or too long: \"%s\"", path);
-    for (size_t k = 0; !found && k < sizeof ends / sizeof ends[0]; k++) {
-        snprintf(file->path, sizeof file->path, "%s%s", path, ends[k]);
-        found = access(file->path, F_OK) == 0;
-        if (k == 0) cause = errno;
-    }
-    if (!found)
-        FAIL(err, ERROR_FILE, "cannot read %s (nor %s.part): %s", path, path, strerror(cause));
+    bool whole = access(path, F_OK) == 0;
+    int cause = errno;
+    if (!whole && access(part, F_OK) != 0)
+        FAIL(err, ERROR_FILE, "cannot read %s (nor %s): %s", path, part, strerror(cause));
+    snprintf(file->path, sizeof file->path, "%s", whole ? path : part);
     TRY((file->id = hdf5_disk_open(file->path, err)) > 0);
-    file->pieces = (ArrayPieces){.path = file->path, .last = file->id};
-    TRY(array_pieces_count(file->id, file->path, &file->pieces.count, err));
+    TRY(refuse_parts(file, file->path, err));
     return file;
 cleanup:
     destroy(file);
@@ -262,29 +194,7 @@ cleanup:
 // Where closing fails, the file keeps the name `path`.part.
 static bool hdf5_close(ArrayFile *file, Error *err)
 {
-    char name[PATH_MAX + 24];
-    PartFile next = {0};
-    if (!file->writing) goto cleanup;
-    TRY(hdf5_flush(file, err));
-    if (file->pieces.count > 0) {
-        // All pieces into one file, which takes the place of the last. Where HDF5 cannot write it,
-        // it is left open (io/hdf5/hdf5_library).
-        TRY(part_file_begin_next(&file->part, &next, err));
-        hid_t whole = hdf5_disk_create(next.part, err);
-        if (whole < 0 || !array_pieces_join(&file->pieces, whole, err)) {
-            error_context(err, "the parts of %s cannot be joined", file->path);
-            goto cleanup;
-        }
-        TRY(wrote(file, H5Fclose(whole), "the end", err));
-        TRY(part_file_take_next(&file->part, &next, err));
-    }
-    TRY(part_file_commit(&file->part, err));
-    for (int32_t number = file->pieces.count; number > 0; number--) {
-        array_piece_name(&file->pieces, number, name);
-        unlink(name);
-    }
-cleanup:
-    part_file_discard(&next);
+    if (file->writing && hdf5_flush(file, err)) part_file_commit(&file->part, err);
     destroy(file);
     return error_is_clean(err);
 }
@@ -416,10 +326,30 @@ static bool hdf5_remove(ArrayFile *file, const char *name, Error *err)
 static bool hdf5_read(ArrayFile *file, const char *name, double **values, int64_t *rows,
                       int32_t *width, Error *err)
 {
-    *values = NULL;
-    *rows = *width = 0;
-    return hand_over_all(file, err) &&
-           array_pieces_read(&file->pieces, name, values, rows, width, err);
+    char cause[HDF5_CAUSE_SIZE], why[SHAPE_WHY_SIZE];
+    hid_t dataset = -1;
+    int64_t row_count = 0;
+    int32_t columns = 0, components = 0;
+    double *read = NULL;
+    TRY(hand_over_all(file, err));
+    if (H5Lexists(file->id, name, H5P_DEFAULT) <= 0)
+        FAIL(err, ERROR_FILE, "%s has no %s", file->path, name);
+    dataset = H5Dopen2(file->id, name, H5P_DEFAULT);
+    if (dataset < 0)
+        FAIL(err, ERROR_FILE, "%s: %s is no array: %s", file->path, name, hdf5_cause(cause));
+    if (!series_shape(dataset, &row_count, &columns, &components, why))
+        FAIL(err, ERROR_FILE, "%s: %s %s", file->path, name, why);
+    TRY(read = memory_bytes(row_count * columns * (int64_t)sizeof(double), err));
+    if (H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, read) < 0)
+        FAIL(err, ERROR_FILE, "%s: cannot read %s: %s", file->path, name, hdf5_cause(cause));
+cleanup:
+    if (dataset >= 0) H5Dclose(dataset);
+    bool done = error_is_clean(err);
+    if (!done) memory_free(read);
+    *values = done ? read : NULL;
+    *rows = done ? row_count : 0;
+    *width = done ? columns : 0;
+    return done;
 }
 
 // --- the module's one entry ---------------------------------------------------------------------

@@ -15,7 +15,6 @@ enum {
     CACHE_SLOTS = 11,   // of HDF5's table of cached chunks; a prime, as it wants
     DEFLATE_LEVEL = 2   // 4 saves 4 % of the size and costs 20 % more time
 };
-static const double ROWS_MAX = 9007199254740992;   // 2^53: so far a double counts
 
 // Bytes of a value, and its HDF5 types: in the file little-endian, whatever the machine, in the
 // buffer the machine's own; HDF5 converts on the way.
@@ -119,34 +118,18 @@ bool series_shape(hid_t dataset, int64_t *rows, int32_t *width, int32_t *compone
     return known;
 }
 
-int64_t series_first_row(hid_t dataset)
-{
-    double first = 0;
-    if (H5Aexists(dataset, SERIES_FIRST_ROW) <= 0) return 0;
-    if (attribute_read_number(dataset, SERIES_FIRST_ROW, &first) < 0) return -1;
-    return first >= 0 && first <= ROWS_MAX ? (int64_t)first : -1;
-}
-
-// Opens it with a cache of a chunk, which is CHUNK_BYTES at most, or a row. The id, or a negative
-// number.
-static hid_t open_dataset(hid_t id, const char *name)
-{
-    hid_t cache = H5Pcreate(H5P_DATASET_ACCESS);
-    H5Pset_chunk_cache(cache, CACHE_SLOTS, CHUNK_BYTES, 1.0);
-    hid_t dataset = H5Lexists(id, name, H5P_DEFAULT) > 0 ? H5Dopen2(id, name, cache) : -1;
-    H5Pclose(cache);
-    return dataset;
-}
-
 bool series_open(SeriesWriter *writer, hid_t id, const char *name, Error *err)
 {
     char cause[HDF5_CAUSE_SIZE], why[SHAPE_WHY_SIZE];
     *writer = (SeriesWriter){0};
     if (!(writer->name = memory_text(name, err))) return false;
-    writer->dataset = open_dataset(id, name);
+    // With a cache of a chunk, which is CHUNK_BYTES at most, or a row.
+    hid_t cache = H5Pcreate(H5P_DATASET_ACCESS);
+    H5Pset_chunk_cache(cache, CACHE_SLOTS, CHUNK_BYTES, 1.0);
+    writer->dataset = H5Lexists(id, name, H5P_DEFAULT) > 0 ? H5Dopen2(id, name, cache) : -1;
+    H5Pclose(cache);
     if (writer->dataset < 0)
         return FAULT(err, ERROR_FILE, "the file has no %s: %s", name, hdf5_cause(cause));
-    writer->first = series_first_row(writer->dataset);
 
     // Our type of what is stored. The chunks are those that series_create would give it.
     hid_t type = H5Dget_type(writer->dataset);
@@ -160,23 +143,11 @@ bool series_open(SeriesWriter *writer, hid_t id, const char *name, Error *err)
             series_shape(writer->dataset, &writer->row_count, &writer->width, &writer->components,
                          why) &&
             writer->width > 0;
-    if (!known || writer->first < 0)
-        return FAULT(err, ERROR_FILE, "%s is not as it was written", name);
+    if (!known) return FAULT(err, ERROR_FILE, "%s is not as it was written", name);
     writer->chunk_rows = chunk_rows(writer->type, writer->width);
     writer->buffer =
         memory_array(writer->chunk_rows * writer->width, type_row(writer->type).size, err);
     return writer->buffer != NULL;
-}
-
-bool series_move(SeriesWriter *writer, hid_t id, const char *path, Error *err)
-{
-    hid_t dataset = open_dataset(id, writer->name);
-    if (!hdf5_wrote(dataset < 0 ? -1 : 0, path, writer->name, err)) return false;
-    H5Dclose(writer->dataset);
-    writer->dataset = dataset;
-    writer->first = series_first_row(dataset);
-    writer->row_count = 0;
-    return true;
 }
 
 // Buffered rows may be among those that go.
@@ -184,18 +155,13 @@ bool series_cut(SeriesWriter *writer, const char *path, int64_t rows, Error *err
 {
     hsize_t shape[ARRAY_RANK_MAX];
     if (!series_hand_over(writer, path, err)) return false;
-    int64_t before = writer->first, count = before + writer->row_count;
-    if (count < rows)
+    if (writer->row_count < rows)
         return FAULT(err, ERROR_FILE, "%s has %lld rows, %lld are to be kept", writer->name,
-                     (long long)count, (long long)rows);
-    if (count == rows) return true;
-    writer->first = rows < before ? rows : before;
-    shape_of(writer, (hsize_t)(rows - writer->first), shape);
-    herr_t status = H5Dset_extent(writer->dataset, shape);
-    if (status >= 0 && writer->first < before)
-        status = attribute_write_number(writer->dataset, SERIES_FIRST_ROW, (double)writer->first);
-    writer->row_count = rows - writer->first;
-    return hdf5_wrote(status, path, writer->name, err);
+                     (long long)writer->row_count, (long long)rows);
+    if (writer->row_count == rows) return true;
+    shape_of(writer, (hsize_t)rows, shape);
+    writer->row_count = rows;
+    return hdf5_wrote(H5Dset_extent(writer->dataset, shape), path, writer->name, err);
 }
 
 void series_destroy(SeriesWriter *writer)

@@ -3,10 +3,9 @@
 // are collected in a buffer that is full where a chunk of the dataset ends: HDF5 gets whole chunks
 // and compresses each once. Called by io/hdf5/array_file_module alone.
 //
-//   rows    0 ......... first ...... first + row_count ...... first + row_count + buffered
-//           | in parts   | with HDF5  | in `buffer`            |
-//           | before     |            |                        |
-//   chunks               |-----|-----|-----|    the buffer never reaches past the end of a chunk
+//   rows    0 ............ row_count ...... row_count + buffered
+//           | with HDF5    | in `buffer`    |
+//   chunks  |-----|-----|-----|    the buffer never reaches past the end of a chunk
 #ifndef AMONTONS_IO_HDF5_ARRAY_SERIES_H
 #define AMONTONS_IO_HDF5_ARRAY_SERIES_H
 
@@ -19,8 +18,7 @@ typedef struct SeriesWriter {
     int32_t width;   // values a row
     int32_t components;   // of a vector, their last axis; 1: they are numbers
     int64_t chunk_rows;   // rows of a chunk
-    int64_t first;   // rows that lie in earlier pieces of the file (io/hdf5/array_pieces)
-    int64_t row_count;   // rows after them that HDF5 has
+    int64_t row_count;   // rows that HDF5 has
     int64_t buffered;   // rows after them, in `buffer`
     void *buffer;   // [chunk_rows * width] of the stored type; owned
     hid_t dataset;   // 0: none; owned
@@ -34,23 +32,14 @@ bool series_create(SeriesWriter *writer, hid_t id, const ArraySeries *series, in
                    Error *err);
 void series_destroy(SeriesWriter *writer);
 
-// The row of the whole array that is the dataset's first, as the file says; 0: it says nothing.
-// Negative: nothing that can be.
-int64_t series_first_row(hid_t dataset);
-// The dataset `writer->name` of another file takes the place of its own, with the rows that it has.
-bool series_move(SeriesWriter *writer, hid_t id, const char *path, Error *err);
-
 // Rows of a dataset, values a row, and of a vector its components. false: none of ours, and why.
 enum { SHAPE_WHY_SIZE = 60 };
 bool series_shape(hid_t dataset, int64_t *rows, int32_t *width, int32_t *components,
                   char why[SHAPE_WHY_SIZE]);
 
-// One that is in the file already, as it was created, with its attribute SERIES_FIRST_ROW. *writer
-// as above.
-#define SERIES_FIRST_ROW "first_row"
+// One that is in the file already, as it was created. *writer as above.
 bool series_open(SeriesWriter *writer, hid_t id, const char *name, Error *err);
-// Only the first `rows` rows stay. Those of earlier parts stay there, unread. ERROR_FILE: it has
-// fewer.
+// Only the first `rows` rows stay. ERROR_FILE: it has fewer.
 bool series_cut(SeriesWriter *writer, const char *path, int64_t rows, Error *err);
 
 // Takes `rows` rows of doubles, [rows * width], and hands full chunks on to HDF5.

@@ -2,6 +2,7 @@
 #include "io/hdf5/hdf5_library.h"
 
 #include "base/clock.h"
+#include "base/memory.h"
 #include "io/files/open_file.h"
 
 #include <stdio.h>
@@ -100,39 +101,6 @@ herr_t attribute_read_text(hid_t object, const char *name, char *value, int32_t 
     return status;
 }
 
-typedef struct Copy {
-    hid_t to;
-    const char *left_out;
-} Copy;
-
-static herr_t copy_one(hid_t from, const char *name, const H5A_info_t *info, void *self)
-{
-    const Copy *copy = self;
-    char *text = NULL;
-    double number = 0;
-    (void)info;
-    if (strcmp(name, copy->left_out) == 0) return 0;
-    hid_t attribute = H5Aopen(from, name, H5P_DEFAULT);
-    if (attribute < 0) return -1;
-    hid_t type = H5Aget_type(attribute);
-    bool is_text = H5Tis_variable_str(type) > 0;
-    herr_t status = is_text ? H5Aread(attribute, type, &text)
-                            : attribute_read_number(from, name, &number);
-    if (status >= 0)
-        status = is_text ? attribute_write_text(copy->to, name, text ? text : "")
-                         : attribute_write_number(copy->to, name, number);
-    if (text) H5free_memory(text);
-    H5Tclose(type);
-    H5Aclose(attribute);
-    return status;
-}
-
-herr_t attribute_copy_all(hid_t from, hid_t to, const char *left_out)
-{
-    Copy copy = {to, left_out};
-    return H5Aiterate2(from, H5_INDEX_NAME, H5_ITER_NATIVE, NULL, copy_one, &copy);
-}
-
 // --- what a file may hold -----------------------------------------------------------------------
 
 #if H5_VERSION_GE(1, 12, 0)
@@ -145,8 +113,6 @@ typedef H5L_info_t LinkInfo;
 
 typedef struct Visitor {
     const char *path;
-    Hdf5Visit visit;   // NULL: only looked at
-    void *context;
     Error *err;
 } Visitor;
 
@@ -178,8 +144,6 @@ static herr_t visit_link(hid_t file, const char *name, const LinkInfo *link, voi
                       "%s: the data of %s lie in another file, which is not read: the file is none "
                       "that amontons wrote",
                       visitor->path, name);
-        else if (visitor->visit)
-            visitor->visit(object, name, visitor->context, err);
     } else if (type != H5I_GROUP) {
         error_set(err, ERROR_FILE, __FILE__, __LINE__, "%s: %s is neither array nor group: %s",
                   visitor->path, name, hdf5_cause(cause));
@@ -188,28 +152,19 @@ static herr_t visit_link(hid_t file, const char *name, const LinkInfo *link, voi
     return error_is_clean(err) ? 0 : -1;
 }
 
-bool hdf5_visit(hid_t file, const char *path, Hdf5Visit visit, void *context, Error *err)
-{
-    char cause[HDF5_CAUSE_SIZE];
-    Visitor visitor = {path, visit, context, err};
-    herr_t status = visit_links(file, H5_INDEX_NAME, H5_ITER_NATIVE, visit_link, &visitor);
-    if (!error_is_clean(err)) return false;
-    if (status < 0)
-        return FAULT(err, ERROR_FILE, "cannot read %s, not a whole HDF5 file: %s", path,
-                     hdf5_cause(cause));
-    return true;
-}
-
 // Closes a file that is refused; its id.
 static hid_t check_opened(hid_t file, const char *path, Error *err)
 {
     char cause[HDF5_CAUSE_SIZE];
-    if (file < 0)
+    Visitor visitor = {path, err};
+    herr_t status =
+        file < 0 ? -1 : visit_links(file, H5_INDEX_NAME, H5_ITER_NATIVE, visit_link, &visitor);
+    if (status < 0 && error_is_clean(err))
         error_set(err, ERROR_FILE, __FILE__, __LINE__, "cannot read %s, not a whole HDF5 file: %s",
                   path, hdf5_cause(cause));
-    else if (!hdf5_visit(file, path, NULL, NULL, err))
-        H5Fclose(file);
-    return error_is_clean(err) ? file : -1;
+    if (status >= 0) return file;
+    if (file >= 0) H5Fclose(file);
+    return -1;
 }
 
 // Every call of HDF5 forgets why the one before it failed.
@@ -223,8 +178,9 @@ static void close_properties(hid_t access)
 // --- files in memory ----------------------------------------------------------------------------
 
 // HDF5 tells files in memory by their names, and looks whether there is one on the disk. This one
-// nothing has: no other of this moment and of this thread's stack, and no file.
-static hid_t open_memory(const void *bytes, int64_t size)
+// nothing has: no other of this moment and of this thread's stack, and no file. HDF5 copies `bytes`
+// twice: they are freed between the two, as they may be large.
+static hid_t open_memory(void *bytes, int64_t size)
 {
     char name[100];
     hid_t file = -1, access = H5Pcreate(H5P_FILE_ACCESS);
@@ -232,9 +188,9 @@ static hid_t open_memory(const void *bytes, int64_t size)
     bool ready = H5Pset_fapl_core(access, GROWTH, false) >= 0 &&
                  H5Pset_fclose_degree(access, H5F_CLOSE_STRONG) >= 0;
     if (ready && !bytes) file = H5Fcreate(name, H5F_ACC_TRUNC, H5P_DEFAULT, access);
-    // HDF5 copies them, and takes no const.
-    if (ready && bytes && H5Pset_file_image(access, (void *)(uintptr_t)bytes, (size_t)size) >= 0)
-        file = H5Fopen(name, H5F_ACC_RDWR, access);
+    if (ready && bytes) ready = H5Pset_file_image(access, bytes, (size_t)size) >= 0;
+    memory_free(bytes);
+    if (ready && bytes) file = H5Fopen(name, H5F_ACC_RDWR, access);
     close_properties(access);
     return file;
 }
@@ -247,41 +203,26 @@ hid_t hdf5_memory_create(const char *path, Error *err)
     return file;
 }
 
-hid_t hdf5_memory_open(const char *path, const void *bytes, int64_t size, Error *err)
+hid_t hdf5_memory_open(const char *path, void *bytes, int64_t size, Error *err)
 {
     start();
     return check_opened(size > 0 ? open_memory(bytes, size) : -1, path, err);
 }
 
-void *hdf5_memory_bytes(hid_t file, const char *path, int64_t *size, Error *err)
+// The driver "core" gives where it has them, so that a large file needs no copy.
+const void *hdf5_memory_bytes(hid_t file, const char *path, int64_t *size, Error *err)
 {
+    void *handle = NULL;
     herr_t status = H5Fflush(file, H5F_SCOPE_LOCAL);
-    ssize_t length = status < 0 ? -1 : H5Fget_file_image(file, NULL, 0);
-    if (!hdf5_wrote(length < 0 ? -1 : 0, path, "what was appended", err)) return NULL;
-    void *bytes = H5allocate_memory((size_t)length, false);
-    *size = length;
-    if (!bytes) {
-        error_set(err, ERROR_MEMORY, __FILE__, __LINE__,
-                  "not enough memory to write %s: %lld bytes", path, (long long)length);
-        return NULL;
-    }
-    if (H5Fget_file_image(file, bytes, (size_t)length) == length) return bytes;
-    hdf5_wrote(-1, path, "what was appended", err);
-    H5free_memory(bytes);
-    return NULL;
+    if (status >= 0) status = H5Fget_vfd_handle(file, H5P_DEFAULT, &handle);
+    *size = status < 0 ? -1 : H5Fget_file_image(file, NULL, 0);
+    if (!hdf5_wrote(*size < 0 ? -1 : 0, path, "what was appended", err)) return NULL;
+    return *(void **)handle;
 }
 
 // --- files on the disk --------------------------------------------------------------------------
 
 // No locks, which some file systems have not; all that is open in a file ends with it.
-static hid_t disk_properties(void)
-{
-    hid_t access = H5Pcreate(H5P_FILE_ACCESS);
-    H5Pset_file_locking(access, false, true);
-    H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
-    return access;
-}
-
 hid_t hdf5_disk_open(const char *path, Error *err)
 {
     struct stat status;
@@ -296,18 +237,11 @@ hid_t hdf5_disk_open(const char *path, Error *err)
     start();
     // A file that the host program has open, as h5py in the same process, is opened with the
     // properties that it has there, or not at all.
-    hid_t access = disk_properties(), file = H5Fopen(path, H5F_ACC_RDONLY, access);
+    hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+    H5Pset_file_locking(access, false, true);
+    H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+    hid_t file = H5Fopen(path, H5F_ACC_RDONLY, access);
     if (file < 0) file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
     close_properties(access);
     return check_opened(file, path, err);
-}
-
-hid_t hdf5_disk_create(const char *path, Error *err)
-{
-    start();
-    hid_t access = disk_properties();
-    hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, access);
-    close_properties(access);
-    hdf5_wrote(file < 0 ? -1 : 0, path, "the header", err);
-    return file;
 }

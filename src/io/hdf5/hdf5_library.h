@@ -20,19 +20,18 @@ const char *hdf5_cause(char cause[HDF5_CAUSE_SIZE]);
 // is negative.
 bool hdf5_wrote(herr_t status, const char *path, const char *what, Error *err);
 
-// A file in memory, empty, or that of `bytes` (copied). `path` names it in messages. The id, to be
-// closed by the caller; negative: ERROR_LIBRARY, ERROR_FILE where the bytes are none of HDF5's.
+// A file in memory, empty, or that of `bytes` (memory_free), which are freed. `path` names it in
+// messages. The id, to be closed by the caller; negative: ERROR_LIBRARY, ERROR_FILE where the bytes
+// are none of HDF5's.
 hid_t hdf5_memory_create(const char *path, Error *err);
-hid_t hdf5_memory_open(const char *path, const void *bytes, int64_t size, Error *err);
-// The bytes of a file in memory, as they stand on the disk: [*size], to be freed with
-// H5free_memory. NULL: an error.
-void *hdf5_memory_bytes(hid_t file, const char *path, int64_t *size, Error *err);
+hid_t hdf5_memory_open(const char *path, void *bytes, int64_t size, Error *err);
+// The bytes of a file in memory, as they stand on the disk: [*size], HDF5's, valid until its next
+// call for the file. NULL: an error.
+const void *hdf5_memory_bytes(hid_t file, const char *path, int64_t *size, Error *err);
 
 // `path` for reading, without a lock; negative: ERROR_FILE. The file of a running simulation can be
 // read as of its last flush.
 hid_t hdf5_disk_open(const char *path, Error *err);
-// `path` for writing, anew. A file that HDF5 could not write is never to be closed: see above.
-hid_t hdf5_disk_create(const char *path, Error *err);
 
 // Attributes of an object: single numbers and texts. Negative: HDF5 failed, and its error stack
 // says why. One cannot be changed in place: an old one of this name is removed first.
@@ -42,11 +41,4 @@ herr_t attribute_write_text(hid_t object, const char *name, const char *value); 
 herr_t attribute_read_number(hid_t object, const char *name, double *value);
 // Cut to `size`. A text of fixed length is none of ours.
 herr_t attribute_read_text(hid_t object, const char *name, char *value, int32_t size);
-// Numbers and texts of one object to another, but that called `left_out`.
-herr_t attribute_copy_all(hid_t from, hid_t to, const char *left_out);
-
-// Calls visit(dataset, name, context, err) for every dataset of `file`, until one returns false.
-typedef bool (*Hdf5Visit)(hid_t dataset, const char *name, void *context, Error *err);
-bool hdf5_visit(hid_t file, const char *path, Hdf5Visit visit, void *context, Error *err);
-
 #endif

@@ -17,7 +17,6 @@ enum { WIDTH = 7, ROWS = 30000 };   // many chunks of either series
 // Every write, rename and removal of the module and of HDF5 comes here (the test exports its
 // symbols): a write that is due is done by half, the others not at all, and the process is killed.
 static int64_t calls_left = -1;
-static bool names_only;   // writes do not count
 
 static bool is_last(void)
 {
@@ -28,7 +27,7 @@ static bool is_last(void)
 
 static ssize_t write_at(long call, int file, const void *bytes, size_t size, off_t at)
 {
-    bool last = !names_only && is_last();
+    bool last = is_last();
     ssize_t count = syscall(call, file, bytes, last ? size / 2 : size, at);
     if (last) kill(getpid(), SIGKILL);
     return count;
@@ -179,61 +178,10 @@ TEST(test_killed)
 
 // --- killed at any moment -----------------------------------------------------------------------
 
-// A file of so many rows that is flushed after each `flushed` of them. Noise cannot be compressed:
-// a long file has pieces, each of just over 8 MB (PIECE_BYTES), and a last one.
+// A file of so many rows that is flushed after each `flushed` of them.
 typedef struct Course {
     int64_t flushed, rows;
-    int32_t width;   // of the noise; 0: none
 } Course;
-
-static double noise_at(int64_t row, int32_t column)
-{
-    uint64_t bits = (uint64_t)(row * 1009 + column + 1) * 6364136223846793005u;
-    bits ^= bits >> 29;
-    return (double)(bits * 1442695040888963407u);
-}
-
-static void append_noise(ArrayFile *file, const Course *course, int64_t from, int64_t to,
-                         Error *err)
-{
-    double row[1024];
-    if (course->width == 0) return;
-    for (int64_t k = from; k < to; k++) {
-        for (int32_t c = 0; c < course->width; c++) row[c] = noise_at(k, c);
-        assert_true(array_file_append(file, "noise", row, 1, err));
-    }
-}
-
-static void append_all(ArrayFile *file, const Course *course, int64_t from, int64_t to, Error *err)
-{
-    append(file, from, to, err);
-    append_noise(file, course, from, to, err);
-}
-
-static void cut_all(ArrayFile *file, const Course *course, int64_t rows, Error *err)
-{
-    assert_true(array_file_cut(file, "a/scalar", rows, err));
-    assert_true(array_file_cut(file, "wide", rows, err));
-    if (course->width > 0) assert_true(array_file_cut(file, "noise", rows, err));
-}
-
-static void expect_all(const char *path, const Course *course, int64_t count)
-{
-    Error err = {0};
-    double *read = NULL;
-    int64_t rows = 0, wrong = 0;
-    int32_t width = 0;
-    expect_rows(path, count);
-    if (course->width == 0) return;
-    ArrayFile *file = array_file_open(path, &err);
-    assert_true(array_file_read(file, "noise", &read, &rows, &width, &err));
-    assert_true(rows == count && width == course->width);
-    for (int64_t k = 0; k < rows; k++)
-        for (int32_t c = 0; c < width; c++) wrong += read[k * width + c] != noise_at(k, c);
-    assert_int_equal(wrong, 0);
-    memory_free(read);
-    assert_true(array_file_close(file, &err));
-}
 
 // kept: rows that are gone on with; negative: a new file.
 static void write_file(const char *path, const Course *course, int64_t kept, Error *err)
@@ -241,19 +189,14 @@ static void write_file(const char *path, const Course *course, int64_t kept, Err
     ArrayFile *file = kept < 0 ? array_file_create(path, err) : array_file_reopen(path, err);
     if (!file) fail_msg("%s", err->message);
     if (kept < 0) add_series(file, err);
-    if (kept < 0 && course->width > 0)
-        assert_true(array_file_add_series(file,
-                                          &(ArraySeries){.name = "noise",
-                                                         .type = ARRAY_FLOAT64,
-                                                         .width = course->width,
-                                                         .unit = "1",
-                                                         .description = ""},
-                                          err));
-    if (kept >= 0) cut_all(file, course, kept, err);
+    if (kept >= 0) {
+        assert_true(array_file_cut(file, "a/scalar", kept, err));
+        assert_true(array_file_cut(file, "wide", kept, err));
+    }
     int64_t at = kept < 0 ? 0 : kept, end = course->rows;
     while (at < end) {
         int64_t next = at + course->flushed < end ? at + course->flushed : end;
-        append_all(file, course, at, next, err);
+        append(file, at, next, err);
         assert_true(array_file_flush(file, err));
         at = next;
     }
@@ -267,7 +210,6 @@ static bool is_killed(const char *path, const Course *course, int64_t kept, int6
     pid_t child = fork();
     if (child == 0) {
         calls_left = calls;
-        names_only = course->width > 0;   // else it takes long
         write_file(path, course, kept, &err);
         _exit(error_is_clean(&err) ? 0 : 1);
     }
@@ -304,11 +246,6 @@ static void copy_file(const char *from, const char *to)
     assert_int_equal(fclose(target), 0);
 }
 
-static bool has_parts(const char *place)
-{
-    return place_has(place, "file.h5.part") || place_has(place, "file.h5.part.1");
-}
-
 // The rows of the last flush can be read, all series equally long, and continued. Where a file is
 // continued (kept), that many rows are there at every moment.
 static void kill_everywhere(const Course *course, int64_t kept)
@@ -330,16 +267,16 @@ static void kill_everywhere(const Course *course, int64_t kept)
         int64_t rows = flushed_rows(path);
         kills += killed;
         readable += rows >= 0;
-        if (rows >= 0) expect_all(path, course, rows);
+        if (rows >= 0) expect_rows(path, rows);
         assert_true(killed || rows == end);
         assert_true(kept < 0 || rows >= kept);
         // A little less than there is, as a checkpoint has it.
         int64_t taken = kept >= 0 ? kept : rows > 10 ? rows - 10 : rows;
         if (killed && rows >= 0) {
             write_file(path, course, taken, &err);
-            expect_all(path, course, end);
+            expect_rows(path, end);
         }
-        if (rows >= 0) assert_false(has_parts(place));
+        if (rows >= 0) assert_false(place_has(place, "file.h5.part"));
         place_remove(place);
     }
     place_remove(stock);
@@ -353,118 +290,24 @@ TEST(test_killed_at_every_call)
     kill_everywhere(&(Course){.flushed = 1100, .rows = 3300}, 1100);
 }
 
-// A part, and what comes after it.
-TEST(test_long_file_killed)
-{
-    kill_everywhere(&(Course){.flushed = 1250, .rows = 2800, .width = 512}, -1);
-}
-
-// Cut within an earlier part, and a finished one that is longer than a part.
-TEST(test_long_file_cut)
-{
-    kill_everywhere(&(Course){.flushed = 1250, .rows = 2800, .width = 512}, 1500);
-}
-
-TEST(test_long_file_while_it_is_written)
+// What a killed run of an earlier version left has the last rows only.
+TEST(test_last_of_several_files_is_refused)
 {
     Error err = {0};
-    enum { FLUSHED = 1250, COUNT = 4 * FLUSHED };   // two flushes are a part
-    const Course course = {.flushed = FLUSHED, .rows = COUNT, .width = 512};
-    const int64_t cuts[] = {COUNT - 1, 2 * FLUSHED + 100, 2 * FLUSHED, 100, 0};
     char place[PLACE_SIZE], path[2 * PLACE_SIZE];
-    double *read = NULL;
-    int64_t rows = 0;
-    int32_t width = 0;
     place_make(place);
-    fill_values();
     snprintf(path, sizeof path, "%s", place_path(place, "file.h5"));
     ArrayFile *file = array_file_create(path, &err);
     add_series(file, &err);
-    assert_true(array_file_set_number(file, "answer", 3, &err));
-    assert_true(array_file_set_text(file, "title", "long", &err));
-    const ArraySeries noise = {
-        .name = "noise", .type = ARRAY_FLOAT64, .width = 512, .unit = "length", .description = "n"};
-    assert_true(array_file_add_series(file, &noise, &err));
-    for (size_t k = 0; k < sizeof cuts / sizeof cuts[0]; k++) {
-        for (int64_t at = k == 0 ? 0 : cuts[k - 1]; at < COUNT;) {
-            int64_t next = at / FLUSHED * FLUSHED + FLUSHED;
-            append_all(file, &course, at, next, &err);
-            assert_true(array_file_flush(file, &err));
-            at = next;
-        }
-        assert_true(place_has(place, "file.h5.part.2"));
-        expect_all(path, &course, COUNT);   // as another process reads it
-        cut_all(file, &course, cuts[k], &err);
-        assert_true(array_file_read(file, "noise", &read, &rows, &width, &err));
-        assert_int_equal(rows, cuts[k]);
-        for (int64_t c = 0; c < rows; c++) assert_true(read[c * width] == noise_at(c, 0));
-        memory_free(read);
-    }
-    append_all(file, &course, 0, COUNT, &err);
-    assert_true(array_file_close(file, &err));
-    expect_all(path, &course, COUNT);
-    assert_false(has_parts(place) || place_has(place, "file.h5.part.2"));
-    double number = 0;
-    char text[20];
-    file = array_file_open(path, &err);
-    assert_true(array_file_get_number(file, "answer", &number, &err) && number == 3);
-    assert_true(array_file_get_text(file, "title", text, sizeof text, &err));
-    assert_string_equal(text, "long");
-    assert_false(array_file_get_number(file, "parts", &number, &err));
-    array_file_close(file, &err);
-    place_remove(place);
-}
-
-// A part that is gone, or is another one's, is named; nothing is made up.
-TEST(test_a_part_is_missing)
-{
-    Error err = {0};
-    const Course course = {.flushed = 1250, .rows = 2500, .width = 512};
-    char place[PLACE_SIZE], path[2 * PLACE_SIZE], part[2 * PLACE_SIZE];
-    double *read = NULL;
-    int64_t rows = 0;
-    int32_t width = 0;
-    place_make(place);
-    fill_values();
-    snprintf(path, sizeof path, "%s", place_path(place, "file.h5"));
-    snprintf(part, sizeof part, "%s", place_path(place, "file.h5.part.1"));
+    assert_true(array_file_set_number(file, "parts", 1, &err));
+    array_file_abandon(file);
     for (int32_t k = 0; k < 2; k++) {
-        ArrayFile *file = array_file_create(path, &err);
-        add_series(file, &err);
-        const ArraySeries noise = {
-            .name = "noise", .type = ARRAY_FLOAT64, .width = 512, .unit = "1", .description = ""};
-        assert_true(array_file_add_series(file, &noise, &err));
-        for (int64_t at = 0; at < course.rows; at += course.flushed) {
-            append_all(file, &course, at, at + course.flushed, &err);
-            assert_true(array_file_flush(file, &err));
-        }
-        array_file_abandon(file);
-        assert_true(place_has(place, "file.h5.part.1"));
-        if (k == 0) unlink(part);
-        if (k == 1) {   // fewer rows
-            char other[2 * PLACE_SIZE];
-            snprintf(other, sizeof other, "%s", place_path(place, "other.h5"));
-            file = array_file_create(other, &err);
-            add_series(file, &err);
-            assert_true(array_file_add_series(file, &noise, &err));
-            append_all(file, &course, 0, 700, &err);
-            assert_true(array_file_close(file, &err));
-            assert_int_equal(rename(other, part), 0);
-        }
-        file = array_file_open(path, &err);
-        assert_non_null(file);
-        assert_false(array_file_read(file, "noise", &read, &rows, &width, &err));
-        assert_non_null(strstr(err.message, "file.h5.part.1"));
+        assert_null(k == 0 ? array_file_open(path, &err) : array_file_reopen(path, &err));
+        assert_int_equal(err.code, ERROR_INPUT);
+        assert_non_null(strstr(err.message, "file.h5.part.1, ...: the run was killed"));
         err = (Error){0};
-        array_file_close(file, &err);
-        file = array_file_reopen(path, &err);
-        assert_non_null(file);
-        assert_false(array_file_close(file, &err));
-        assert_non_null(strstr(err.message, "file.h5.part.1"));
-        assert_true(place_has(place, "file.h5.part") && !place_has(place, "file.h5"));
-        err = (Error){0};
-        unlink(place_path(place, "file.h5.part"));
     }
+    assert_true(place_has(place, "file.h5.part"));
     place_remove(place);
 }
 
