@@ -24,7 +24,8 @@ typedef struct CacheSummary {
 
 // Lists the files in the cache, the longest unused first (on_entry may be NULL), and adds them up.
 bool amontons_cache_list(CacheCallback on_entry, void *context, CacheSummary *summary, Error *err);
-// Removes all of it; removed: what that was.
+// Removes all of it but what a running process holds; removed: what that was. ERROR_FILE: a file
+// could not be removed.
 bool amontons_cache_clean(CacheSummary *removed, Error *err);
 
 #ifdef __cplusplus

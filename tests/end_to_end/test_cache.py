@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Mesh and basis on disk: a second run gives the same bits without gmsh or a factorisation, and
 whatever stands in the cache, a run never fails for it."""
+import fcntl
 import json
 import os
 import re
@@ -466,6 +467,23 @@ class Command(Cached):
         self.assertEqual([path.name for path in self.files()], ["of the user"])
         self.assertIn(": 0 files", self.ask())
         self.assertIn("there is no cache", self.ask(cache=""))
+
+    def test_cleans_locks(self):
+        """Of a killed process they are empty, and go; what a running process holds stays, and is no failure."""
+        self.cache.mkdir()
+        killed, held, part = (self.cache / (letter * 32 + ending) for letter, ending in
+                              (("a", ".lock"), ("b", ".lock"), ("c", ".basis.part")))
+        killed.touch()
+        self.assertIn("removed 1 files", self.ask("--clean"))
+        self.assertEqual(self.files(), [])
+        (self.cache / ("d" * 32 + ".mesh")).write_bytes(b"x" * 100)
+        for path in (killed, held, part):
+            path.touch()
+        with held.open("r+b") as one, part.open("r+b") as other:
+            fcntl.flock(one, fcntl.LOCK_EX)
+            fcntl.flock(other, fcntl.LOCK_EX)
+            self.assertIn("removed 2 files", self.ask("--clean"))
+            self.assertEqual(self.files(), [held, part])
 
 
 if __name__ == "__main__":

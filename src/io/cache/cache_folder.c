@@ -123,27 +123,32 @@ int32_t cache_folder_trim(const CacheFolder *folder, int64_t limit, const char *
     *bytes = 0;
     for (int32_t k = 0; k < folder->count && folder->bytes - *bytes > limit; k++) {
         char path[PATH_MAX + CACHE_ENTRY_SIZE + 1];
-        snprintf(path, sizeof path, "%s/%s", folder->path, folder->entries[k].name);
+        CacheFolderEntry *entry = &folder->entries[k];
+        snprintf(path, sizeof path, "%s/%s", folder->path, entry->name);
         if (keep && strcmp(path, keep) == 0) continue;
         char *part = path + strlen(path) - strlen(PART);
-        bool gone = false;
+        bool gone = false, held = false;
         if (strcmp(part, PART) == 0) {
             // A part is what a killed process left; or somebody writes it, and it stays.
             PartFile file = {0};
             Error unseen = {0};
             *part = 0;
             gone = part_file_try(&file, path, &unseen);
+            held = file.taken;
             part_file_discard(&file);
         } else if (strcmp(part, ".lock") == 0) {
             FileLock lock;   // a lock that somebody holds stays
             gone = file_lock_take(&lock, path, 0);
+            held = lock.busy;
             file_lock_release(&lock);
         } else {
             gone = unlink(path) == 0;
+            held = errno == ENOENT;
         }
+        entry->failed = !gone && !held;
         if (!gone) continue;
         removed++;
-        *bytes += folder->entries[k].bytes;
+        *bytes += entry->bytes;
     }
     return removed;
 }

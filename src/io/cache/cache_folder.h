@@ -25,6 +25,7 @@ typedef struct CacheFolderEntry {
     char name[CACHE_ENTRY_SIZE];   // of the file
     int64_t bytes;
     double used;   // when it was last written or read, s since 1970
+    bool failed;   // cache_folder_trim could not remove it, though no process holds it
 } CacheFolderEntry;
 
 typedef struct CacheFolder {
@@ -46,8 +47,9 @@ bool cache_folder_read(CacheFolder *folder, Error *err);
 void cache_folder_destroy(CacheFolder *folder);
 
 // Removes the longest unused files until all together are at most `limit` bytes; not `keep` (a
-// path; NULL: none). What another process has removed meanwhile, or may not be removed, is passed
-// over. removed: how many, and their bytes in *bytes.
+// path; NULL: none); limit -1: all of them, also empty ones. What another process holds or has
+// removed meanwhile is passed over, and so is what may not be removed, which is marked `failed`.
+// removed: how many, and their bytes in *bytes.
 int32_t cache_folder_trim(const CacheFolder *folder, int64_t limit, const char *keep,
                           int64_t *bytes);
 

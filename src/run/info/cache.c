@@ -37,10 +37,12 @@ bool amontons_cache_clean(CacheSummary *removed, Error *err)
     CacheFolder folder = {0};
     TRY(cache_folder_read(&folder, err));
     TRY(summarise(&folder, removed, err));
-    removed->files = cache_folder_trim(&folder, 0, NULL, &removed->bytes);
-    if (removed->files < folder.count)
-        FAIL(err, ERROR_FILE, "%d of %d files in %s could not be removed",
-             folder.count - (int32_t)removed->files, folder.count, folder.path);
+    removed->files = cache_folder_trim(&folder, -1, NULL, &removed->bytes);
+    int32_t failed = 0;
+    for (int32_t k = 0; k < folder.count; k++) failed += folder.entries[k].failed;
+    if (failed > 0)
+        FAIL(err, ERROR_FILE, "%d of %d files in %s could not be removed", failed, folder.count,
+             folder.path);
 cleanup:
     cache_folder_destroy(&folder);
     return error_is_clean(err);
