@@ -25,12 +25,41 @@ enum { WIDTH = 1920, HEIGHT = 1080, WIDTH_LEAST = 640, HEIGHT_LEAST = 360 };
 enum { GIF_RATE = 20, GIF_WIDTH = 800, GIF_HEIGHT = 450 };
 enum { GIF_COLORS = 256, MAP_COLORS = 160, GREYS = 40, TINTS = 9 };   // of a GIF's palette
 
-// Fills in the parts of the request that were left open, and checks it.
-static bool complete(const FilmRequest *request, FilmRequest *film, int32_t *frames, Error *err)
+// The film's name: of a folder that of its PNG frames, frames/frame-%04d.png. Nothing is made.
+static bool path_find(const char *given, char path[PATH_MAX], bool *is_folder, Error *err)
+{
+    // A folder's name has no ending, ends in a slash, or is that of one.
+    struct stat status;
+    const char *slash = strrchr(given, '/'), *name = slash ? slash + 1 : given;
+    bool is_there = stat(given, &status) == 0;
+    *is_folder = is_there ? S_ISDIR(status.st_mode) : !name[0] || !strpbrk(name, ".%");
+    int length = snprintf(path, PATH_MAX, "%s%s%s", given, *is_folder && name[0] ? "/" : "",
+                          *is_folder ? "frame-%04d.png" : "");
+    if (length >= PATH_MAX)
+        return REFUSE(err, "the name of the film has %d bytes: at most %d are allowed", length,
+                      PATH_MAX - 1);
+    return video_file_check_name(path, err);
+}
+
+// Makes the folder of PNG frames.
+static bool folder_prepare(const char *path, bool is_folder, Error *err)
+{
+    char folder[PATH_MAX];
+    const char *last = strrchr(path, '/');
+    if (!last || last == path || !video_file_ends(path, ".png")) return true;
+    snprintf(folder, sizeof folder, "%.*s", (int)(last - path), path);
+    return folder_make(folder, err) &&
+           (!is_folder || (own_list_check(folder, err) && own_list_make(folder, err)));
+}
+
+// Fills in the parts of the request that were left open, and checks it. path, is_folder: as
+// path_find has them.
+static bool complete(const FilmRequest *request, FilmRequest *film, int32_t *frames,
+                     char path[PATH_MAX], bool *is_folder, Error *err)
 {
     *film = *request;
     if (!film->path || !film->path[0]) return REFUSE(err, "the film needs a name");
-    bool gif = video_file_is_gif(film->path);
+    bool gif = video_file_ends(film->path, ".gif");
     if (film->seconds == 0) film->seconds = SECONDS;
     if (film->rate == 0) film->rate = gif ? GIF_RATE : RATE;
     if (film->width == 0 && film->height == 0) {
@@ -52,27 +81,8 @@ static bool complete(const FilmRequest *request, FilmRequest *film, int32_t *fra
     if (!(film->magnification >= 0) || !isfinite(film->magnification))
         return REFUSE(err, "a magnification of %g: it must be above 0", film->magnification);
     *frames = (int32_t)lround(count);
-    return picture_options_fit_taker(&film->style, TAKEN_BY_FILMS, err);
-}
-
-// The film's name, its folder made where it has PNG frames: of a folder frames/frame-%04d.png.
-static bool path_make(const char *given, char path[PATH_MAX], Error *err)
-{
-    // A folder's name has no ending, ends in a slash, or is that of one.
-    struct stat status;
-    const char *slash = strrchr(given, '/'), *name = slash ? slash + 1 : given;
-    bool is_there = stat(given, &status) == 0;
-    bool is_folder = is_there ? S_ISDIR(status.st_mode) : !name[0] || !strpbrk(name, ".%");
-    if (is_folder)
-        snprintf(path, PATH_MAX, "%s%sframe-%%04d.png", given, name[0] ? "/" : "");
-    else
-        snprintf(path, PATH_MAX, "%s", given);
-    const char *last = strrchr(path, '/'), *dot = strrchr(path, '.');
-    if (!last || last == path || !dot || strcmp(dot, ".png") != 0) return true;
-    char folder[PATH_MAX];
-    snprintf(folder, sizeof folder, "%.*s", (int)(last - path), path);
-    return folder_make(folder, err) &&
-           (!is_folder || (own_list_check(folder, err) && own_list_make(folder, err)));
+    return picture_options_fit_taker(&film->style, TAKEN_BY_FILMS, err) &&
+           path_find(film->path, path, is_folder, err);
 }
 
 // Colours of the pictures: the colour map, greys, and six tints up to white.
@@ -106,7 +116,8 @@ amontons_render_film(const char *folder, const FilmRequest *request, Error *err)
     uint8_t palette[3 * GIF_COLORS];
     double *fastest = NULL, t[2] = {0, 0};
     int32_t frames = 0;
-    TRY(complete(request, &film, &frames, err));
+    bool is_folder = false;
+    TRY(complete(request, &film, &frames, path, &is_folder, err));
     TRY(result_view_open(folder, &view, err));
     TRY(result_view_read_slip_rate(&view, err));
     TRY(result_view_read_status(&view, err));
@@ -136,7 +147,7 @@ amontons_render_film(const char *folder, const FilmRequest *request, Error *err)
     // The page, the file, and frame by frame from one to the other.
     FilmPageDef def = {folder, &view, &clock, &film, page_title(style, view.title, true)};
     TRY(page = film_page_create(&def, err));
-    TRY(path_make(film.path, path, err));
+    TRY(folder_prepare(path, is_folder, err));
     palette_fill(palette);
     VideoDef file = {path,       film.width, film.height,     film.rate,
                      view.title, palette,    style->overwrite};
@@ -145,8 +156,9 @@ amontons_render_film(const char *folder, const FilmRequest *request, Error *err)
         const uint8_t *pixels = NULL;
         int32_t stride = 0;
         if (film.stop && *film.stop)
-            FAIL(err, ERROR_INTERRUPT, "stopped after %d of %d frames; there is no film", k,
-                 frames);
+            FAIL(err, ERROR_INTERRUPT, "stopped after %d of %d frames; %s", k, frames,
+                 video_file_ends(path, ".png") ? "those that are written stay"
+                                               : "there is no film");
         TRY(film_page_show(page, k, &pixels, &stride, err));
         TRY(video_file_add(video, pixels, stride, err));
         if (film.on_frame) film.on_frame(k + 1, frames, film.context);

@@ -230,10 +230,10 @@ class OfRun(unittest.TestCase):
 
 
 class Ends(OfHistory):
-    def start(self, path):
+    def start(self, path, made=None):
         running = subprocess.Popen([PROGRAM, "film", self.result, "-o", path, "--size", "640x360", "--fps", "30", "--seconds",
                                     "60", "--overwrite"], stderr=subprocess.PIPE, text=True, start_new_session=True)
-        part = Path(f"{path}.part")
+        part = made or Path(f"{path}.part")
         while running.poll() is None and not part.exists():
             time.sleep(0.01)
         return running, part
@@ -251,6 +251,14 @@ class Ends(OfHistory):
                 self.assertRegex(said, r"stopped after \d+ of 1800 frames; there is no film")
                 self.assertFalse(part.exists())
             self.assertEqual(path.read_bytes(), b"an earlier film")
+
+    def test_stopped_frames_stay(self):
+        """PNGs that are written have their names already, and the message says so."""
+        first = self.folder / "stopped" / "frame-0001.png"
+        running, _ = self.start(first.parent, first)
+        os.kill(running.pid, signal.SIGTERM)
+        self.assertRegex(running.communicate()[1], r"stopped after \d+ of 1800 frames; those that are written stay")
+        self.assertTrue(first.exists())
 
     def test_full_disk(self):
         """A limit of sizes is met like a full disk."""
@@ -283,6 +291,10 @@ class Ends(OfHistory):
         self.refused("film.avi", ".mp4, .webm or .gif", "PNG frames", name="film.avi")
         self.refused("one number", name="frames-%s.png")
         self.refused("one number", name="%d-%d.png")
+        self.refused("one number", name="new/run.png")
+        self.assertFalse((self.folder / "new").exists(), "nothing is made for a name that is refused")
+        done = film(self.result, "x/" * 2045 + "a.mp4.mp4", status=2)   # its first 4095 bytes are another film's name
+        self.assertIn("at most 4095 are allowed", done.stderr)
         self.refused("1280x720", options=("--size", "big"))
         self.refused("even numbers", options=("--size", "641x360"))
         self.refused("--seconds 0", "above 0", options=("--seconds", "0"))

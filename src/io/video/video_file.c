@@ -7,10 +7,10 @@
 #include <string.h>
 #include <strings.h>
 
-bool video_file_is_gif(const char *path)
+bool video_file_ends(const char *path, const char *ending)
 {
     const char *dot = strrchr(path, '.');
-    return dot && strcasecmp(dot, ".gif") == 0;
+    return dot && strcasecmp(dot, ending) == 0;
 }
 
 static const VideoModule *module_of(const VideoFile *file)
@@ -18,10 +18,20 @@ static const VideoModule *module_of(const VideoFile *file)
     return *(const VideoModule *const *)(const void *)file;
 }
 
+static VideoModuleFunction module_open(Error *err)
+{
+    return (VideoModuleFunction)module_function("libav", "amontons_video_module", err);
+}
+
+bool video_file_check_name(const char *path, Error *err)
+{
+    VideoModuleFunction module = module_open(err);
+    return module && module()->check_name(path, err);
+}
+
 VideoFile *video_file_create(const VideoDef *def, Error *err)
 {
-    VideoModuleFunction module =
-        (VideoModuleFunction)module_function("libav", "amontons_video_module", err);
+    VideoModuleFunction module = module_open(err);
     return module ? module()->create(def, err) : NULL;
 }
 

@@ -195,24 +195,42 @@ static bool picture_path(const char *pattern, int64_t frame, char path[PATH_MAX]
                     (long long)frame, end + 1) < PATH_MAX;
 }
 
+// The kind of a film by its name; NULL and ERROR_INPUT: the name has none, or is too long. first:
+// the name of the first PNG.
+static const VideoKind *kind_find(const char *path, char first[PATH_MAX], Error *err)
+{
+    const VideoKind *kind = NULL;
+    const char *dot = strrchr(path, '.');
+    if (strlen(path) >= PATH_MAX) FAIL(err, ERROR_INPUT, "the name of the film is too long");
+    for (size_t k = 0; dot && !kind && k < sizeof kinds / sizeof *kinds; ++k)
+        if (strcasecmp(kinds[k].ending, dot) == 0) kind = &kinds[k];
+    if (!kind || (!kind->format && !picture_path(path, 1, first)))
+        FAIL(err, ERROR_INPUT,
+             "%s: a film ends in .mp4, .webm or .gif; PNG frames go into a folder (frames/), or "
+             "their name has one number and ends in .png (frames/run-%%04d.png)",
+             path);
+    return kind;
+cleanup:
+    return NULL;
+}
+
+static bool name_check(const char *path, Error *err)
+{
+    char first[PATH_MAX];
+    return kind_find(path, first, err) != NULL;
+}
+
 static VideoFile *film_create(const VideoDef *def, Error *err)
 {
     char url[4200], first[PATH_MAX];
     AVDictionary *options = NULL;
-    const VideoKind *kind = NULL;
-    const char *dot = strrchr(def->path, '.');
-    for (size_t k = 0; dot && !kind && k < sizeof kinds / sizeof *kinds; ++k)
-        if (strcasecmp(kinds[k].ending, dot) == 0) kind = &kinds[k];
+    const VideoKind *kind = kind_find(def->path, first, err);
+    if (!kind) return NULL;
     VideoFile *film = NEW_ARRAY(VideoFile, 1, err);
     TRY(film);
     film->module = amontons_video_module();
     film->log_level = av_log_get_level();
     av_log_set_level(AV_LOG_QUIET);
-    if (!kind || (!kind->format && !picture_path(def->path, 1, first)))
-        FAIL(err, ERROR_INPUT,
-             "%s: a film ends in .mp4, .webm or .gif; PNG frames go into a folder (frames/), or "
-             "their name has one number and ends in .png (frames/run-%%04d.png)",
-             def->path);
     snprintf(film->path, sizeof film->path, "%s", def->path);
     film->overwrite = def->overwrite;
     if (!kind->format && access(first, F_OK) == 0 && !def->overwrite)
@@ -290,7 +308,9 @@ static bool packets_write(VideoFile *film, Error *err)
         if (!check(film, code, "cannot encode a frame", err)) return false;
         if (!film->format) {
             char path[PATH_MAX];
-            picture_path(film->path, ++film->pictures, path);
+            if (!picture_path(film->path, ++film->pictures, path))
+                return FAULT(err, ERROR_INPUT, "%s: the name of frame %lld is too long", film->path,
+                             (long long)film->pictures);
             if (!part_file_put(path, film->overwrite, film->packet->data, film->packet->size, err))
                 return false;
             continue;
@@ -332,14 +352,16 @@ static bool film_finish(VideoFile *film, Error *err)
         return false;
     if (!packets_write(film, err)) return false;
 
-    // PNGs of a longer film of ours, in a folder of ours, would seem to be of this one.
+    // PNGs of a longer film of ours, in a folder of ours, would seem to be of this one. They stay
+    // where the folder's list cannot be read: all frames of this film are written.
     bool ours = film->overwrite;
+    Error unseen = {0};
     while (!film->format && ours) {
         char path[PATH_MAX];
-        picture_path(film->path, ++film->pictures, path);
-        ours = own_list_has(path, &ours, err) && ours && unlink(path) == 0;
+        ours = picture_path(film->path, ++film->pictures, path) &&
+               own_list_has(path, &ours, &unseen) && ours && unlink(path) == 0;
     }
-    if (!film->format) return error_is_clean(err);
+    if (!film->format) return true;
     if (!check(film, av_write_trailer(film->format), "cannot end the file", err)) return false;
     avio_flush(film->io);
     return check(film, film->io->error, "cannot end the file", err) &&
@@ -348,6 +370,7 @@ static bool film_finish(VideoFile *film, Error *err)
 
 __attribute__((visibility("default"))) const VideoModule *amontons_video_module(void)
 {
-    static const VideoModule module = {film_create, film_add, film_finish, film_destroy};
+    static const VideoModule module = {name_check, film_create, film_add, film_finish,
+                                       film_destroy};
     return &module;
 }
