@@ -44,10 +44,10 @@ void contact_arrays_destroy(ContactArrays *arrays)
 // Refuses a negative coefficient at node i. Before the run, formulas and plug-ins are checked in
 // steady slip alone, at many speeds, and may fall below 0 where the run leads. Friction would then
 // drive the block.
-static bool check_coefficient(const ContactArrays *arrays, const Observation *seen, int32_t i,
+static bool check_coefficient(const Observation *seen, const Friction *friction, int32_t i,
                               Error *err)
 {
-    const FrictionNode *node = friction_at(arrays->friction, i);
+    const FrictionNode *node = friction_at(friction, i);
     const Interface *interface = seen->interface;
     if (!friction_is_own(node->law)) return true;
     const double *theta = seen->state->theta + (int64_t)i * STATES_MAX;
@@ -68,6 +68,13 @@ static bool check_coefficient(const ContactArrays *arrays, const Observation *se
         seen->state->reaction[interface_normal(interface, i)] / interface->weight[i], states);
 }
 
+bool seen_check_coefficients(const Observation *seen, const Friction *friction, Error *err)
+{
+    for (int32_t i = 0; i < seen->interface->contact_count; i++)
+        if (!check_coefficient(seen, friction, i, err)) return false;
+    return true;
+}
+
 double seen_contact_area(const Observation *seen, const Friction *friction, int32_t i)
 {
     const State *state = seen->state;
@@ -81,9 +88,9 @@ bool contact_arrays_record(void *self, const Observation *seen, Error *err)
 {
     ContactArrays *arrays = self;
     const State *state = seen->state;
+    if (!seen_check_coefficients(seen, arrays->friction, err)) return false;
     for (int32_t i = 0; i < arrays->count; i++) {
         int32_t n = interface_normal(seen->interface, i);
-        if (!check_coefficient(arrays, seen, i, err)) return false;
         for (int32_t c = 0; c < arrays->tangents; c++) {
             int32_t t = interface_unknown(seen->interface, i, c), k = arrays->tangents * i + c;
             double displacement = state->displacement[seen->system->interface_dofs[t]];

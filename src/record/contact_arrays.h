@@ -34,6 +34,9 @@ bool contact_arrays_create(const Interface *interface, const Friction *friction,
 void contact_arrays_destroy(ContactArrays *arrays);
 bool contact_arrays_record(void *self, const Observation *seen, Error *err);   // a Recorder
 
+// ERROR_COMPUTE: friction of one's own has come to a negative coefficient at a node.
+bool seen_check_coefficients(const Observation *seen, const Friction *friction, Error *err);
+
 // Area of the real contacts of node i over that at the start (friction_contact_area); 0: open.
 double seen_contact_area(const Observation *seen, const Friction *friction, int32_t i);
 

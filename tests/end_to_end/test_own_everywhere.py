@@ -234,6 +234,10 @@ print(len(states))
             self.assertAlmostEqual(t, when, delta=0.1 * when)
             wanted = 0.3 - 0.003 * float(found[5]) if found[5] else 0.4 - 90 * pressure
             self.assertAlmostEqual(mu, wanted, delta=1e-5)
+        # The quasi-static path of `stability` ends, too.
+        fast = "friction={law: formula, formula: '0.3 - 0.1 * s', state: {s: {rate: 30 - v / 1e-4, start: 0}}}"
+        said = self.call("stability", fast, status=1, flags=("-q", "--from", "start"))
+        self.assertRegex(said, "on the quasi-static path.*friction has come to a coefficient of -")
         kept = "friction={law: formula, formula: 'max(0, 0.3 - 0.003 * s)', state: {s: {rate: 1, start: 0}}}"
         self.call("run", kept, "time.until.U=0.012", flags=("-q", "--overwrite", "-o", "negative"))
 

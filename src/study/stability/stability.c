@@ -16,6 +16,7 @@
 #include "base/memory.h"
 #include "friction/friction.h"
 #include "contact/slip.h"
+#include "record/contact_arrays.h"
 #include "run/result/result_folder.h"
 #include "scene/friction_law.h"
 
@@ -216,6 +217,7 @@ cleanup:
 static bool follow_path(StabilityPath *path, Error *err)
 {
     const Interface *interface = &path->model->interface;
+    const Friction *friction = path->nodes ? &path->friction : &path->model->friction;
     double end = interface->x[interface->contact_count - 1];
     Observation before = {0};
     int32_t most = 0;   // nodes that slipped at a time, so far
@@ -228,6 +230,7 @@ static bool follow_path(StabilityPath *path, Error *err)
         stability_look(path);
         TRY(step_control_advance(&path->control, INFINITY, err));
         Observation seen = observe(&path->control, &path->scales);
+        TRY(seen_check_coefficients(&seen, friction, err));
         int32_t slipping = count_slipping(&seen);
         bool snaps = seen.max_slip_rate > SNAP_LIMIT * path->rod.velocity;
         if (snaps && step > 0 && isnan(path->mu_snap)) {
