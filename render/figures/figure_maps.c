@@ -427,7 +427,7 @@ static bool contact_map(const Page *whole, ResultView *view, bool density, Error
         shown.low = zoom.U_low;
         shown.high = zoom.U_high;
     }
-    double before[2] = {shown.low, shown.high};
+    double before[2] = {shown.low, shown.high}, slide = zoom.found ? zoom.U_slide : INFINITY;
     if (zoom.found && !asked && zoom.U_slide > shown.low) before[1] = zoom.U_slide;
 
     TRY(result_view_read_status(view, err));
@@ -439,7 +439,7 @@ static bool contact_map(const Page *whole, ResultView *view, bool density, Error
         area[k] = density ? 1 - fabs(view->slip_rate[k]) / critical : view->area[k];
         if (open)
             area[k] = -INFINITY;
-        else if (U >= before[0] && U < before[1])
+        else if (U >= shown.low && U <= shown.high && U < slide)
             least = fmin(least, area[k]);
         lifted = lifted || (open && U >= shown.low && U <= shown.high);
     }
@@ -452,7 +452,7 @@ static bool contact_map(const Page *whole, ResultView *view, bool density, Error
                              .high = 1,
                              .factor = 1,
                              .clipped = RANGE_LOW[range] > 0,
-                             .label = "contact density ~{φ}"};
+                             .label = "contact density ~{\u03c6}"};
     } else {
         TRY(history_bar_fit(view, before, area, &words, &page.style, &map.bar, err));
         map.bar.clipped = map.bar.clipped || before[1] < shown.high;   // in sliding less is left

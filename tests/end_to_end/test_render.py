@@ -521,6 +521,19 @@ class Variants(unittest.TestCase):
             wanted = 1 - data["interface/slip_rate"][shown, 40].max() / fixture.V_CRITICAL
             self.assertAlmostEqual(min(seen), wanted, delta=0.02 * (1 - low))
 
+    def test_last_row_sets_the_scale(self):
+        """Where no sliding is found: phi is 0.95 but in the last row, 0.3; the bar starts at 0.25."""
+        def weaken(data, _):
+            rate = data["interface/slip_rate"]
+            rate[:] = 0.05 * fixture.V_CRITICAL
+            rate[-1] = 0.7 * fixture.V_CRITICAL
+        data, _ = fixture.make(self.folder, tables=False, change=weaken)
+        self.draw("contact-density")
+        picture = read_picture(self.folder, "contact-density")
+        frame = Frame(picture)
+        bar = bar_colors(picture, groups(is_color(picture, INK).sum(axis=0) > 0.4 * picture.shape[0]), frame)
+        self.assertAlmostEqual(invert(picture[frame.pixel(0.5, data["nodes/x"][40])], bar), 0.7 / 0.75, delta=0.02)
+
     def test_killed_run(self):
         """history.h5.part, without tables: drawn, without an inset, as no event is known."""
         fixture.make(self.folder, tables=False, name="history.h5.part")
