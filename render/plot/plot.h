@@ -42,7 +42,8 @@ typedef struct PlotSeries {
 typedef struct PlotMap {
     int32_t count;
     double *x, *y, *value;   // [count] owned, as the next two; value NaN: no answer
-    double *contour;   // [count] or NULL: lines at equal values of this
+    double
+        *contour;   // [count] or NULL: lines at equal values of this, where the points form a grid
     double *open;   // [count] or NULL: 1 where the point's mark is open, 2: a square
 } PlotMap;
 

@@ -284,14 +284,10 @@ bool plot_map_draw(const Page *page, const Axes *axes, const PlotPanel *panel,
     TRY(drawing.place = NEW_ARRAY(Point, map->count, err));
     for (int32_t k = 0; k < map->count; k++)
         drawing.place[k] = axes_place(axes, map->x[k], map->y[k]);
-    if (drawing.grid.columns == 0 && map->contour)
-        FAIL(err, ERROR_INPUT,
-             "the points of the map form no grid, on which alone contours are drawn: leave out "
-             "`contours`");
     if (drawing.grid.columns > 0) TRY(grid_draw(&drawing, err));
     canvas_clip(page->canvas, &axes->box);
     if (drawing.grid.columns == 0) discs_draw(&drawing);
-    if (map->contour) TRY(contours_draw(&drawing, err));
+    if (map->contour && drawing.grid.columns > 0) TRY(contours_draw(&drawing, err));
 
     // Marks of the points. Where cells of a grid are smaller than marks that one can tell apart,
     // those of some points stand for the ones around them.

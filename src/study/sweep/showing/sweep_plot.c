@@ -349,7 +349,8 @@ static bool write_figure(PlotFigure *self, Error *err)
     char words[QUANTITY_LABEL_SIZE + 40];
     const Quantity *color = self->quantity[PLOT_COLOR], *lines = self->quantity[PLOT_CONTOURS];
     if (self->is_map && lines) {
-        bool many = self->table.count / self->panels.count > MAP_MANY;
+        int32_t panels = has_panels ? self->panels.count : 1;   // of NaN alone there are none
+        bool many = self->table.count / panels > MAP_MANY;
         snprintf(words, sizeof words, many ? "%s, medians of %d x %d points" : "%s",
                  lines->label.words, MAP_MEDIANS, MAP_MEDIANS);
         Curve line = {.label = words, .line = "solid"};

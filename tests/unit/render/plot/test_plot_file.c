@@ -216,13 +216,25 @@ TEST(draws_and_frees_a_whole_plot)
     draw_and_free_all(WHOLE);
 }
 
-// Lines at equal values are sought between the points of a grid.
+// Lines at equal values are sought between the points of a grid: others are drawn without.
 TEST(no_contours_without_a_grid)
 {
-    Error err = {0};
-    write_plot("map: {x: [1, 2, 3], y: [1, 2, 3], value: [1, 2, 3], contour: [1, 2, 3]}\n");
-    assert_false(amontons_render_plot(path, png, &(PictureStyle){.overwrite = true}, &err));
-    assert_non_null(strstr(err.message, "leave out `contours`"));
+    enum { SIZE = 1 << 20 };
+    static char drawn[2][SIZE];
+    size_t length[2];
+    for (int32_t k = 0; k < 2; k++) {
+        Error err = {0};
+        write_plot(k ? "map: {x: [1, 2, 3], y: [1, 2, 3], value: [1, 2, 3]}\n"
+                     : "map: {x: [1, 2, 3], y: [1, 2, 3], value: [1, 2, 3], contour: [1, 2, 3]}\n");
+        if (!amontons_render_plot(path, png, &(PictureStyle){.overwrite = true}, &err))
+            fail_msg("%s", err.message);
+        FILE *file = fopen(png, "rb");
+        assert_non_null(file);
+        length[k] = fread(drawn[k], 1, SIZE, file);
+        fclose(file);
+    }
+    assert_true(length[0] > 1000 && length[0] < SIZE && length[0] == length[1]);
+    assert_memory_equal(drawn[0], drawn[1], length[0]);
 }
 
 TEST(draws_and_frees_panels)

@@ -133,6 +133,12 @@ TEST(test_maps)
         "one", "{x: load.pressure, y: mesh.set.length, color: mu_M, panels: rod.kind, log: none}",
         "map");
     assert_says(said, "\"title\": \"kind = push\"");
+    // No point has a value of the key that tells panels apart.
+    said = description("one",
+                       "{x: load.pressure, y: mesh.set.length, color: mu_M, contours: mu_hold, "
+                       "panels: = log(-mu_M), name: none}",
+                       "none");
+    assert_says(said, "\"value\": []");
     // A number a point is written into the text while it is short, else into an array file.
     said = description("large", "{x: load.pressure, y: mesh.set.length, color: mu_M}", "map");
     assert_says(said, "\"value\": \"map.h5:value_");
