@@ -264,7 +264,8 @@ static int32_t face_nodes(const ElementList *elements, const OuterFace *faces, i
 
 // Shape functions where the parts of a face meet; kept for the next face of its kind.
 typedef struct FaceLattice {
-    int32_t kind, parts;   // parts: 0: of none yet
+    bool filled;   // false: it holds no face's yet
+    int32_t kind;   // an ElementKind
     double shape[LATTICE][LATTICE][FACE_NODES_MAX];
 } FaceLattice;
 
@@ -273,13 +274,13 @@ static bool add_face(const Block *block, ElementKind kind, const int32_t *nodes,
 {
     SurfacePoint lattice[LATTICE][LATTICE];
     int32_t corners = element_corner_count(kind), count = element_node_count(kind);
-    bool triangle = corners == 3, known = faces->parts > 0 && faces->kind == (int32_t)kind;
+    bool triangle = corners == 3, known = faces->filled && faces->kind == (int32_t)kind;
     if (triangle && count == corners)
         parts = 1;
     else if (parts == 0)
         parts = count > corners ? PARTS_CURVED : PARTS_FLAT;
     faces->kind = (int32_t)kind;
-    faces->parts = parts;
+    faces->filled = true;
     for (int32_t j = 0; j <= parts; ++j)
         for (int32_t i = 0; i <= (triangle ? parts - j : parts); ++i) {
             double at[2] = {(double)i / parts, (double)j / parts};
@@ -364,7 +365,7 @@ bool surface_build(const Block *block, const SpaceCut *cut, bool edges, int32_t 
                                   frame->element_nodes};
     OuterFace *faces = NULL;
     FaceSide *sides = NULL;
-    FaceLattice lattice = {.parts = 0};
+    FaceLattice lattice = {0};
     int32_t count = frame->element_count, side_count = 0;
     *surface = (Surface){.outline = {0}};
     if (frame->dim == 3) TRY(outer_faces(&elements, &faces, &count, err));

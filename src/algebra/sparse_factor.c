@@ -3,8 +3,9 @@
 // the border last, and L_bb is read out of its supernodes.
 //
 // A pattern is analysed once and factored for every level of dt (on 80 x 80 cells: 5 ms for
-// the analysis, 25 ms for a factor, 1 ms for a solve). Workspaces of solves belong to the analysis:
-// factors of one analysis must not be used by two threads.
+// the analysis, 25 ms for a factor, 1 ms for a solve). sparse_condense and
+// sparse_expand have their workspaces in the analysis: two threads must not call them at the same
+// time for factors of one analysis.
 #include "algebra/sparse_analysis.h"
 
 #include "algebra/dense.h"

@@ -366,7 +366,8 @@ bool amontons_run(const Scene *scene, const RunOptions *options, RunSummary *sum
         const LevelCut *cut = &accuracy->levels.cut;
         TRY(result_folder_clear(&folder, err));
         TRY(result_folder_settle(&folder, err));
-        result_folder_move(&folder, &simulation->folder);
+        simulation->folder = folder;   // which has the lock from now on
+        folder = (ResultFolder){0};
         simulation->options.on_report = options->on_report;
         simulation->options.context = options->context;
         simulation->options.folder = options->folder;

@@ -6,13 +6,13 @@
 
 #include <string.h>
 
-bool branches_create(const BulkOperator *system, int32_t stages, Branches *branches, Error *err)
+bool branches_create(const BulkOperator *system, Branches *branches, Error *err)
 {
     const Spectrum *spectrum = bulk_operator_spectrum(system);
-    int64_t size = (int64_t)spectrum->count * system->dof_count;
+    int64_t size = (int64_t)(SDIRK_STAGES - 1) * spectrum->count * system->dof_count;
     *branches = (Branches){.system = system, .spectrum = spectrum};
-    branches->stretch_rate = NEW_ARRAY(double, (stages - 1) * size, err);
-    branches->pull_rate = NEW_ARRAY(double, (stages - 1) * size, err);
+    branches->stretch_rate = NEW_ARRAY(double, size, err);
+    branches->pull_rate = NEW_ARRAY(double, size, err);
     branches->image = NEW_ARRAY(double, (int64_t)spectrum->shape_count * system->dof_count, err);
     branches->work = NEW_ARRAY(double, spectrum->count > 0 ? system->dof_count : 0, err);
     return error_is_clean(err);

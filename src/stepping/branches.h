@@ -16,14 +16,14 @@
 typedef struct Branches {
     const BulkOperator *system;   // not owned, like the next
     const Spectrum *spectrum;
-    // [stages - 1][count][dof_count] de_k/dt and K_k de_k/dt of earlier stages; owned, like the
+    // [SDIRK_STAGES - 1][count][dof_count] de_k/dt and K_k de_k/dt of earlier stages; owned, like the
     // next.
     double *stretch_rate, *pull_rate;
     double *image;   // [shape_count][dof_count] S_j v
     double *work;   // [dof_count]
 } Branches;
 
-bool branches_create(const BulkOperator *system, int32_t stages, Branches *branches, Error *err);
+bool branches_create(const BulkOperator *system, Branches *branches, Error *err);
 void branches_destroy(Branches *branches);
 
 // Puts e_k* and K_k e_k* of stage i into `to`, and takes off `rhs` what they pull at v = 0.

@@ -101,8 +101,13 @@ bool certificate_halve(const Certificate *whole, const ContactHalf *half, const 
     certificate->part = part;
     if (!whole->damping) goto cleanup;
     double *damping = certificate->damping = NEW_ARRAY(double, count *count, err);
-    if (damping && contact_half_matrix(half, whole->damping, antisymmetric, damping))
+    TRY(damping);
+    if (contact_half_matrix(half, whole->damping, antisymmetric, damping)) {
         TRY(contact_matrix_create(damping, (int32_t)count, &certificate->damping_contact, err));
+    } else {
+        memory_free(damping);
+        certificate->damping = NULL;
+    }
 cleanup:
     return error_is_clean(err);
 }

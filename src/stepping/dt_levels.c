@@ -10,7 +10,7 @@
 
 void dt_levels_init(BulkOperator *system, double step_max, double step_min, DtLevels *dt_levels)
 {
-    *dt_levels = (DtLevels){.system = system, .step_max = step_max, .gamma = SDIRK2.gamma};
+    *dt_levels = (DtLevels){.system = system, .step_max = step_max};
     double levels = floor(log2(step_max / step_min) * (1 + 1e-12)) + 1;
     dt_levels->level_count = (int32_t)fmin(fmax(levels, 1), DT_LEVELS_MAX);
 }
@@ -49,7 +49,7 @@ double dt_level_step(const DtLevels *dt_levels, int32_t k)
 
 double dt_level_reach(const DtLevels *dt_levels, int32_t k)
 {
-    return dt_levels->gamma * dt_level_step(dt_levels, k);
+    return SDIRK2.gamma * dt_level_step(dt_levels, k);
 }
 
 int32_t dt_level_find(const DtLevels *dt_levels, double step)

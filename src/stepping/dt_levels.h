@@ -14,7 +14,6 @@ enum { DT_LEVELS_MAX = 128 };
 typedef struct DtLevels {
     BulkOperator *system;   // not owned
     double step_max;   // of level 0, time
-    double gamma;   // of the scheme that steps on it; at first that of SDIRK2
     int32_t level_count;   // usable levels: 0 .. level_count - 1
     InterfaceOperator *level[DT_LEVELS_MAX];   // NULL: not built; owned
     // S of the levels that are built, or its symmetric or antisymmetric part on one side, when

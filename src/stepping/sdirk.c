@@ -20,7 +20,6 @@ bool sdirk_create(const Block *block, DtLevels *dt_levels, Sdirk *scheme, Error 
     scheme->force = NEW_ARRAY(double, system->dof_count, err);
     scheme->viscous = NEW_ARRAY(double, system->dof_count, err);
     int64_t earlier = SDIRK_STAGES - 1, dofs = system->dof_count;
-    dt_levels->gamma = SDIRK2.gamma;
     scheme->stage_velocity = NEW_ARRAY(double, earlier *dofs, err);
     scheme->stage_impulse = NEW_ARRAY(double, earlier *dofs, err);
     scheme->stage_elastic = NEW_ARRAY(double, SDIRK_STAGES *dofs, err);
@@ -29,7 +28,7 @@ bool sdirk_create(const Block *block, DtLevels *dt_levels, Sdirk *scheme, Error 
     scheme->g = NEW_ARRAY(double, interface->count, err);
     scheme->bound = NEW_ARRAY(double, interface->count, err);
     if (!error_is_clean(err) || !friction_states_create(block, &scheme->memory, err)) return false;
-    if (!branches_create(system, SDIRK_STAGES, &scheme->branches, err)) return false;
+    if (!branches_create(system, &scheme->branches, err)) return false;
     return contact_solver_create(interface, &scheme->solver, err);
 }
 

@@ -61,7 +61,6 @@ typedef struct StepOutcome {
     double relaxed[SPECTRUM_TIMES_MAX];   // by branches of each relaxation time, energy
 } StepOutcome;
 
-// Sets the levels' gamma, before the first of them is built.
 bool sdirk_create(const Block *block, DtLevels *dt_levels, Sdirk *scheme, Error *err);
 void sdirk_destroy(Sdirk *scheme);
 

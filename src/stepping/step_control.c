@@ -148,7 +148,7 @@ static bool may_skip_waves(StepControl *control, const State *state, int32_t k)
     const DtLevels *dt_levels = &control->dt_levels;
     double watched = control->oscillations.duration;
     if (watched == 0) return false;
-    int32_t slowest = dt_level_find(dt_levels, watched / dt_levels->gamma);   // that was seen
+    int32_t slowest = dt_level_find(dt_levels, watched / SDIRK2.gamma);   // that was seen
     LevelRange all = {k < slowest ? k : slowest, dt_levels->level_count};
     LevelRange unseen = {all.first, slowest + 1};
     bool seen = oscillation_record_covers(&control->oscillations, state), small = seen;

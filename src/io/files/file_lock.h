@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// One process at a time at some work, by a lock on a file that exists only meanwhile. The lock is
+// One process at a time at some work, by a lock on a file. The lock is
 // flock's: it belongs to the open file and ends with the process, however that ends. The file of a
 // process that was killed stays; it blocks nobody, and the next one that takes the lock removes it.
 // Called by io/cache/store and run/result/result_folder; part_file shares file_lock_try and

@@ -259,12 +259,6 @@ bool result_folder_is_settled(const ResultFolder *folder)
     return result_folder_is_ours(folder) && !folder->aside;
 }
 
-void result_folder_move(ResultFolder *from, ResultFolder *to)
-{
-    *to = *from;
-    *from = (ResultFolder){0};
-}
-
 void result_folder_release(ResultFolder *folder)
 {
     Error unseen = {0};   // the next who claims the folder tries again

@@ -34,8 +34,6 @@ bool result_folder_take_up(ResultFolder *folder, Error *err);
 
 bool result_folder_is_ours(const ResultFolder *folder);   // files may be written now
 bool result_folder_is_settled(const ResultFolder *folder);   // and they will stay
-// Moves a claimed folder, with its lock, to `to`, which has claimed none; `from` is zeroed.
-void result_folder_move(ResultFolder *from, ResultFolder *to);
 void result_folder_release(ResultFolder *folder);   // zeroed and released too
 
 #endif

@@ -21,8 +21,6 @@
 #include "study/sweep/showing/figure_ranking.h"
 
 #include <errno.h>
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 // Points of a sweep that was killed die with it, and leave its lock a moment later; s.

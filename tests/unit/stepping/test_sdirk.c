@@ -221,8 +221,8 @@ static void check_momentum(const RigDef *def, int32_t seen[4])
             impulse[2] += at[0] * f[1] - at[1] * f[0];
         }
         for (int32_t j = 0; j < rig->interface.count; j++) {
-            double r = step * ((1 - stepper.dt_levels.gamma) * stepper.scheme.stage_reaction[j] +
-                               stepper.dt_levels.gamma * now->reaction[j]);
+            double r = step * ((1 - SDIRK2.gamma) * stepper.scheme.stage_reaction[j] +
+                               SDIRK2.gamma * now->reaction[j]);
             int32_t dof = rig->interface.dofs[j];
             const double *at = rig->mesh.position + 2 * (dof / 2);
             impulse[dof % 2] += r;
@@ -321,8 +321,8 @@ TEST(test_bonded_rod)
         EnergyLedger ledger = {0};
         sdirk_add_energy(&stepper.scheme, &outcome, step, &ledger);
         rod_work += ledger.rod_work;
-        force += step * ((1 - stepper.dt_levels.gamma) * stepper.scheme.stage_reaction[10] +
-                         stepper.dt_levels.gamma * stepper.now.reaction[10]);
+        force += step * ((1 - SDIRK2.gamma) * stepper.scheme.stage_reaction[10] +
+                         SDIRK2.gamma * stepper.now.reaction[10]);
         if (s == 0) rod_work = force = 0;   // the jump to V
     }
     // From the second step on both stages go at V: work is V times impulse.

@@ -7,7 +7,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 enum { TEXT_NUMBERS_MAX = 8000, NAME_SIZE = 24 };
 

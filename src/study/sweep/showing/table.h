@@ -24,7 +24,7 @@ typedef struct SweepTable {
     // it in run.json, and the next three; owned
     TableColumn *status;   // a PointStatus
     TableColumn *warnings;   // all of a run in one text; the first word is "": none
-    TableColumn *doubtful;   // 1: the point has a warning, 0: none
+    TableColumn *doubtful;   // 1: the point has a warning or lacks what is ranked or drawn
     // Columns of the study's records: the value, and what run.json has as NAME_error and
     // NAME_known_to beside it; -1: nothing.
     int32_t value[STUDY_RECORDS_MAX], error[STUDY_RECORDS_MAX], known_to[STUDY_RECORDS_MAX];

@@ -8,7 +8,6 @@
 
 #include <ctype.h>
 #include <math.h>
-#include <string.h>
 
 enum { LISTED_MAX = 12 };   // points named below a sentence
 
