@@ -29,7 +29,7 @@ extern "C" {
     X(FIGURE_FIELD, "field", "a field of the block at one time")                                   \
     X(FIGURE_STRIP, "field-strip", "a field of the block in frames of one sliding")
 
-// What takes an option of pictures beside figures: nothing, films, or films and pages of a report.
+// Other pictures than figures that take an option: none, films, or films and pages of a report.
 enum { TAKEN_BY_FIGURES = 0, TAKEN_BY_FILMS = 1, TAKEN_BY_PAGES = 2 };
 
 // The options by which a picture is drawn, in ONE table: those of `amontons render`, `film` and

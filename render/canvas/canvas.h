@@ -73,14 +73,14 @@ void canvas_heat(Canvas *canvas, const Box *box, const HeatMap *map);
 void canvas_heat_triangles(Canvas *canvas, const Box *box, const GlCorner *corners, int64_t count,
                            float *depth);
 
-// Fills `box` with the colour of one value, or of HEAT_BELOW; in a PDF or SVG a shape, no image.
+// Fills `box` with the colour of one value, or of HEAT_BELOW; a PDF or SVG has a shape, no image.
 void canvas_heat_cell(Canvas *canvas, const Box *box, float value);
 void canvas_heat_disc(Canvas *canvas, Point centre, double radius, float value);   // likewise
 bool canvas_is_vector(const Canvas *canvas);   // PDF or SVG
 
-// Pixels that are drawn so far, until the next call that draws: four bytes each (blue, green, red,
-// unused), first row at the top, *stride bytes from row to row. NULL: an error. For CANVAS_PNG
-// only.
+// Returns the pixels that are drawn so far: four bytes each (blue, green, red, unused), first row
+// at the top, *stride bytes from row to row. They hold until the next call that draws. NULL: an
+// error. Only a CANVAS_PNG has pixels.
 const uint8_t *canvas_pixels(Canvas *canvas, int32_t *stride, Error *err);
 
 // All that is drawn on `from` so far, in place of what is on `canvas`: both CANVAS_PNG, equally

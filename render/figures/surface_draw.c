@@ -26,7 +26,7 @@ DepthPoint surface_see(const Block *block, const Axes *axes, const double place[
                         block->moved ? seen[2] / (2 * block->camera.distance) : 0};
 }
 
-// As many of all elements: those side by side leave no crack.
+// Returns the number of parts along a side, the same for all elements: neighbours leave no crack.
 int32_t surface_parts(const Block *block, const Axes *axes)
 {
     const FieldFrame *frame = &block->frame;
@@ -46,7 +46,7 @@ int32_t surface_parts(const Block *block, const Axes *axes)
     return (int32_t)fmax(fmin(ceil(longest / PART_SIZE), most), PARTS_LEAST);
 }
 
-// What has no place or no number is left out.
+// Triangles with a corner that has no place or no number are left out.
 bool surface_colors(Canvas *canvas, const SurfaceDrawing *drawing, const Surface *surface,
                     double low, double high, const DepthImage *image, Error *err)
 {
@@ -97,7 +97,7 @@ void surface_lines(Canvas *canvas, const SurfaceDrawing *drawing, const SurfaceP
     line_end(&pen);
 }
 
-// Where a triangle has the value, a line between two of its sides.
+// Draws a line between two sides of each triangle that has the value.
 void surface_contour(Canvas *canvas, const SurfaceDrawing *drawing, const Surface *surface,
                      double level, const Stroke *stroke, const DepthImage *image)
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A film of a result, frame by frame: which part of the run, how fast its time goes, the page, and
-// the file it goes into.
+// Makes a film of a result frame by frame: chooses the part of the run and how fast its time goes,
+// and puts the page into the file.
 #include "render/canvas/color.h"
 #include "render/film/film_page.h"
 #include "render/picture_options.h"
@@ -25,7 +25,8 @@ enum { WIDTH = 1920, HEIGHT = 1080, WIDTH_LEAST = 640, HEIGHT_LEAST = 360 };
 enum { GIF_RATE = 20, GIF_WIDTH = 800, GIF_HEIGHT = 450 };
 enum { GIF_COLORS = 256, MAP_COLORS = 160, GREYS = 40, TINTS = 9 };   // of a GIF's palette
 
-// The film's name: of a folder that of its PNG frames, frames/frame-%04d.png. Nothing is made.
+// Finds the film's name: that of the frames, frames/frame-%04d.png, where a folder is given.
+// Nothing is made.
 static bool path_find(const char *given, char path[PATH_MAX], bool *is_folder, Error *err)
 {
     // A folder's name has no ending, ends in a slash, or is that of one.
@@ -85,7 +86,7 @@ static bool complete(const FilmRequest *request, FilmRequest *film, int32_t *fra
            path_find(film->path, path, is_folder, err);
 }
 
-// Colours of the pictures: the colour map, greys, and six tints up to white.
+// Fills in the colours of the pictures: the colour map, greys, and six tints up to white.
 static void palette_fill(uint8_t palette[3 * GIF_COLORS])
 {
     static const uint8_t tint[][3] = {{13, 69, 140}, {191, 31, 31},  {237, 148, 20},

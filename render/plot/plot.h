@@ -59,7 +59,7 @@ typedef struct PlotPanel {
 
 typedef struct Plot {
     char title[256];
-    bool no_legend;
+    bool no_legend;   // the file says `legend: none`, or the page does
     double height_over_width;
     PictureStyle style;   // what its `page` says; texts in `words`
     char words[PLOT_WORDS][PLOT_WORD_SIZE];   // [word_count]

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The analysis that algebra/sparse_analysis makes; algebra/sparse_factor
-// uses it; nobody else includes this.
+// The analysis that algebra/sparse_analysis makes and algebra/sparse_factor uses. Nobody else
+// includes this.
 #ifndef AMONTONS_ALGEBRA_SPARSE_ANALYSIS_H
 #define AMONTONS_ALGEBRA_SPARSE_ANALYSIS_H
 

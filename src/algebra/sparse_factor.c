@@ -103,7 +103,7 @@ const double *sparse_schur_lower(const SparseFactor *factor)
     return factor->border_factor;
 }
 
-// L y = rhs; then g = L_bb y_b = rhs_b - A_bi A_ii^-1 rhs_i. y stays in `forward` for the
+// Solves L y = rhs; then g = L_bb y_b = rhs_b - A_bi A_ii^-1 rhs_i. y stays in `forward` for the
 // sparse_expand that follows.
 bool sparse_condense(SparseFactor *factor, const double *rhs, double *g, Error *err)
 {
@@ -142,7 +142,9 @@ bool sparse_expand(SparseFactor *factor, const double *x_border, double *x, Erro
     return true;
 }
 
-enum { COLUMNS = 64 };   // of x that CHOLMOD solves for at once
+// Columns of x that CHOLMOD solves for at once: enough for products of matrices, while the work
+// arrays of each thread stay small.
+enum { COLUMNS = 64 };
 
 typedef struct Expansion {
     const SparseFactor *factor;
@@ -151,7 +153,7 @@ typedef struct Expansion {
     double *x;   // [size * count]
 } Expansion;
 
-// Every chunk of columns whose number is `piece` modulo all.pieces, COLUMNS at a time.
+// Solves for every chunk of COLUMNS columns whose number is `piece` modulo all.pieces.
 static bool expand_piece(void *context, int32_t piece, Error *err)
 {
     const Expansion *all = context;

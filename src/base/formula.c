@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Reading: one function a rule of the grammar in formula.h, each adds its steps behind those of its
 // parts. Evaluating: steps take numbers off a stack and put one on it, each with its derivative
-// (forward differentiation: Griewank and Walther, Evaluating Derivatives, 2008, ch. 3). Bounds: the
-// same walk with intervals.
+// (forward differentiation: Griewank and Walther, Evaluating Derivatives, 2008, ch. 3).
 #include "base/formula.h"
 
 #include "base/text.h"

@@ -126,7 +126,6 @@ MemoryCounters memory_counters(void)
     return tally_now()->counters;
 }
 
-// A test that sets it must take it back (-1) also where it fails.
 void memory_take_over(MemoryCounters counted)
 {
     MemoryCounters *own = &tally_now()->counters;
@@ -134,6 +133,7 @@ void memory_take_over(MemoryCounters counted)
     own->live += counted.live;
 }
 
+// A test that sets it must take it back (-1) also where it fails.
 void memory_fail_after(int64_t allocations)
 {
     tally_now()->until_failure = allocations;

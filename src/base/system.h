@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What Linux says of this process, the program and its memory.
+// Facts that Linux tells about this process, the program and its memory.
 #ifndef AMONTONS_BASE_SYSTEM_H
 #define AMONTONS_BASE_SYSTEM_H
 

@@ -20,7 +20,8 @@ enum {
     BAR_MAX = 40,
 };
 
-// A time left is told once so much of the way and so many s are behind what counts.
+// The time left is printed once this part of the way and this time, s, have passed since the
+// reference moment.
 static const double GONE_LEAST = 0.02, SECONDS_LEAST = 0.2;
 
 static const double LOG_INTERVAL = 10;   // s between lines in a log, of runs behind an error bar

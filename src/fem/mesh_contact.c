@@ -31,8 +31,8 @@ double mesh_gap(const Mesh *mesh, int32_t node)
     return gap > PLACE_TOLERANCE * extent(mesh) ? gap : 0;
 }
 
-// Compares x first and z last. `context` comes third, as qsort_r passes it: no state outside of
-// it.
+// Compares x first and z last. `context` comes third, as qsort_r passes it, without any state
+// outside of it.
 static int compare_places(const void *a, const void *b, void *context)
 {
     const Mesh *mesh = context;

@@ -59,9 +59,9 @@ static bool load_basis(Model *model, const ReductionBlock *block, const char *na
     return true;
 }
 
-// After a reduction that failed with `err`. Under reduction.use: auto an error of computing is
-// taken back, and model->not_reduced says why the whole mesh is stepped; under `always` the error
-// names that key. Other errors, such as lack of memory, stay: bits must not depend on them.
+// Goes on after a reduction that failed with `err`. Under reduction.use: auto an error of computing
+// is taken back, and model->not_reduced says why the whole mesh is stepped; under `always` the
+// error names that key. Other errors, such as lack of memory, stay: bits must not depend on them.
 static bool step_on_mesh(Model *model, Error *err)
 {
     if (err->code != ERROR_COMPUTE && err->code != ERROR_LIBRARY) return false;

@@ -50,7 +50,8 @@
 
 typedef struct Certificate {
     ContactPart part;   // of what is asked about
-    double *damping;   // [count^2] S_C, of one side halved; NULL: C is singular; owned
+    double *damping;   // [count^2] S_C, or its symmetric or antisymmetric part; owned; NULL: C is
+        // singular
     double *alone;   // [contact_count] S[t,t] at the real rate where it is least: what resists a
         // node that slips alone, with branches of the materials; NULL: there are none; owned
     ContactMatrix damping_contact;   // S_C, open nodes condensed out; empty without; owned

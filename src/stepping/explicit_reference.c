@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The step that is free of contact, friction and rod, by two products with sparse matrices, and
-// these three after it, node by node.
+// A step is first free of contact, friction and rod, by two products with sparse matrices; these
+// three follow, node by node.
 #include "stepping/explicit_reference.h"
 
 #include "algebra/dense.h"
@@ -65,7 +65,7 @@ static void to_jumps(const Mesh *mesh, State *state)
     change_unknowns(mesh, floor_find_jumps, floor_gather, state);
 }
 
-// The floor node under a contact node, -1: the floor is rigid.
+// Returns the floor node under a contact node, -1: the floor is rigid.
 static int32_t node_under(const ExplicitReference *scheme, int32_t node)
 {
     const Floor *floor = scheme->def.mesh ? &scheme->def.mesh->floor : &(const Floor){0};
@@ -73,7 +73,8 @@ static int32_t node_under(const ExplicitReference *scheme, int32_t node)
     return row < floor_end(floor, node) ? floor->node[row] : -1;
 }
 
-// Change of component d of a floor node's velocity by a unit force in a step; 0: it is held.
+// Returns the change of component d of a floor node's velocity by a unit force in a step; 0: it is
+// held.
 static double kick_under(const ExplicitReference *scheme, int32_t under, int32_t d)
 {
     const Bulk *bulk = scheme->def.bulk;
@@ -95,7 +96,7 @@ static void subtract_reactions(const ExplicitReference *scheme, const State *sta
     }
 }
 
-// The forces of all branches at t_n.
+// Finds the forces of all branches at t_n.
 static void add_up_pulls(ExplicitReference *scheme, const State *state)
 {
     double *sum = scheme->pull;
@@ -106,8 +107,8 @@ static void add_up_pulls(ExplicitReference *scheme, const State *state)
             sum[d] += state->pull[(int64_t)k * state->dof_count + d];
 }
 
-// Branches at t_n+1 by the velocities v' of the step; returns the power that they dissipate, and
-// adds their energies to the ledger's.
+// Brings branches to t_n+1 by the velocities v' of the step; returns the power that they dissipate,
+// and adds their energies to the ledger's.
 static double advance_branches(ExplicitReference *scheme, State *state, EnergyLedger *ledger)
 {
     const Bulk *bulk = scheme->def.bulk;
@@ -141,7 +142,7 @@ static double advance_branches(ExplicitReference *scheme, State *state, EnergyLe
     return power;
 }
 
-// v half a step before the start, v_0 - (dt/2) a_0, with M a_0 = f + r - K u - C v from the
+// Finds v half a step before the start, v_0 - (dt/2) a_0, with M a_0 = f + r - K u - C v from the
 // equation itself: a load put on at once is not in the inertia of the state it is put on.
 void explicit_reference_start(ExplicitReference *scheme, State *state)
 {
@@ -164,7 +165,7 @@ void explicit_reference_start(ExplicitReference *scheme, State *state)
     to_jumps(scheme->def.mesh, state);
 }
 
-// w + strength mu(w) - free_speed, strength = (dt/m) r_n: by how much speed w is more than what
+// Returns w + strength mu(w) - free_speed, strength = (dt/m) r_n: by how much speed w exceeds what
 // friction leaves of free_speed.
 static double excess_speed(const FrictionNode *node, double free_speed, double strength,
                            double speed)
@@ -172,10 +173,10 @@ static double excess_speed(const FrictionNode *node, double free_speed, double s
     return speed + strength * friction_coefficient(node, speed) - free_speed;
 }
 
-// The speed left of `free_speed` by friction: the largest root of excess_speed; 0: sticks. Newton
-// from the right goes down to it where the law is convex; else halving helps where a step leaves
-// the interval that holds it. Both end where nothing is left between the ends of this interval. A
-// node begins to slip where friction at rest cannot take all of free_speed in one step.
+// Returns the speed that friction leaves of `free_speed`: the largest root of excess_speed; 0:
+// sticks. Newton from the right goes down to it where the law is convex; else halving helps where a
+// step leaves the interval that holds it. Both end where nothing is left between the ends of this
+// interval. A node begins to slip where friction at rest cannot take all of free_speed in one step.
 static double slip_speed(const FrictionNode *node, double free_speed, double strength, bool slipped)
 {
     enum { EXCESS_PARTS = 64 };
@@ -214,8 +215,8 @@ static double mean_power(double force, double before, double after)
     return 0.5 * force * (before + after);
 }
 
-// Contact node i; returns the power it dissipates. Places and velocities are those against the
-// floor until the last lines.
+// Moves contact node i; returns the power it dissipates. Places and velocities are those against
+// the floor until the last lines.
 static double resolve_contact(ExplicitReference *scheme, int32_t i, State *state)
 {
     const Interface *interface = scheme->def.interface;
@@ -302,15 +303,15 @@ static bool rod_holds(const Rod *rod, double velocity, double bound)
     return rod->kind == ROD_IS_BONDED || (rod->kind == ROD_PUSHES && velocity < bound);
 }
 
-// Compliance of node j to the rod: velocity per force/width.
+// Returns the compliance of node j to the rod: velocity per force/width.
 static double rod_yields(const ExplicitReference *scheme, int32_t j)
 {
     const Rod *rod = scheme->def.rod;
     return rod->softness[j] / (scheme->def.step + rod->lag[j]);
 }
 
-// The bounds of the rod's nodes for a step that ends at `time`. Those of a rod on a spring are
-// moved by its own velocity w, at which sum_j r_j(w) + dt k w = k (U - R): the left side rises
+// Finds the bounds of the rod's nodes for a step that ends at `time`. Those of a rod on a spring
+// are moved by its own velocity w, at which sum_j r_j(w) + dt k w = k (U - R): the left side rises
 // piecewise linearly and is convex, so that Newton ends at the root with the set of nodes that it
 // met last.
 static void lead_rod(ExplicitReference *scheme, double time)
@@ -347,7 +348,7 @@ static void lead_rod(ExplicitReference *scheme, double time)
     scheme->rod_way += step * own;
 }
 
-// u and v a step later as if nothing were touched. Returns v C v, the viscous power.
+// Finds u and v a step later as if nothing were touched. Returns v C v, the viscous power.
 static double advance_free(ExplicitReference *scheme)
 {
     const Bulk *bulk = scheme->def.bulk;
@@ -364,7 +365,7 @@ static double advance_free(ExplicitReference *scheme)
     return power;
 }
 
-// One step; the powers of the step go to the ledger.
+// Does one step; its powers go to the ledger.
 static void advance_once(ExplicitReference *scheme, State *state, EnergyLedger *ledger)
 {
     const Interface *interface = scheme->def.interface;

@@ -9,7 +9,7 @@
 // Keeps steps away from the limit itself, where the fastest mode would grow linearly.
 static const double SAFETY = 0.98;
 
-// Gershgorin's circles of M^-1/2 A M^-1/2, whose eigenvalues are the same.
+// The circles are those of M^-1/2 A M^-1/2, which has the same eigenvalues.
 double rate_bound(const Bulk *bulk, const double *values)
 {
     const SparsePattern *pattern = &bulk->pattern;

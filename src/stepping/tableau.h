@@ -11,8 +11,8 @@
 // The estimate of the local error is calibrated on v' = lambda v, z = lambda dt, to which every
 // smooth linear motion comes down, loads and the rod's way included: R(z) = 1 + z b (I - z A)^-1 1
 // misses exp(z) by C z^3 (Hairer and Wanner, Solving ODEs II, IV.3), C = -0.0404, and the estimate
-// has the same C and no lower powers of z. Of v_n and the stages as they are it has to be made:
-// quadrature through them alone is 6.83 times too small, as the first stage is of order 1. Used by
+// has the same C and no lower powers of z. It is made of v_n and the stages:
+// quadrature through them alone is too small, as the first stage is of order 1. Used by
 // stepping/sdirk.
 #ifndef AMONTONS_STEPPING_TABLEAU_H
 #define AMONTONS_STEPPING_TABLEAU_H

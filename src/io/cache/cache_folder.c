@@ -72,8 +72,8 @@ static int by_use(const void *left, const void *right)
 
 bool cache_folder_read(CacheFolder *folder, Error *err)
 {
-    // A file of ours has a name of 32 digits and letters, and an ending that only we use (.shape:
-    // until 0.2; .lock: of a process, also of one that was killed); or it is a part of such a file.
+    // A file of ours has a name of 32 digits and letters, and an ending that only we use (.lock is
+    // that of a process, also of one that was killed); or it is a part of such a file.
 #define ENDING(kind, ending, name) "." ending, "." ending PART,
     static const char *const endings[] = {CACHE_KINDS(ENDING) ".shape", ".lock"};
 #undef ENDING

@@ -146,7 +146,7 @@ void json_begin_list(JsonWriter *json, const char *key)
 // A list of plain values ends on its line.
 void json_end(JsonWriter *json)
 {
-    if (json->depth == 0) return;   // of a level beyond DEPTH_MAX
+    if (json->depth == 0) return;   // closes a level that was not opened beyond DEPTH_MAX
     JsonLevel level = json->levels[json->depth--];
     if (level.count > 0 && !level.one_line) append_new_line(json);
     append_text(json, level.is_list ? "]" : "}");

@@ -381,7 +381,8 @@ bool sweep_plot_draw(const char *folder, const char *beside, const StudyPlot *pl
             FAIL(err, ERROR_INPUT, "plot: the path %.60s is too long", plot->compare);
         self.figure.compare = compare;
     }
-    self.figure.title = beside ? self.table.title : "";   // else it says something else
+    // The study's title is that of its own plots.
+    self.figure.title = beside ? self.table.title : "";
     write_figure(&self, err);
     figure_end(&self.figure, err);
 cleanup:
