@@ -16,8 +16,8 @@
 typedef struct Branches {
     const BulkOperator *system;   // not owned, like the next
     const Spectrum *spectrum;
-    // [SDIRK_STAGES - 1][count][dof_count] de_k/dt and K_k de_k/dt of earlier stages; owned, like the
-    // next.
+    // [SDIRK_STAGES - 1][count][dof_count] de_k/dt and K_k de_k/dt of earlier stages; owned, like
+    // the next.
     double *stretch_rate, *pull_rate;
     double *image;   // [shape_count][dof_count] S_j v
     double *work;   // [dof_count]
