@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "study/sweep/reading/study_point.h"
-#include "study/sweep/reading/study_read.h"
+#include "study/sweep/reading/study.h"
 #include "tests/fuzz/fuzz.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)

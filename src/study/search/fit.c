@@ -5,12 +5,11 @@
 //
 // Misfit: -2 ln of the likelihood, sum of (found - measured)^2 / (s^2 + e^2) + ln(1 + e^2 / s^2),
 // with s the error of a measurement and e that of the program.
-#include "study/search/fit_regions.h"
+#include "study/search/fit.h"
 
 #include "base/clock.h"
 #include "base/decimal_point.h"
 #include "base/memory.h"
-#include "study/search/fit_report.h"
 
 #include <math.h>
 #include <stdio.h>

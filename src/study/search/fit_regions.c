@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Regions by the profile of the misfit: Venzon and Moolgavkar, Appl. Stat. 37, 87 (1988).
-#include "study/search/fit_regions.h"
+#include "study/search/fit.h"
 
 #include "algebra/dense.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "study/search/fit_report.h"
+#include "study/search/fit.h"
 
 #include "algebra/dense.h"
 #include "base/memory.h"

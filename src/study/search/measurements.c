@@ -8,7 +8,7 @@
 #include "io/text/csv_reader.h"
 #include "io/text/json_reader.h"
 #include "scene/keys.h"
-#include "study/sweep/reading/study_wanted.h"
+#include "study/sweep/reading/study.h"
 
 #include <math.h>
 #include <stdio.h>

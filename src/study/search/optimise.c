@@ -2,7 +2,7 @@
 // study read -> designs chosen, in rounds of as many as are computed side by side (search), in turn
 // with those along each key through the best -> the best decided with smaller error bars ->
 // answer, figures.
-#include "study/search/optimise_report.h"
+#include "study/search/optimise.h"
 
 #include "base/clock.h"
 #include "base/decimal_point.h"

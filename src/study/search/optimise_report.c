@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "study/search/optimise_report.h"
+#include "study/search/optimise.h"
 
 #include "base/memory.h"
 #include "io/text/json_reader.h"
-#include "study/search/pareto_front.h"
 #include "study/search/search_answer.h"
 #include "study/sweep/computing/point.h"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "study/search/pareto_front.h"
+#include "study/search/optimise.h"
 
 #include "base/memory.h"
 #include "base/order.h"
 #include "study/search/search_answer.h"
-#include "study/sweep/reading/study_point.h"
+#include "study/sweep/reading/study.h"
 
 #include <math.h>
 #include <stdlib.h>

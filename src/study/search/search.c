@@ -9,8 +9,8 @@
 #include "base/module.h"
 #include "io/text/json_reader.h"
 #include "scene/formulas.h"
-#include "study/sweep/computing/tally.h"
-#include "study/sweep/reading/study_point.h"
+#include "study/sweep/computing/point.h"
+#include "study/sweep/reading/study.h"
 
 #include <math.h>
 #include <string.h>

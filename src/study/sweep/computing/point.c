@@ -10,7 +10,7 @@
 #include "io/text/json_reader.h"
 #include "io/text/json_writer.h"
 #include "scene/keys.h"
-#include "study/sweep/reading/study_point.h"
+#include "study/sweep/reading/study.h"
 
 #include <limits.h>
 #include <math.h>

@@ -92,4 +92,31 @@ bool point_write_failure(Sweep *sweep, int32_t point, const char *failure, const
 // "load.pressure=0.003 mesh.set.nx=40"
 void point_words(const Sweep *sweep, const Scene *scene, char words[POINT_WORDS_SIZE]);
 
+// --- points are counted as they end, and reported to the caller (options->on_point): tally
+// Points from `first` on that an earlier sweep finished: computed again only where the options say
+// so.
+bool sweep_take_finished(Sweep *sweep, int32_t first, Error *err);
+bool sweep_is_waiting(const Sweep *sweep, int32_t point);   // to be computed, by itself
+// ERROR_INTERRUPT once options->stop is set.
+bool sweep_check_stop(const Sweep *sweep, Error *err);
+// The process of `point` has ended: its report is counted and reported. seconds: it took;
+// NaN: as in run.json. *left: whether there is a run.json.
+bool sweep_take_ended(Sweep *sweep, int32_t point, double seconds, bool *left, Error *err);
+// The same of one that left none: first the report of its failure is written, `failure` in a word
+// or two, `message` in full.
+bool sweep_take_lost(Sweep *sweep, int32_t point, double seconds, const char *failure,
+                     const char *message, Error *err);
+// Is called when all are computed: points with the same scene get the status of the first of them.
+void sweep_share_results(Sweep *sweep);
+void sweep_summarise(const Sweep *sweep, SweepSummary *summary);
+
+// --- pending points are computed
+// In processes of this computer. jobs: points at a time; 0: as many as there are cores. Every
+// step-th point is looked at.
+bool pool_run(Sweep *sweep, int32_t jobs, int32_t step, Error *err);
+// As Slurm job arrays, an element a share; waits for them.
+bool slurm_run(Sweep *sweep, Error *err);
+// Cancels what an earlier sweep in this folder, itself killed, left to Slurm.
+bool slurm_end_leftovers(const Sweep *sweep, Error *err);
+
 #endif

@@ -4,14 +4,13 @@
 // one gets a new process. What a child is to compute it reads from a socket; there it says that a
 // point has ended, with the message that could not be written to run.json. When the socket closes,
 // the child has ended.
-#include "study/sweep/computing/pool.h"
+#include "study/sweep/computing/point.h"
 
 #include "base/clock.h"
 #include "base/memory.h"
 #include "base/process.h"
 #include "base/system.h"
 #include "base/transfer.h"
-#include "study/sweep/computing/tally.h"
 
 #include <errno.h>
 #include <malloc.h>

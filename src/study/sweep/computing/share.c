@@ -6,8 +6,8 @@
 #include "base/memory.h"
 #include "io/files/text_file.h"
 #include "io/text/text_writer.h"
-#include "study/sweep/computing/pool.h"
-#include "study/sweep/reading/study_read.h"
+#include "study/sweep/computing/point.h"
+#include "study/sweep/reading/study.h"
 
 #include <dirent.h>
 #include <stdlib.h>

@@ -5,7 +5,7 @@
 // (slurm_jobs): the point it was at has failed, those behind it wait for the next sweep. With
 // `keep: table` points are far shorter than the start of an element: a share is so many as take
 // some minutes, and all that it left undone waits.
-#include "study/sweep/computing/slurm.h"
+#include "study/sweep/computing/point.h"
 
 #include "base/clock.h"
 #include "base/memory.h"
@@ -13,10 +13,8 @@
 #include "io/files/open_file.h"
 #include "io/files/text_file.h"
 #include "io/text/json_reader.h"
-#include "study/sweep/computing/pool.h"
 #include "study/sweep/computing/share.h"
 #include "study/sweep/computing/slurm_jobs.h"
-#include "study/sweep/computing/tally.h"
 
 #include <math.h>
 #include <string.h>

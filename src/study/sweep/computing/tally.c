@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "study/sweep/computing/tally.h"
+#include "study/sweep/computing/point.h"
 
 #include "base/clock.h"
 #include "base/memory.h"

@@ -84,23 +84,18 @@ cleanup:
     return -1;
 }
 
-// `key` itself, or a map that it is in.
-static bool sets(const char *given, const char *key)
+const char *study_find_given(const Study *study, const bool *among, const char *key,
+                             const YamlDocument *document, YamlNode node)
 {
-    size_t length = strlen(given);
-    return strncmp(key, given, length) == 0 && (!key[length] || key[length] == '.');
-}
-
-bool study_is_chosen(const Study *study, const char *key)
-{
-    for (int32_t k = 0; k < study->axis_count; k++)
-        if (sets(study->axes[k].key, key)) return true;
-    for (int32_t k = 0; study->case_list && k < study->case_count; k++) {
-        const YamlDocument *document = study->case_list[k].document;
-        YAML_EACH (item, document, study->case_list[k].map)
-            if (sets(yaml_key(document, item), key)) return true;
+    int32_t column = study_column(study, key);
+    if (column >= 0 && among[column]) return study->columns[column];
+    YAML_EACH (item, document, node) {
+        char path[STUDY_NAME_SIZE];
+        snprintf(path, sizeof path, "%.40s.%.50s", key, yaml_key(document, item));
+        const char *found = study_find_given(study, among, path, document, item);
+        if (found) return found;
     }
-    return false;
+    return NULL;
 }
 
 // Frees a study that is half read, too.

@@ -195,7 +195,37 @@ typedef struct Study {
     StudyPlot plots[STUDY_PLOTS_MAX];
 } Study;
 
+// overrides: "key=value" as after --set, for every point; a key that is varied is refused. Values
+// are checked when the scenes of the points are made (study_scene).
+// ERROR_INPUT: file:line:column, the key, what was found and what is allowed.
+bool study_read(const char *path, const char *const *overrides, int32_t override_count,
+                bool trusted, Study *study, Error *err);
+// Adds further cases to a study that searches, from the list of maps in `text`.
+bool study_add_designs(Study *study, const char *text, Error *err);
 void study_destroy(Study *study);   // also of one half read
+
+// --- scenes, one for each point (study_point)
+typedef struct PointChoice {
+    int32_t point;   // 0 to point_count - 1: cases outermost, then the keys of `vary` in order
+    const StudyCase *trial;   // in place of the case of `point`; NULL: its own
+    bool baseline;   // with the keys of rank.baseline: what `point` is measured against
+} PointChoice;
+
+bool study_scene(const Study *study, const PointChoice *choice, Scene *scene, Error *err);
+// The value of a column's key in a scene, as text; *number is NaN where it is no number.
+void study_scene_value(const Scene *scene, const char *key, char *words, int32_t size,
+                       double *number);
+// Adds "load.pressure=0.003" to `words`, which has room for `size` bytes.
+void study_add_words(const Scene *scene, const char *key, char *words, int32_t size);
+
+// --- results that a study asks for (study_wanted)
+bool study_read_wanted(Study *study, Error *err);   // `record`, `rank` and `plot`
+// The path in run.json of what `record` calls `name`; NULL: no name of its list, nor a path of
+// results.
+const char *study_record_path(const char *name);
+const char *plot_key_name(PlotKey key);   // "x"; static storage
+// One plot, also that of `amontons render --plot`. Does not check what the names stand for.
+bool plot_read(const YamlDocument *file, YamlNode map, StudyPlot *plot, Error *err);
 
 // --- what the files that read a study share
 typedef struct WantedKey {
@@ -216,7 +246,10 @@ bool wanted_choice(const YamlDocument *file, const WantedKey *key, const char *c
 int32_t study_add_column(Study *study, const char *key, Error *err);
 // The index in `columns` of the key `name`; -1: it does not vary.
 int32_t study_column(const Study *study, const char *name);
-bool study_is_chosen(const Study *study, const char *key);
+// The first column that a value given under `key` sets, by itself or in the map it is, and that is
+// one of `among`; NULL: none.
+const char *study_find_given(const Study *study, const bool *among, const char *key,
+                             const YamlDocument *document, YamlNode node);
 bool study_plain_number(const Study *study, YamlNode node, double *value);   // false: is none
 // [from, to] of a key, in SI base units where both have units; unit: the base unit then ("m"), with
 // which numbers are to be handed to the scene, else "". false: it is none.

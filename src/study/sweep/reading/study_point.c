@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The scene of one point of a study: its settings, in order.
-#include "study/sweep/reading/study_point.h"
+#include "study/sweep/reading/study.h"
 
 #include "base/memory.h"
 #include "scene/formulas.h"

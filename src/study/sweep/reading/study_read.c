@@ -2,17 +2,16 @@
 // Reads a study's file: what it changes in its base scene (`set`, `cases`, `vary`, --set) and what
 // it searches (`search`, `where`, `best` or `fit`). Lists are bounded (study.h), so that a typing
 // error ends in a message and not in a week of runs. study_wanted reads what is wanted of it.
-#include "study/sweep/reading/study_read.h"
+#include "study/sweep/reading/study.h"
 
 #include "base/memory.h"
+#include "base/text.h"
 #include "io/files/folder.h"
 #include "scene/formulas.h"
 #include "scene/keys.h"
-#include "study/sweep/reading/study_wanted.h"
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { DESIGNS_FEWEST = 20, DESIGNS_A_KEY = 10 };   // without `best: {designs: ...}`
@@ -47,28 +46,12 @@ static bool add_columns(Study *study, const char *key, const YamlDocument *docum
     return error_is_clean(err);
 }
 
-// The first column that a value given under `key` sets, by itself or in the map it is, and that is
-// one of `among`; NULL: none.
-static const char *find_given(const Study *study, const bool *among, const char *key,
-                              const YamlDocument *document, YamlNode node)
-{
-    int32_t column = study_column(study, key);
-    if (column >= 0 && among[column]) return study->columns[column];
-    YAML_EACH (item, document, node) {
-        char path[STUDY_NAME_SIZE];
-        snprintf(path, sizeof path, "%.40s.%.50s", key, yaml_key(document, item));
-        const char *found = find_given(study, among, path, document, item);
-        if (found) return found;
-    }
-    return NULL;
-}
-
 // Refuses an item of `what` that gives a key that varies. A formula of `cases` over that key itself
 // (= 2 * load.pressure) takes what varies, and is no second value.
 static bool check_given(const Study *study, const char *what, YamlNode item, bool takes, Error *err)
 {
     const char *found =
-        find_given(study, study->varied, yaml_key(study->file, item), study->file, item);
+        study_find_given(study, study->varied, yaml_key(study->file, item), study->file, item);
     if (!found || (takes && scene_is_formula(study->file, item) &&
                    strstr(yaml_text(study->file, item), found)))
         return true;
@@ -151,16 +134,10 @@ static bool read_range(Study *study, YamlNode node, StudyAxis *axis, Error *err)
     for (int32_t k = 0; k < points; k++) {
         double part = points > 1 ? (double)k / (points - 1) : 0;
         double value = is_log ? from * pow(to / from, part) : from + (to - from) * part;
-        int digits = 6;
-        if (k == 0 || k == points - 1) {
-            value = k == 0 ? from : to;
-            for (digits = 6; digits < 17; digits++) {
-                char trial[NUMBER_SIZE];
-                snprintf(trial, sizeof trial, "%.*g", digits, value);
-                if (strtod(trial, NULL) == value) break;
-            }
-        }
-        used += snprintf(text + used, NUMBER_SIZE, "%s%.*g%s", k ? ", " : "", digits, value, unit);
+        char number[NUMBER_TEXT_SIZE];
+        snprintf(number, sizeof number, "%.6g", value);
+        if (k == 0 || k == points - 1) text_shortest(k == 0 ? from : to, 6, number);
+        used += snprintf(text + used, NUMBER_SIZE, "%s%s%s", k ? ", " : "", number, unit);
     }
     text[used] = ']';
 
@@ -192,7 +169,8 @@ static bool read_axis(Study *study, YamlNode item, Error *err)
     int32_t filled = 0;
     YAML_EACH (value, axis->document, axis->list) axis->values[filled++] = value;
     YAML_EACH (value, axis->document, axis->list) {
-        const char *found = find_given(study, study->varied, axis->key, axis->document, value);
+        const char *found =
+            study_find_given(study, study->varied, axis->key, axis->document, value);
         if (found) return yaml_key_error(study->file, item, err, "%s: varied twice", found);
     }
     YAML_EACH (value, axis->document, axis->list)
@@ -241,7 +219,7 @@ static bool read_changes(Study *study, const char *const *overrides, int32_t ove
         YamlDocument **document = &study->made[study->made_count];
         if (!scene_override_parse(overrides[k], key, document, err)) return false;
         study->made_count++;
-        const char *found = find_given(study, study->chosen, key, *document, YAML_ROOT);
+        const char *found = study_find_given(study, study->chosen, key, *document, YAML_ROOT);
         if (found) return REFUSE(err, "--set %s: %s varies %s", key, study->path, found);
         study->overrides[study->override_count++] =
             (SceneSetting){.key = key, .document = *document, .node = YAML_ROOT};
@@ -315,7 +293,8 @@ static bool read_search_key(Study *study, YamlNode item, Error *err)
         (key->least != floor(key->least) || key->most != floor(key->most)))
         return yaml_refuse(study->file, range, key->key, "two whole numbers", err);
     search->key_count++;
-    if (study_is_chosen(study, key->key))
+    int32_t column = study_column(study, key->key);
+    if (column >= 0 && study->chosen[column])
         return yaml_key_error(study->file, item, err, "%s: searched, and given by `vary` as well",
                               key->key);
     return study_add_column(study, key->key, err) >= 0;

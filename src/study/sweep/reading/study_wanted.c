@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Reads what a study wants of its points: `record`, `rank` and `plot`. A quantity that is drawn or
 // ranked by becomes a column of the table if it is none yet.
-#include "study/sweep/reading/study_wanted.h"
+#include "study/sweep/reading/study.h"
 
 #include "base/formula.h"
 #include "base/text.h"
@@ -139,7 +139,7 @@ static bool read_rank(Study *study, Error *err)
         rank->against = AGAINST_KEYS;
         rank->baseline = against;
         YAML_EACH (item, file, against) {
-            if (study_is_chosen(study, yaml_key(file, item))) continue;
+            if (study_find_given(study, study->chosen, yaml_key(file, item), file, item)) continue;
             return yaml_key_error(file, item, err,
                                   "against: neither `vary` nor `cases` has the key `%.60s`",
                                   yaml_key(file, item));

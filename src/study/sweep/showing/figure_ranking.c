@@ -3,7 +3,7 @@
 // points whose runs warned.
 #include "study/sweep/showing/figure_ranking.h"
 
-#include "study/sweep/reading/study_point.h"
+#include "study/sweep/reading/study.h"
 #include "study/sweep/showing/figure_file.h"
 
 #include <math.h>

@@ -13,7 +13,7 @@
 #include "base/text.h"
 #include "io/text/csv_writer.h"
 #include "io/text/json_reader.h"
-#include "study/sweep/reading/study_point.h"
+#include "study/sweep/reading/study.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -6,7 +6,7 @@
 #include "base/decimal_point.h"
 #include "base/text.h"
 #include "io/text/yaml_document.h"
-#include "study/sweep/reading/study_wanted.h"
+#include "study/sweep/reading/study.h"
 #include "study/sweep/showing/sweep_plot.h"
 
 #include <dirent.h>

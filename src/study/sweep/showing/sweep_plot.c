@@ -8,7 +8,7 @@
 #include "base/order.h"
 #include "io/files/folder.h"
 #include "render/picture_options.h"
-#include "study/sweep/reading/study_wanted.h"
+#include "study/sweep/reading/study.h"
 #include "study/sweep/showing/figure_file.h"
 #include "study/sweep/showing/plot_table.h"
 

@@ -14,7 +14,7 @@
 #include "io/hdf5/array_file.h"
 #include "io/text/csv_writer.h"
 #include "io/text/json_reader.h"
-#include "study/sweep/reading/study_point.h"
+#include "study/sweep/reading/study.h"
 
 #include <math.h>
 #include <string.h>

@@ -4,7 +4,7 @@
 
 #include "base/memory.h"
 #include "near.h"
-#include "study/search/pareto_front.h"
+#include "study/search/optimise.h"
 
 static Study study = {
     .axis_count = 1,

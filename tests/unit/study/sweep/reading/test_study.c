@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Studies: which points they stand for, what each point's scene holds, and what is wrong where.
-#include "study/sweep/reading/study_read.h"
+#include "study/sweep/reading/study.h"
 
 #include "base/memory.h"
 #include "cases.h"
 #include "scene/keys.h"
-#include "study/sweep/reading/study_point.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -272,12 +271,16 @@ TEST(test_rank_and_plot)
                       "vary: {rod.height: [1]}\nrank: {by: mu_M}\n");
     assert_true(study->rank.against == AGAINST_FIRST && !study->rank.lowest);
     assert_int_equal(study->rank.top, 10);
-    assert_true(study_is_chosen(study, "mesh.set.nx") && study_is_chosen(study, "rod.height"));
-    assert_false(study_is_chosen(study, "rod.width") || study_is_chosen(study, "mesh.settle"));
+    assert_int_equal(study->column_count, 3);
+    assert_true(study->chosen[study_column(study, "mesh.set.nx")]);
+    assert_true(study->chosen[study_column(study, "rod.height")]);
+    assert_false(study->chosen[study_column(study, "rod.width")]);
     assert_false(study->plot_count > 0 || study->rank.refine > 0);
     drop(study);
-    study = read_body("vary: {rod: [{kind: push}, {kind: bonded}]}\n");   // a map as a whole
-    assert_true(study_is_chosen(study, "rod.velocity") && study_is_chosen(study, "rod"));
+    study = read_body("vary: {rod: [{kind: push}, {kind: bonded}]}\n"   // a map as a whole
+                      "rank: {by: mu_M, against: {rod: {kind: push}}}\n");
+    assert_true(study->rank.against == AGAINST_KEYS);
+    assert_true(study->chosen[study_column(study, "rod.kind")]);
     drop(study);
     study = read_body("vary: {rod.height: [1]}\nrank: {by: mu_M, refine: 0.5%}\n");
     assert_true(study->rank.refine == 0.5 / 100);

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Studies that are none, or have too much of something, and words that are nearly right: what is
 // refused, and where.
-#include "study/sweep/reading/study_point.h"
-#include "study/sweep/reading/study_read.h"
+#include "study/sweep/reading/study.h"
 
 #include "base/memory.h"
 #include "result_place.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A fit under way, and how well each key is known. Shared by the files of its name.
-#ifndef AMONTONS_STUDY_SEARCH_FIT_REGIONS_H
-#define AMONTONS_STUDY_SEARCH_FIT_REGIONS_H
+// A fit under way, and how well each key is known. Shared by fit, fit_regions, fit_report.
+#ifndef AMONTONS_STUDY_SEARCH_FIT_H
+#define AMONTONS_STUDY_SEARCH_FIT_H
 
 #include "amontons_optimise.h"
 #include "study/search/measurements.h"
@@ -39,5 +39,8 @@ bool fit_walk(const Fit *fit, const double *ray, double most, double *place);
 // Finds the regions of all keys from the responses near the best point. *stays: no end has moved by
 // more than a part of its region.
 void fit_find_regions(Fit *fit, bool *stays);
+// Writes words to options->out, fit.csv with a row a measurement, and the figures measured.png,
+// course.png, profile_KEY.png and region_KEY_KEY.png.
+bool fit_report(const Fit *fit, const FitSummary *summary, Error *err);
 
 #endif
