@@ -15,7 +15,7 @@
 #include "study/sweep/computing/share.h"
 #include "study/sweep/reading/study.h"
 #include "study/sweep/showing/sweep_plot.h"
-#include "study/sweep/showing/figure_ranking.h"
+#include "study/sweep/showing/rank.h"
 
 #include <errno.h>
 #include <string.h>
@@ -119,14 +119,8 @@ cleanup:
 bool sweep_show(const Sweep *sweep, bool whole, Error *err)
 {
     SweepTable table = {0};
-    Ranking ranking = {0};
     TRY(table_write(sweep, &table, err));
-    if (sweep->study.rank.wanted) {
-        TRY(ranking_make(sweep, &table, &ranking, err));
-        TRY(ranking_write(sweep, &table, &ranking, err));
-        if (whole) TRY(ranking_print(sweep, &table, &ranking, err));
-        if (whole) TRY(figure_of_ranking(sweep, &table, &ranking, err));
-    }
+    if (sweep->study.rank.wanted) TRY(ranking_show(sweep, &table, whole, err));
     for (int32_t k = 0; whole && k < sweep->study.plot_count; k++)
         TRY(sweep_plot_draw(sweep->folder, sweep->study.path, &sweep->study.plots[k], NULL, err));
     Error none = {0};
@@ -144,7 +138,6 @@ bool sweep_show(const Sweep *sweep, bool whole, Error *err)
                 "leaves; a study's `set: {accuracy.mu: 1%%}` asks for bars\n",
                 table.no_bar, sweep->study.point_count);
 cleanup:
-    ranking_destroy(&ranking);
     table_destroy(&table);
     return error_is_clean(err);
 }

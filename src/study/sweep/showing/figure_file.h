@@ -2,7 +2,7 @@
 // A figure of a sweep: first a description in render/plot/plot_file's format, figures/NAME.json,
 // which a user may edit and draw again (`amontons render`); the module `render` makes the picture.
 // Arrays too long for a text stand beside it in figures/NAME.h5. Called by
-// sweep_plot, figure_ranking and study/search/search_answer.
+// sweep_plot, rank and study/search/search_answer.
 #ifndef AMONTONS_STUDY_SWEEP_SHOWING_FIGURE_FILE_H
 #define AMONTONS_STUDY_SWEEP_SHOWING_FIGURE_FILE_H
 

@@ -14,12 +14,16 @@
 #include "io/text/csv_writer.h"
 #include "io/text/json_reader.h"
 #include "study/sweep/reading/study.h"
+#include "study/sweep/showing/figure_file.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { CELL_SIZE = 80, CELLS_MAX = STUDY_COLUMNS_MAX + 6, RANK_NOTE_SIZE = 120 };
+enum { NAME_SIZE = 60, ROWS_MAX = 60, BASELINE_COLOR = 7 };   // of the figure
+
+static const double ROW_HEIGHT = 0.05, HEIGHT_LEFT = 0.17;   // of the width: a row; axis and name
 
 // --- order --------------------------------------------------------------------------------------
 
@@ -44,48 +48,41 @@ static int32_t baseline_of(const Sweep *sweep, const Ranking *ranking, int32_t p
     return sweep->study.rank.against == AGAINST_KEYS ? sweep->points[point].baseline : 0;
 }
 
-static bool is_decided(const RankRow *a, const RankRow *b)
+static bool is_decided(double value, double error, const RankRow *row)
 {
-    double difference = a->value - b->value;
-    return difference * difference > a->error * a->error + b->error * b->error;
+    double difference = value - row->value;
+    return difference * difference > error * error + row->error * row->error;
 }
 
-static bool is_beyond(double value, double largest_error, const RankRow *row)
+// rows: sorted. The ranks that each may have. Rows further off than one that even the largest of
+// all errors decides are decided wherever their own error is known: squares and sums are rounded
+// alike for all.
+static void find_places(Ranking *ranking)
 {
-    return is_decided(&(RankRow){.value = value, .error = largest_error}, row);
-}
-
-// rows: sorted. The ranks that each may have. A row that even the largest error of those further
-// off decides is decided wherever its own error is known, and so are they: squares and sums are
-// rounded alike for all.
-static bool find_places(Ranking *ranking, Error *err)
-{
-    int32_t count = ranking->ranked;
+    int32_t count = ranking->ranked, unknown = 0, unknown_before = 0;
     RankRow *rows = ranking->rows;
-    int32_t *known = NEW_ARRAY(int32_t, count + 1, err);   // errors of the rows before
-    double *low = NEW_ARRAY(double, count + 1, err);   // largest error of the rows before
-    double *high = NEW_ARRAY(double, count + 1, err);   // of this row and those behind
-    for (int32_t k = 0; error_is_clean(err) && k < count; k++) {
-        known[k + 1] = known[k] + !isnan(rows[k].error);
-        low[k + 1] = fmax(low[k], rows[k].error);
+    double largest = 0;
+    for (int32_t k = 0; k < count; k++) {
+        unknown += isnan(rows[k].error);
+        largest = fmax(largest, rows[k].error);
     }
-    for (int32_t k = count; error_is_clean(err) && k-- > 0;)
-        high[k] = fmax(high[k + 1], rows[k].error);
-    for (int32_t k = 0; error_is_clean(err) && k < count; k++) {
+    for (int32_t k = 0; k < count; k++) {
         RankRow *row = &rows[k];
-        int32_t before = k, after = k + 1;
         row->from = 1;
         row->to = count;
-        if (isnan(row->error)) continue;
-        for (; before > 0 && !is_beyond(rows[before - 1].value, low[before], row); before--)
-            row->from += is_decided(&rows[before - 1], row);
-        for (; after < count && !is_beyond(rows[after].value, high[after], row); after++)
-            row->to -= is_decided(&rows[after], row);
-        row->from += known[before];
-        row->to -= known[count] - known[after];
+        if (isnan(row->error)) {
+            unknown_before++;
+            continue;
+        }
+
+        // As if all rows with a known error were decided; then those near it that are not.
+        row->from = k + 1 - unknown_before;
+        row->to = k + 1 + unknown - unknown_before;
+        for (int32_t i = k; i-- > 0 && !is_decided(rows[i].value, largest, row);)
+            row->from -= !isnan(rows[i].error) && !is_decided(rows[i].value, rows[i].error, row);
+        for (int32_t i = k + 1; i < count && !is_decided(rows[i].value, largest, row); i++)
+            row->to += !isnan(rows[i].error) && !is_decided(rows[i].value, rows[i].error, row);
     }
-    memory_free_all(known, low, high);
-    return error_is_clean(err);
 }
 
 // `lowest` is sorted as `highest` of the negative values, which are turned back afterwards.
@@ -106,7 +103,7 @@ bool ranking_make(const Sweep *sweep, const SweepTable *table, Ranking *ranking,
         ranking->ranked += !isnan(ranking->rows[k].value);
     }
     qsort(ranking->rows, (size_t)ranking->count, sizeof *ranking->rows, compare);
-    if (ranking->has_error && !find_places(ranking, err)) return false;
+    if (ranking->has_error) find_places(ranking);
     int32_t base = study->rank.against == AGAINST_KEYS ? -1 : baseline_of(sweep, ranking, 0);
     ranking->base = base < 0 ? (double)NAN : table_value(table, record, base);
     for (int32_t k = 0; k < ranking->count; k++) {
@@ -134,10 +131,10 @@ void ranking_destroy(Ranking *ranking)
 
 // --- notes --------------------------------------------------------------------------------------
 
-static void add_note(char note[RANK_NOTE_SIZE], const char *words)
+static void join(char *text, size_t size, const char *word)
 {
-    size_t used = strlen(note);
-    snprintf(note + used, RANK_NOTE_SIZE - used, "%s%s", used ? ", " : "", words);
+    size_t used = strlen(text);
+    snprintf(text + used, size - used, "%s%.50s", used ? ", " : "", word);
 }
 
 // Says in a few words what makes a value or its rank doubtful.
@@ -153,22 +150,22 @@ static bool rank_notes(const Sweep *sweep, const Ranking *ranking, const RankRow
     TRY(error_is_clean(err));
     if (report)
         json_find_number(report, by_mu_hold ? "results.drops.period" : "results.period", &period);
-    if (status != POINT_DONE) add_note(note, point_status_name(status));
-    if (status == POINT_DONE && isnan(row->value)) add_note(note, "no value");
+    if (status != POINT_DONE) join(note, RANK_NOTE_SIZE, point_status_name(status));
+    if (status == POINT_DONE && isnan(row->value)) join(note, RANK_NOTE_SIZE, "no value");
     snprintf(text, sizeof text, "not decided between %d and %d", row->from, row->to);
-    if (row->from < row->to) add_note(note, text);
+    if (row->from < row->to) join(note, RANK_NOTE_SIZE, text);
     if (ranking->has_error && !isnan(row->value) && isnan(row->error))
-        add_note(note, "error not known");
-    if (period == 0) add_note(note, "not periodic");
+        join(note, RANK_NOTE_SIZE, "error not known");
+    if (period == 0) join(note, RANK_NOTE_SIZE, "not periodic");
     if (report && by_mu_hold && json_find_number(report, "results.drops.enough", &enough) &&
         enough == 0)
-        add_note(note, "too few drops");
+        join(note, RANK_NOTE_SIZE, "too few drops");
     if (report && json_find_number(report, "results.run_in.over", &over) && over == 0)
-        add_note(note, "run-in not over");
+        join(note, RANK_NOTE_SIZE, "run-in not over");
     snprintf(text, sizeof text, "period %.0f", period);
-    if (period > 1) add_note(note, text);
+    if (period > 1) join(note, RANK_NOTE_SIZE, text);
     if (report && json_find_text(report, "warnings.0", warning, sizeof warning))
-        add_note(note, "warned");
+        join(note, RANK_NOTE_SIZE, "warned");
 cleanup:
     memory_free(report);
     return error_is_clean(err);
@@ -178,7 +175,8 @@ cleanup:
 
 // All points, also those that a terminal does not show. The rank of a point without a value is
 // empty; its note gives the reason.
-bool ranking_write(const Sweep *sweep, const SweepTable *table, const Ranking *ranking, Error *err)
+static bool write_ranking(const Sweep *sweep, const SweepTable *table, const Ranking *ranking,
+                          Error *err)
 {
     const Study *study = &sweep->study;
     const char *name = ranked_by(study)->name;
@@ -278,7 +276,8 @@ static void print_edges(const Sweep *sweep, const SweepTable *table, const Ranki
 }
 
 // Nothing is printed where the caller wants nothing (options->out NULL).
-bool ranking_print(const Sweep *sweep, const SweepTable *table, const Ranking *ranking, Error *err)
+static bool print_ranking(const Sweep *sweep, const SweepTable *table, const Ranking *ranking,
+                          Error *err)
 {
     FILE *out = sweep->options->out;
     int32_t cells = 0, shown = ranking->ranked;
@@ -362,5 +361,110 @@ bool ranking_print(const Sweep *sweep, const SweepTable *table, const Ranking *r
     if (ranking->ranked > 0) print_edges(sweep, table, ranking, out);
 cleanup:
     memory_free(rows);
+    return error_is_clean(err);
+}
+
+// --- the figure ---------------------------------------------------------------------------------
+
+// Doubts about a row, as bits.
+static int32_t doubts_of(const SweepTable *table, const Ranking *ranking, int32_t k)
+{
+    const RankRow *row = &ranking->rows[k];
+    return (table->doubtful->values[row->point] > 0 ? DOUBT_WARNED : 0) |
+           (ranking->has_error && isnan(row->error) ? DOUBT_NO_ERROR : 0);
+}
+
+// A row a point, none where no point has a value. Bars: the errors of the table, none where the
+// error is not known. Open marks: points whose runs warned.
+static bool draw_ranking(const Sweep *sweep, const SweepTable *table, const Ranking *ranking,
+                         Error *err)
+{
+    const Study *study = &sweep->study;
+    Figure figure = {.folder = sweep->folder, .name = "ranking", .title = study->title};
+    double x[ROWS_MAX], y[ROWS_MAX], error[ROWS_MAX], ignored = 0;
+    char words[QUANTITY_LABEL_SIZE] = "", cell[SCENE_TEXT_SIZE];
+    int32_t found = 0;
+    int32_t shown = ranking->ranked;
+    if (shown > study->rank.top) shown = study->rank.top;
+    if (shown > ROWS_MAX) shown = ROWS_MAX;
+    if (shown == 0) return true;
+    QuantityLabel label = label_of_record(study->records[study->rank.record].name);
+    TRY(figure_begin(&figure, err));
+    JsonWriter *json = figure.json;
+    json_number(json, "height", fmax(0.3, HEIGHT_LEFT + ROW_HEIGHT * shown));
+    figure_write_axis(&figure, "x", &label, "linear");
+
+    // Names: the values of the keys chosen, from the lowest row of the figure upwards.
+    json_begin_object(json, "y");
+    json_begin_list(json, "names");
+    for (int32_t k = shown - 1; k >= 0; k--) {
+        char name[NAME_SIZE] = "";
+        const Scene *scene = point_scene(sweep, ranking->rows[k].point, err);
+        TRY(scene);
+        for (int32_t c = 0; c < study->column_count; c++) {
+            if (!study->chosen[c]) continue;
+            study_scene_value(scene, study->columns[c], cell, sizeof cell, &ignored);
+            join(name, sizeof name, cell);
+        }
+        json_text(json, NULL, name);
+    }
+    json_end(json);
+    for (int32_t c = 0; c < study->column_count; c++)
+        if (study->chosen[c])
+            join(words, sizeof words, label_of_key(study->columns[c], false).words);
+    json_text(json, "label", words);
+    json_end(json);
+
+    // An upright line at what gains are measured from, where that is one value.
+    json_begin_list(json, "series");
+    double base = ranking->base, base_x[] = {base, base}, base_y[] = {0.5, shown + 0.5};
+    Curve line = {.label = "what gains are measured from",
+                  .line = "dashed",
+                  .color = BASELINE_COLOR,
+                  .count = 2,
+                  .x = base_x,
+                  .y = base_y};
+    if (!isnan(base)) TRY(figure_write_curve(&figure, &line, err));
+
+    // Marks and bars of all rows, and over them open marks of those whose runs warned.
+    for (int32_t k = 0; k < shown; k++) {
+        x[k] = ranking->rows[k].value;
+        y[k] = shown - k;
+        error[k] = ranking->rows[k].error;
+        found |= doubts_of(table, ranking, k);
+    }
+    Curve marks = {.label = "",
+                   .line = "none",
+                   .marker = "circle",
+                   .color = 1,
+                   .count = shown,
+                   .filled = true,
+                   .x = x,
+                   .y = y,
+                   .error = error,
+                   .lying = true};
+    TRY(figure_write_curve(&figure, &marks, err));
+    for (int32_t k = 0; k < shown; k++)
+        if (!(doubts_of(table, ranking, k) & DOUBT_WARNED)) x[k] = NAN;
+    marks.filled = false;
+    marks.error = NULL;
+    if (found) TRY(figure_write_curve(&figure, &marks, err));
+    TRY(figure_write_doubts(&figure, found, false, err));
+    json_end(json);
+cleanup:
+    return figure_end(&figure, err);
+}
+
+// --- the whole ----------------------------------------------------------------------------------
+
+bool ranking_show(const Sweep *sweep, const SweepTable *table, bool whole, Error *err)
+{
+    Ranking ranking = {0};
+    TRY(ranking_make(sweep, table, &ranking, err));
+    TRY(write_ranking(sweep, table, &ranking, err));
+    if (whole) TRY(print_ranking(sweep, table, &ranking, err));
+    if (whole) TRY(draw_ranking(sweep, table, &ranking, err));
+cleanup:
+    ranking_destroy(&ranking);
     return error_is_clean(err);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A study's points in the order of one result: ranking.csv, and its first rows on the terminal.
+// A study's points in the order of one result: ranking.csv, and its first rows on the terminal and
+// in figures/ranking.png.
 #ifndef AMONTONS_STUDY_SWEEP_SHOWING_RANK_H
 #define AMONTONS_STUDY_SWEEP_SHOWING_RANK_H
 
@@ -21,10 +22,10 @@ typedef struct Ranking {
     double base;   // the value that gains are measured from; NaN: each row has its own
 } Ranking;
 
+// Writes ranking.csv, and where the sweep was not stopped (`whole`) prints to options->out and
+// draws the first rows, as many as `rank` says.
+bool ranking_show(const Sweep *sweep, const SweepTable *table, bool whole, Error *err);
 bool ranking_make(const Sweep *sweep, const SweepTable *table, Ranking *ranking, Error *err);
-bool ranking_write(const Sweep *sweep, const SweepTable *table, const Ranking *ranking, Error *err);
-// The first rows, as many as `rank` says, to options->out.
-bool ranking_print(const Sweep *sweep, const SweepTable *table, const Ranking *ranking, Error *err);
 void ranking_destroy(Ranking *ranking);   // zeroed is fine
 
 #endif
