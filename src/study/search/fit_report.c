@@ -308,8 +308,8 @@ static bool draw_measured(const Fit *fit, Error *err)
         curves[0].error = error;
         curves[1].marker = "square";
         curves[1].color = COLOR_BEST;
-        Frame frame = {"measured", "linear", "linear", label_of_key(key, is_si),
-                       label_of_record(list[0].name)};
+        Frame frame = {"measured", "linear", "linear", quantity_label(key, is_si),
+                       quantity_label(list[0].name, false)};
         if (strncmp(key, SERIES, strlen(SERIES)) == 0) {
             frame.x = (QuantityLabel){0};
             snprintf(frame.x.words, sizeof frame.x.words, "%.60s (%s)", key + strlen(SERIES),

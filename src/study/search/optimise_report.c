@@ -197,7 +197,7 @@ bool optimise_report(const Search *search, const OptimiseSummary *summary, Error
                       search_line("best so far", all, x, so_far)};
     course[0].error = error;
     Frame over_designs = {
-        "course", "linear", "linear", {.words = "design"}, label_of_record(quantity(search))};
+        "course", "linear", "linear", {.words = "design"}, quantity_label(quantity(search), false)};
     TRY(search_draw(search, &over_designs, course, 2, err));
     if (search->study->search.over == OVER_FRONT) TRY(pareto_front_draw(search, err));
 
@@ -213,7 +213,7 @@ bool optimise_report(const Search *search, const OptimiseSummary *summary, Error
         }
         snprintf(name, sizeof name, "along_%s", search->study->search.keys[k].key);
         Frame frame = {name, search_key_scale(search, k), "linear", search_key_label(search, k),
-                       label_of_record(quantity(search))};
+                       quantity_label(quantity(search), false)};
         Curve curves[] = {search_dots("others as in the best", count, x, y),
                           search_dots("the best", 1, &best_design->x[k], &best_design->value)};
         curves[0].error = error;

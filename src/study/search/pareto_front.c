@@ -100,8 +100,8 @@ cleanup:
 static bool aim_label(const Search *search, int32_t aim, QuantityLabel *label, Error *err)
 {
     char words[POINT_WORDS_SIZE];
-    *label =
-        label_of_record(search->study->records[designs_aim(&search->designs, aim).record].name);
+    *label = quantity_label(search->study->records[designs_aim(&search->designs, aim).record].name,
+                            false);
     if (!aim_words(search, aim, words, err)) return false;
     // The label takes as many words as it has room for.
     size_t used = strlen(label->words);

@@ -79,7 +79,8 @@ Curve search_line(const char *label, int32_t count, const double *x, const doubl
 
 QuantityLabel search_key_label(const Search *search, int32_t k)
 {
-    return label_of_key(search->study->search.keys[k].key, search->sweep->scene->units == UNITS_SI);
+    return quantity_label(search->study->search.keys[k].key,
+                          search->sweep->scene->units == UNITS_SI);
 }
 
 const char *search_key_scale(const Search *search, int32_t k)

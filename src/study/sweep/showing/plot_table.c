@@ -106,7 +106,7 @@ static const Quantity *find_column(PlotTable *table, const char *name, Error *er
     TRY(read_values(table, place, &column->values, err));
     column->is_key = column->values != NULL;
     if (column->is_key) {
-        column->label = label_of_key(name, table->is_si);
+        column->label = quantity_label(name, table->is_si);
         snprintf(place, sizeof place, "%.95s words", name);
         TRY(read_words(table, place, &column->words, err));
         return column;
@@ -126,7 +126,7 @@ static const Quantity *find_column(PlotTable *table, const char *name, Error *er
         FAIL(err, ERROR_INPUT, "%s has no column `%.60s`%s%s", table->path, name,
              near ? near : "; it has: ", near ? "" : all);
     }
-    column->label = label_of_record(name);
+    column->label = quantity_label(name, false);
     snprintf(place, sizeof place, "result/%.80s_known_to", name);
     TRY(read_values(table, place, &column->errors, err));
     if (column->errors) return column;
@@ -191,10 +191,11 @@ static void formula_label(const char *formula, bool is_si, QuantityLabel *label)
             length++;
         if (length > 0) {
             snprintf(name, sizeof name, "%.*s", (int)length, formula);
-            QuantityLabel record = label_of_record(name);
-            if (strchr(name, '.')) label_symbol(name, record.words, sizeof record.words);
-            written +=
-                (size_t)snprintf(label->words + written, size - written, "%.40s", record.words);
+            QuantityLabel column = quantity_label(name, true);
+            const char *symbol = strstr(column.words, "~{");
+            bool is_key = strchr(name, '.') && strncmp(name, "results.", 8) != 0;
+            written += (size_t)snprintf(label->words + written, size - written, "%.40s",
+                                        is_key && symbol ? symbol : column.words);
             formula += length;
         } else {
             const char one[2] = {*formula, 0};

@@ -4,7 +4,6 @@
 #define AMONTONS_STUDY_SWEEP_SHOWING_QUANTITY_LABEL_H
 
 #include <stdbool.h>
-#include <stddef.h>
 
 enum { QUANTITY_LABEL_SIZE = 90 };
 
@@ -15,11 +14,9 @@ typedef struct QuantityLabel {
 } QuantityLabel;
 
 const char *label_last_word(const char *key);   // "length" of mesh.set.length
-// "~{P}_{ext}" of load.pressure; a key without symbol is its last word. size: of `symbol`.
-void label_symbol(const char *key, char *symbol, size_t size);
-// The paper's symbol where there is one, with render/canvas/text's marks. name: as `record` has it.
-QuantityLabel label_of_record(const char *name);
-// "pressure" and "Pa", or "pressure / E" in normalised units.
-QuantityLabel label_of_key(const char *name, bool is_si);
+// Words with render/canvas/text's marks, the paper's symbol where there is one: "~{l}_{c}" of a
+// result, called as `record` does; of a key "pressure ~{P}_{ext}" and "Pa", or in normalised units
+// "pressure ~{P}_{ext} / ~{E}".
+QuantityLabel quantity_label(const char *name, bool is_si);
 
 #endif

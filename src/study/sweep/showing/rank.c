@@ -388,7 +388,7 @@ static bool draw_ranking(const Sweep *sweep, const SweepTable *table, const Rank
     if (shown > study->rank.top) shown = study->rank.top;
     if (shown > ROWS_MAX) shown = ROWS_MAX;
     if (shown == 0) return true;
-    QuantityLabel label = label_of_record(study->records[study->rank.record].name);
+    QuantityLabel label = quantity_label(study->records[study->rank.record].name, false);
     TRY(figure_begin(&figure, err));
     JsonWriter *json = figure.json;
     json_number(json, "height", fmax(0.3, HEIGHT_LEFT + ROW_HEIGHT * shown));
@@ -411,7 +411,7 @@ static bool draw_ranking(const Sweep *sweep, const SweepTable *table, const Rank
     json_end(json);
     for (int32_t c = 0; c < study->column_count; c++)
         if (study->chosen[c])
-            join(words, sizeof words, label_of_key(study->columns[c], false).words);
+            join(words, sizeof words, quantity_label(study->columns[c], false).words);
     json_text(json, "label", words);
     json_end(json);
 
