@@ -72,57 +72,41 @@ bool model1d_rates(const Model1d *model, double l, int32_t count, double *work, 
 
 // --- where something is lost --------------------------------------------------------------------
 
-// Tells from the rates at one front whether something is lost. Once lost it stays lost as l grows:
-// W grows with l, C and K fall.
-typedef bool (*Lost)(const Model1d *model, const Model1dRates *rates);
+// The three ways in which something is lost: an oscillation grows; a disturbance grows without
+// oscillating; that, or growth from V to v_c within half a period, exp(pi Re/Im) > v_c/V
+// (study/stability/stability, half_period).
+enum { GROWS, RUNS_AWAY, RUNS_AWAY_AT_SPEED };
 
-static bool oscillation_grows(const Model1d *model, const Model1dRates *rates)
-{
-    (void)model;
-    return rates->rightmost.re > 0;
-}
-
-static bool runs_away(const Model1d *model, const Model1dRates *rates)
-{
-    (void)model;
-    return rates->real > 0;
-}
-
-// Growth from V to v_c within half a period, exp(pi Re/Im) > v_c/V (study/stability/stability,
-// half_period).
-static bool runs_away_at_speed(const Model1d *model, const Model1dRates *rates)
-{
-    if (rates->real > 0) return true;
-    if (!(rates->rightmost.re > 0)) return false;
-    double ratio = model->law.critical_velocity / model->velocity;
-    return M_PI * rates->rightmost.re / rates->rightmost.im > log(ratio);
-}
-
-static bool is_lost(const Model1d *model, Lost lost, double l, double *work, bool *answer,
+// Once lost it stays lost as l grows: W grows with l, C and K fall.
+static bool is_lost(const Model1d *model, int32_t way, double l, double *work, bool *answer,
                     Error *err)
 {
     Model1dRates rates;
+    const GrowthRate *rightmost = &rates.rightmost;
     if (!model1d_rates(model, l, MODEL1D_MODES, work, &rates))
         return FAULT(err, ERROR_LIBRARY, "LAPACK found no eigenvalues with the front at l = %g", l);
-    *answer = lost(model, &rates);
+    double ratio = model->law.critical_velocity / model->velocity;
+    bool grows = rightmost->re > 0, runs_away = rates.real > 0;
+    bool at_speed = runs_away || (grows && M_PI * rightmost->re / rightmost->im > log(ratio));
+    *answer = way == GROWS ? grows : way == RUNS_AWAY ? runs_away : at_speed;
     return true;
 }
 
 // The shortest front at which it is lost: fronts in geometric progression, then halving; NaN: not
 // up to L. work: [model1d_rates_work(MODEL1D_MODES)].
-static bool find_first(const Model1d *model, Lost lost, double *work, double *l, Error *err)
+static bool find_first(const Model1d *model, int32_t way, double *work, double *l, Error *err)
 {
     double low = FIRST_FRONT * model->length, high = NAN;
     double grow = pow(1 / FIRST_FRONT, 1.0 / SCAN_FRONTS);
     bool answer = false;
     for (int32_t k = 1; k <= SCAN_FRONTS && isnan(high); k++) {
         double next = k == SCAN_FRONTS ? model->length : low * grow;
-        if (!is_lost(model, lost, next, work, &answer, err)) return false;
+        if (!is_lost(model, way, next, work, &answer, err)) return false;
         *(answer ? &high : &low) = next;
     }
     while (high - low > FRONT_ERROR * model->length) {
         double middle = 0.5 * (low + high);
-        if (!is_lost(model, lost, middle, work, &answer, err)) return false;
+        if (!is_lost(model, way, middle, work, &answer, err)) return false;
         *(answer ? &high : &low) = middle;
     }
     *l = high;
@@ -135,9 +119,9 @@ bool model1d_losses(const Model1d *model, Model1dLosses *losses, Error *err)
     double *work = NEW_ARRAY(double, model1d_rates_work(MODEL1D_MODES), err);
     if (!work) goto cleanup;
     if (!(model1d_friction_slope(model) < 0)) goto cleanup;
-    TRY(find_first(model, oscillation_grows, work, &losses->l_sc, err));
-    TRY(find_first(model, runs_away, work, &losses->l_c, err));
-    TRY(find_first(model, runs_away_at_speed, work, &losses->l_rod, err));
+    TRY(find_first(model, GROWS, work, &losses->l_sc, err));
+    TRY(find_first(model, RUNS_AWAY, work, &losses->l_c, err));
+    TRY(find_first(model, RUNS_AWAY_AT_SPEED, work, &losses->l_rod, err));
 cleanup:
     memory_free(work);
     return error_is_clean(err);

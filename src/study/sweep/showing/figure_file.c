@@ -80,9 +80,7 @@ bool figure_write_numbers(Figure *figure, const char *key, const double *values,
         return true;
     }
     figure->written += count;
-    json_begin_list(figure->json, key);
-    for (int32_t k = 0; k < count; k++) json_number(figure->json, NULL, values[k]);
-    json_end(figure->json);
+    json_number_list(figure->json, key, values, count);
     return true;
 }
 
