@@ -21,7 +21,7 @@ bool designs_create(const Study *study, int32_t conditions, char *const *texts, 
     for (int32_t k = 0; k < study->axis_count; k++) designs->conditions *= study->axes[k].count;
     designs->aims = designs->conditions * (1 + study->rank.also_count);
     return (designs->list = NEW_ARRAY(Design, DESIGNS_MAX, err)) &&
-           (designs->points = NEW_ARRAY(DesignPoint, (int64_t)DESIGNS_MAX * designs->aims, err));
+           (designs->points = NEW_ARRAY(PointValue, (int64_t)DESIGNS_MAX * designs->aims, err));
 }
 
 void designs_destroy(Designs *designs)
@@ -132,7 +132,7 @@ bool design_is_better(const Designs *designs, const Design *a, const Design *b)
     return designs->lowest ? one < other : one > other;
 }
 
-DesignPoint *designs_points(const Designs *designs, int32_t design)
+PointValue *designs_points(const Designs *designs, int32_t design)
 {
     return &designs->points[(int64_t)design * designs->aims];
 }
@@ -147,13 +147,13 @@ StudyAim designs_aim(const Designs *designs, int32_t aim)
 void designs_judge(Designs *designs, int32_t d)
 {
     Design *design = &designs->list[d];
-    const DesignPoint *points = designs_points(designs, d);
+    const PointValue *points = designs_points(designs, d);
     SearchOver over = designs->study->search.over;
     int32_t n = designs->conditions;
     design->value = design->bar = NAN;
     design->deciding = 0;
     design->has_bar = true;
-    for (int32_t c = 0; c < n; c++) design->has_bar = design->has_bar && points[c].has_bar;
+    for (int32_t c = 0; c < n; c++) design->has_bar = design->has_bar && !isnan(points[c].bar);
     for (int32_t a = 0; a < designs->aims; a++)
         if (isnan(points[a].value)) return;
     designs->has_bars = designs->has_bars || design->has_bar;
@@ -165,8 +165,8 @@ void designs_judge(Designs *designs, int32_t d)
         for (int32_t c = 0; c < n; c++) {
             double value = sign * points[c].value;
             if (value < worst) worst = value, design->deciding = c;
-            low = fmin(low, value - points[c].bar);
-            high = fmin(high, value + points[c].bar);
+            low = fmin(low, value - points[c].known_to);
+            high = fmin(high, value + points[c].known_to);
         }
         design->value = sign * worst;
         design->bar = fmax(worst - low, high - worst);
@@ -175,14 +175,14 @@ void designs_judge(Designs *designs, int32_t d)
     if (over == OVER_FRONT && designs->aim >= 0) {
         design->deciding = designs->aim % n;
         design->value = points[designs->aim].value;
-        design->bar = points[designs->aim].bar;
+        design->bar = points[designs->aim].known_to;
         return;
     }
 
     double sum = 0, bars = 0, square = 0, bar = 0;   // the mean
     for (int32_t c = 0; c < n; c++) {
         sum += points[c].value;
-        bars += points[c].bar * points[c].bar;
+        bars += points[c].known_to * points[c].known_to;
     }
     double mean = sum / n;
     design->value = mean;
@@ -193,7 +193,7 @@ void designs_judge(Designs *designs, int32_t d)
     for (int32_t c = 0; c < n; c++) square += pow(points[c].value - mean, 2) / n;
     for (int32_t c = 0; c < n; c++) {
         double share = square > 0 ? pow(points[c].value - mean, 2) / (n * square) : 1.0 / n;
-        bar += share * points[c].bar * points[c].bar / n;
+        bar += share * points[c].known_to * points[c].known_to / n;
     }
     design->value = sqrt(square);
     design->bar = sqrt(bar);

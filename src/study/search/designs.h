@@ -4,7 +4,7 @@
 #define AMONTONS_STUDY_SEARCH_DESIGNS_H
 
 #include "amontons_optimise.h"
-#include "study/sweep/reading/study.h"
+#include "study/sweep/computing/point.h"
 
 enum { DESIGNS_MAX = STUDY_DESIGNS_MAX + 200 };   // with the start and those along keys
 
@@ -20,12 +20,6 @@ typedef struct Design {
     int32_t deciding;   // point of `vary` whose value it is; 0: of none alone
 } Design;
 
-// Result of a design at one point.
-typedef struct DesignPoint {
-    double value, bar;   // NaN: none; bar: or what is usual of the mesh
-    bool has_bar;
-} DesignPoint;
-
 typedef struct Designs {
     const Study *study;   // not owned
     bool lowest;   // is best
@@ -37,7 +31,7 @@ typedef struct Designs {
     char *const *texts;   // ... [conditions] "load.pressure: 0.003", not owned; NULL: `vary`
     char *const *origins;   // [conditions] where each text was read, not owned; NULL: not known
     Design *list;   // [DESIGNS_MAX] owned
-    DesignPoint *points;   // [DESIGNS_MAX * aims] owned
+    PointValue *points;   // [DESIGNS_MAX * aims] owned
     double near[STUDY_SEARCH_MAX];   // designs that differ by less are one; parts of a key's range
 } Designs;
 
@@ -57,7 +51,7 @@ void designs_round(const Study *study, double *x);
 char *designs_text(const Designs *designs, const Design *list, int32_t count, Error *err);
 void design_words(const Study *study, const Design *design, char words[OPTIMISE_WORDS_SIZE]);
 
-DesignPoint *designs_points(const Designs *designs, int32_t design);   // [aims]
+PointValue *designs_points(const Designs *designs, int32_t design);   // [aims]
 // Result that an aim is of, and if its least value is best.
 StudyAim designs_aim(const Designs *designs, int32_t aim);
 // value and bar of a design from its points, by `over`; NaN where a point has none.

@@ -133,7 +133,7 @@ bool amontons_fit(const char *path, const SweepOptions *options, FitSummary *sum
     for (int32_t k = 0; k < keys->key_count; k++) search->designs.near[k] = NEAR_IN_RANGE;
     TRY(fit->found = NEW_ARRAY(double, (int64_t)DESIGNS_MAX *data, err));
     TRY(fit->own = NEW_ARRAY(double, (int64_t)DESIGNS_MAX *data, err));
-    search->planned += search->designs.conditions * 2 * (1 + 2 * keys->key_count);
+    search->sweep->planned += search->designs.conditions * 2 * (1 + 2 * keys->key_count);
 
     // The designs that the search chooses are computed.
     TRY(search_designs(search, keys->designs, err));
@@ -160,10 +160,10 @@ bool amontons_fit(const char *path, const SweepOptions *options, FitSummary *sum
 
     *summary = (FitSummary){.parameter_count = fit->response.keys,
                             .measurements = data,
-                            .computed = search->computed,
+                            .computed = search->sweep->computed,
                             .misfit = fit->misfit,
                             .widened = fit->widened,
-                            .seconds = clock_seconds() - search->started};
+                            .seconds = clock_seconds() - search->sweep->started};
     for (int32_t k = 0; k < fit->response.keys; k++) {
         const Region *region = &fit->regions[k];
         FitParameter *parameter = &summary->parameters[k];

@@ -39,13 +39,10 @@ int32_t fit_freedom(const Fit *fit)
 
 double fit_threshold(const Fit *fit, int32_t keys)
 {
-    // Quantiles of chi^2 with one degree of freedom. With two degrees they are -2 ln(1 - share).
-    static const double sure[] = {0.68, 0.90, 0.95, 0.99};
-    static const double one[] = {0.989, 2.706, 3.841, 6.635};
-    double share = fit->search.study->search.sure, wide = fit->widened * fit->widened;
-    int32_t k = 0;
-    while (k < 3 && sure[k] < share - 1e-9) k++;
-    return wide * (keys == 1 ? one[k] : -2 * log(1 - share));
+    // Quantiles of chi^2; with two degrees of freedom they are -2 ln(1 - share).
+    const StudySearch *search = &fit->search.study->search;
+    double quantile = keys == 1 ? search->quantile : -2 * log(1 - search->sure);
+    return fit->widened * fit->widened * quantile;
 }
 
 // The misfit so far along `ray`, the least over the keys that it leaves out. place: of all keys,

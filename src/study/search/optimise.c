@@ -33,10 +33,7 @@ static bool take_value(Search *search, int32_t d, int32_t c, const char *report,
     const Designs *designs = &search->designs;
     for (int32_t a = c; a < designs->aims; a += designs->conditions) {
         int32_t record = designs_aim(designs, a).record;
-        PointValue found = point_value(report, search->study->records[record].path);
-        bool has_bar = !isnan(found.bar);
-        designs_points(designs, d)[a] =
-            (DesignPoint){found.value, has_bar ? found.bar : found.known_to, has_bar};
+        designs_points(designs, d)[a] = point_value(report, search->study->records[record].path);
     }
     return true;
 }
@@ -88,17 +85,15 @@ static bool next_accuracy(const Search *search, Design *design, double limit, Er
 // comes to nothing with a smaller error keeps what it had.
 static bool decide(Search *search, Error *err)
 {
-    bool again = search->study->rank.refine > 0, *taken = NULL;
+    bool again = search->study->rank.refine > 0;
     while (again) {
         int32_t leaders[LEADERS], count = 0, best = designs_best(&search->designs);
         Design before[LEADERS];
-        bool open = false;
+        bool taken[DESIGNS_MAX] = {false}, open = false;
         again = false;
         for (int32_t d = 0; d < search->designs.count; d++)
             open = open || designs_may_equal(&search->designs, best, d);
         if (!open) break;
-        memory_free(taken);
-        TRY(taken = NEW_ARRAY(bool, DESIGNS_MAX, err));
         while (count < LEADERS) {
             // Chooses, among the designs not in `taken` that a smaller bar alone could make the
             // best, the one whose bar reaches furthest. A design that would need a better value,
@@ -117,18 +112,16 @@ static bool decide(Search *search, Error *err)
             before[count] = *design;
             if (next_accuracy(search, design, search->study->rank.refine, err))
                 leaders[count++] = d;
-            TRY(error_is_clean(err));
+            if (!error_is_clean(err)) return false;
         }
         if (count == 0) break;
-        TRY(search_compute(search, leaders, count, err));
+        if (!search_compute(search, leaders, count, err)) return false;
         for (int32_t k = 0; k < count; k++) {
             Design *design = &search->designs.list[leaders[k]];
             if (isnan(design->value)) *design = before[k], design->settled = true;
         }
         again = true;
     }
-cleanup:
-    memory_free(taken);
     return error_is_clean(err);
 }
 
@@ -199,7 +192,7 @@ bool amontons_optimise(const char *path, const SweepOptions *options, OptimiseSu
     int32_t chosen = 0, wanted = keys->designs;
     // A front has a part for the mean of its aims and one for each aim.
     int32_t parts = has_front(search) ? 1 + designs->aims : PARTS;
-    search->planned += designs->conditions * parts * (SECTION_POINTS - 1) * keys->key_count;
+    search->sweep->planned += designs->conditions * parts * (SECTION_POINTS - 1) * keys->key_count;
 
     // Parts of the search, and between them designs along the keys through the best.
     for (int32_t part = 1; part <= parts; part++) {
@@ -225,13 +218,13 @@ bool amontons_optimise(const char *path, const SweepOptions *options, OptimiseSu
         FAIL(err, ERROR_COMPUTE, "%s: no design of %d came to a value of %s; see sweep.csv",
              search->study->path, designs->count, search->study->records[rank->record].name);
 
-    *summary = (OptimiseSummary){.computed = search->computed,
+    *summary = (OptimiseSummary){.computed = search->sweep->computed,
                                  .value = designs->list[best].value,
                                  .bar = designs->list[best].bar,
                                  .decided = true,
                                  .start_value = NAN,
                                  .start_bar = NAN,
-                                 .seconds = clock_seconds() - search->started};
+                                 .seconds = clock_seconds() - search->sweep->started};
     design_words(search->study, &designs->list[best], summary->best);
     for (int32_t d = 0; d < designs->count; d++) {
         summary->designs += !isnan(designs->list[d].value);

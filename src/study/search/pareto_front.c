@@ -13,7 +13,7 @@
 // True if `a` is at least as good as `b` at each aim, and better at one.
 static bool dominates(const Designs *designs, int32_t a, int32_t b)
 {
-    const DesignPoint *one = designs_points(designs, a), *other = designs_points(designs, b);
+    const PointValue *one = designs_points(designs, a), *other = designs_points(designs, b);
     bool better = false;
     for (int32_t k = 0; k < designs->aims; k++) {
         double sign = designs_aim(designs, k).lowest ? -1 : 1;
@@ -80,13 +80,12 @@ bool pareto_front_print(const Search *search, FILE *out, Error *err)
         "%d designs of %d, none of which another is better than at all aims, by values alone:\n",
         count, designs->count);
     for (int32_t k = 0; k < count; k++) {
-        const DesignPoint *points = designs_points(designs, front[k].design);
+        const PointValue *points = designs_points(designs, front[k].design);
         design_words(search->study, &designs->list[front[k].design], words);
         fprintf(out, "  %s:", words);
         for (int32_t a = 0; a < designs->aims; a++) {
             char text[ESTIMATE_SIZE];
-            amontons_estimate(points[a].value, points[a].has_bar ? points[a].bar : (double)NAN,
-                              points[a].bar, text);
+            amontons_estimate(points[a].value, points[a].bar, points[a].known_to, text);
             fprintf(out, "%s %s", a ? "," : "", text);
         }
         fprintf(out, "%s\n", front[k].design == search->start ? " (the scene as it is)" : "");
@@ -122,7 +121,7 @@ bool pareto_front_draw(const Search *search, Error *err)
     double *y = x + all, *front_x = y + all, *front_y = front_x + all;
     TRY(list_front(designs, &front, &count, err));
     for (int32_t d = 0; d < all; d++) {
-        const DesignPoint *points = designs_points(designs, d);
+        const PointValue *points = designs_points(designs, d);
         x[d] = points[0].value, y[d] = points[1].value;
     }
     for (int32_t k = 0; k < count; k++)

@@ -3,7 +3,6 @@
 // found again as in every sweep.
 #include "study/search/search.h"
 
-#include "base/clock.h"
 #include "base/formula.h"
 #include "base/memory.h"
 #include "base/module.h"
@@ -37,19 +36,6 @@ double search_unscaled(const SearchKey *key, double scaled)
 }
 
 // --- computing ----------------------------------------------------------------------------------
-
-// This is a SweepCallback: the whole is more than the points so far.
-static void show_point(const SweepView *view, void *context)
-{
-    Search *search = context;
-    SweepView shown = *view;
-    search->computed += !view->reused;
-    shown.finished = ++search->told;
-    shown.points = search->told > search->planned ? search->told : search->planned;
-    shown.seconds_left = (clock_seconds() - search->started) / search->told *
-                         (shown.points - search->told);
-    if (search->options->on_point) search->options->on_point(&shown, search->options->context);
-}
 
 bool search_compute(Search *search, const int32_t *which, int32_t count, Error *err)
 {
@@ -298,13 +284,8 @@ bool search_open(Search *search, const char *path, const SweepOptions *options, 
                  Error *err)
 {
     search->options = options;
-    search->own = *options;
-    search->own.on_point = show_point;
-    search->own.context = search;
-    search->own.out = NULL;
     search->start = -1;
-    search->started = clock_seconds();
-    if (!sweep_open(path, &search->own, &search->sweep, err)) return false;
+    if (!sweep_open(path, options, &search->sweep, err)) return false;
     search->study = &search->sweep->study;
     if (search->study->search.node == YAML_NO_NODE)
         return REFUSE(err,
@@ -325,7 +306,7 @@ bool search_begin(Search *search, int32_t conditions, char *const *texts, Error 
     if (!designs_create(search->study, conditions, texts, &search->designs, err)) return false;
     int64_t cores = options->jobs > 0 ? options->jobs : sysconf(_SC_NPROCESSORS_ONLN);
     search->side_by_side = (int32_t)fmax(1, floor((double)cores / search->designs.conditions));
-    search->planned = search->designs.conditions * search->study->search.designs;
+    search->sweep->planned = search->designs.conditions * search->study->search.designs;
     return true;
 }
 
@@ -335,7 +316,7 @@ void search_close(Search *search, Error *err)
     bool whole = error_is_clean(err), stopped = err->code == ERROR_INTERRUPT;
     if (search->sweep && search->sweep->lock.held) {
         sweep_share_results(search->sweep);
-        if (whole || stopped) sweep_show(search->sweep, whole, whole ? err : &ignored);
+        if (whole || stopped) sweep_show(search->sweep, NULL, whole, whole ? err : &ignored);
     }
     if (search->module) search->module->destroy(search->chooser);
     designs_destroy(&search->designs);

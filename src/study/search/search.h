@@ -20,7 +20,6 @@ typedef struct SearchJudge {
 
 struct Search {
     const SweepOptions *options;   // the caller's; not owned
-    SweepOptions own;   // what the sweep is told
     Sweep *sweep;   // owned, as all below
     const Study *study;   // the sweep's
     Designs designs;
@@ -30,13 +29,11 @@ struct Search {
     Chooser *chooser;
     int32_t start;   // design of the scene as it is; -1: none
     int32_t side_by_side;   // designs of a round
-    int32_t planned, told, computed;   // points: expected, shown, computed
     bool exhausted;   // the chooser found no new design, so there are fewer than was asked for
     int32_t refused;   // designs whose scene was
     Error refusal;   // the first of them
     int32_t failed;   // points
     char failure[ERROR_MESSAGE_SIZE / 2];   // what the first of them says
-    double started;   // wall clock, s
 };
 
 double search_scaled(const SearchKey *key, double value);   // the logarithm, of `log`

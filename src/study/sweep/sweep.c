@@ -102,7 +102,8 @@ static bool sweep_plan(Sweep *sweep, Error *err)
     if (study->rank.against == AGAINST_KEYS && !found)
         TRY(yaml_error(study->file, study->rank.baseline, err,
                        "against: no point of the study has these values"));
-    sweep->point_count = sweep->planned = count;
+    sweep->point_count = count;
+    if (sweep->planned < count) sweep->planned = count;
 
     // The folder is made when the study has turned out to be right. Reports of an earlier sweep are
     // listed, also of points that the study no longer has, or not yet.
@@ -116,24 +117,24 @@ cleanup:
     return error_is_clean(err);
 }
 
-bool sweep_show(const Sweep *sweep, bool whole, Error *err)
+bool sweep_show(const Sweep *sweep, FILE *out, bool whole, Error *err)
 {
     SweepTable table = {0};
     TRY(table_write(sweep, &table, err));
-    if (sweep->study.rank.wanted) TRY(ranking_show(sweep, &table, whole, err));
+    if (sweep->study.rank.wanted) TRY(ranking_show(sweep, &table, out, whole, err));
     for (int32_t k = 0; whole && k < sweep->study.plot_count; k++)
         TRY(sweep_plot_draw(sweep->folder, sweep->study.path, &sweep->study.plots[k], NULL, err));
     Error none = {0};
     bool described = whole && (sweep->study.rank.wanted || sweep->study.plot_count > 0);
-    if (sweep->options->out && described && !module_check("render", &none))
+    if (out && described && !module_check("render", &none))
         fprintf(
-            sweep->options->out,
+            out,
             "\nThe figures are not drawn, figures/*.json has what is in them (`amontons render` "
             "of another build draws it). %s\n",
             none.message);
-    if (sweep->options->out) warned_print(&table.warned, sweep->options->out);
-    if (sweep->options->out && table.no_bar)
-        fprintf(sweep->options->out,
+    if (out) warned_print(&table.warned, out);
+    if (out && table.no_bar)
+        fprintf(out,
                 "\nAt %d of %d points there is no error bar: mu is known to what a mesh usually "
                 "leaves; a study's `set: {accuracy.mu: 1%%}` asks for bars\n",
                 table.no_bar, sweep->study.point_count);
@@ -220,7 +221,7 @@ bool amontons_sweep(const char *path, const SweepOptions *options, SweepSummary 
         *err = stopped;
         goto cleanup;
     }
-    TRY(sweep_show(sweep, whole, err));
+    TRY(sweep_show(sweep, options->out, whole, err));
     if (!whole) *err = stopped;
 cleanup:
     sweep_close(sweep);

@@ -13,7 +13,8 @@ bool sweep_add(Sweep *sweep, const char *designs, Error *err);
 // ERROR_INTERRUPT: stopped; a point that failed is none.
 bool sweep_compute(Sweep *sweep, Error *err);
 // The ranked table, and the figures that the study asks for, where it was not stopped (`whole`).
-bool sweep_show(const Sweep *sweep, bool whole, Error *err);
+// out: of words; NULL: there are none.
+bool sweep_show(const Sweep *sweep, FILE *out, bool whole, Error *err);
 void sweep_close(Sweep *sweep);   // NULL is fine
 
 #endif

@@ -51,7 +51,7 @@ typedef struct Sweep {
     void *by_hash;   // tree of points (tsearch), the first of each hash; owned
     double started;   // wall clock, s
     bool checked;   // what the study records is in run.json
-    int32_t planned;   // points to compute or to find: all; of a search those so far
+    int32_t planned;   // points to compute or to find: all; of a search as many as are expected
     int32_t computed, failed, finished;
 } Sweep;
 

@@ -115,6 +115,7 @@ typedef struct StudySearch {
     bool fits;   // measurements: it has `fit`, not `best`
     YamlNode measured;   // of `fit`: a path, or a list of them
     double sure;   // of its regions: 0.95
+    double quantile;   // of chi^2 with one degree of freedom, at `sure`: 3.841
 } StudySearch;
 typedef struct StudyRecord {
     char name[STUDY_NAME_SIZE];   // of the column

@@ -308,6 +308,7 @@ static bool read_search(Study *study, Error *err)
     static const char *const over[] = {"worst", "mean", "deviation", "front"};
     static const char *const shares[] = {"95%", "68%", "90%", "99%"};
     static const double sure[] = {0.95, 0.68, 0.90, 0.99};
+    static const double quantiles[] = {3.841, 0.989, 2.706, 6.635};
     const YamlDocument *file = study->file;
     StudySearch *search = &study->search;
     search->node = yaml_look_up(file, "search");
@@ -380,6 +381,7 @@ static bool read_search(Study *study, Error *err)
     search->measured = keys[2].node;
     if (!wanted_choice(file, &keys[3], shares, 4, &choice, err)) return false;
     search->sure = sure[choice];
+    search->quantile = quantiles[choice];
     return search->measured != YAML_NO_NODE ||
            yaml_error(file, goal, err,
                       "fit: `measured` must be given: a table, as in {measured: measured.csv}");

@@ -275,14 +275,11 @@ static void print_edges(const Sweep *sweep, const SweepTable *table, const Ranki
     if (found) fprintf(out, "; look beyond\n");
 }
 
-// Nothing is printed where the caller wants nothing (options->out NULL).
 static bool print_ranking(const Sweep *sweep, const SweepTable *table, const Ranking *ranking,
-                          Error *err)
+                          FILE *out, Error *err)
 {
-    FILE *out = sweep->options->out;
     int32_t cells = 0, shown = ranking->ranked;
     PrintedRow *rows = NULL;
-    if (!out) return true;
     if (shown > sweep->study.rank.top) shown = sweep->study.rank.top;
     TRY((rows = NEW_ARRAY(PrintedRow, shown + 1, err)));
 
@@ -457,12 +454,12 @@ cleanup:
 
 // --- the whole ----------------------------------------------------------------------------------
 
-bool ranking_show(const Sweep *sweep, const SweepTable *table, bool whole, Error *err)
+bool ranking_show(const Sweep *sweep, const SweepTable *table, FILE *out, bool whole, Error *err)
 {
     Ranking ranking = {0};
     TRY(ranking_make(sweep, table, &ranking, err));
     TRY(write_ranking(sweep, table, &ranking, err));
-    if (whole) TRY(print_ranking(sweep, table, &ranking, err));
+    if (whole && out) TRY(print_ranking(sweep, table, &ranking, out, err));
     if (whole) TRY(draw_ranking(sweep, table, &ranking, err));
 cleanup:
     ranking_destroy(&ranking);

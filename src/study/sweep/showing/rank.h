@@ -22,9 +22,9 @@ typedef struct Ranking {
     double base;   // the value that gains are measured from; NaN: each row has its own
 } Ranking;
 
-// Writes ranking.csv, and where the sweep was not stopped (`whole`) prints to options->out and
-// draws the first rows, as many as `rank` says.
-bool ranking_show(const Sweep *sweep, const SweepTable *table, bool whole, Error *err);
+// Writes ranking.csv, and where the sweep was not stopped (`whole`) prints to `out` (NULL: nowhere)
+// and draws the first rows, as many as `rank` says.
+bool ranking_show(const Sweep *sweep, const SweepTable *table, FILE *out, bool whole, Error *err);
 bool ranking_make(const Sweep *sweep, const SweepTable *table, Ranking *ranking, Error *err);
 void ranking_destroy(Ranking *ranking);   // zeroed is fine
 

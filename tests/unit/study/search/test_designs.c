@@ -30,9 +30,9 @@ FIXTURE(end)
 
 static void give(Designs *designs, int32_t design, double a, double b)
 {
-    DesignPoint *points = &designs->points[2 * design];
-    points[0] = (DesignPoint){.value = a, .bar = 0.01};
-    points[1] = (DesignPoint){.value = b, .bar = 0.03};
+    PointValue *points = &designs->points[2 * design];
+    points[0] = (PointValue){.value = a, .bar = NAN, .known_to = 0.01};
+    points[1] = (PointValue){.value = b, .bar = NAN, .known_to = 0.03};
     designs_judge(designs, design);
 }
 
@@ -150,7 +150,7 @@ TEST_BETWEEN(test_the_best_is_sure, begin, end)
         designs_add(designs, x, d);
         for (int32_t c = 0; c < 2; c++)
             designs_points(designs, d)[c] =
-                (DesignPoint){values[d], bars[d], .has_bar = !isnan(bars[d])};
+                (PointValue){.value = values[d], .bar = bars[d], .known_to = bars[d]};
         designs_judge(designs, d);
     }
     for (int32_t lowest = 0; lowest < 2; lowest++) {
