@@ -13,7 +13,6 @@
 #include "base/memory.h"
 #include "run/accuracy_figure.h"
 #include "run/accuracy_state.h"
-#include "run/summary.h"
 #include "run/warnings.h"
 
 #include <math.h>

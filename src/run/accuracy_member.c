@@ -6,7 +6,6 @@
 #include "base/memory.h"
 #include "io/cache/cache_folder.h"
 #include "model/step_rule.h"
-#include "run/one_mesh.h"
 #include "scene/programs.h"
 
 #include <limits.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/checkpoint.h"
+#include "run/simulation_state.h"
 
 #include "base/clock.h"
 #include "run/warnings.h"

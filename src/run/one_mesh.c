@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/one_mesh.h"
+#include "run/simulation_state.h"
 
 #include "run/warnings.h"
 

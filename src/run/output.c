@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Output that a scene asks for: recorders are opened before t = 0, pictures are drawn from the
 // finished history.
-#include "run/output.h"
+#include "run/simulation_state.h"
 
 #include "base/memory.h"
 #include "base/module.h"

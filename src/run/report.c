@@ -3,7 +3,7 @@
 // Scripts read it by key: keys may be added, none may change its name or meaning. A number that is
 // NaN or infinite is written as null (io/text/json_writer), and says that there was none. `length`
 // below is the block's: lengths are given over it where the key says over_L.
-#include "run/report.h"
+#include "run/simulation_state.h"
 
 #include "answers/program_results.h"
 #include "answers/steady_answer.h"

@@ -9,7 +9,7 @@
 // step-size levels. Data that depends on earlier rounding is saved: factors that the next step may
 // use again, the order of sweeps (contact/contact_matrix), products that are carried on
 // (stepping/state).
-#include "run/saved_state.h"
+#include "run/simulation_state.h"
 
 #include "base/clock.h"
 #include "base/computation.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// State that the stages of a simulation share. run/simulation is the list of stages; amontons.h
-// declares the part that the caller sees.
+// State that the stages of a simulation share, and the stages. run/simulation is the list of them;
+// amontons.h declares the part that the caller sees.
 #ifndef AMONTONS_RUN_SIMULATION_STATE_H
 #define AMONTONS_RUN_SIMULATION_STATE_H
 
@@ -91,22 +91,129 @@ static inline int64_t simulation_allocations(const Simulation *simulation)
     return memory_counters().allocations - simulation->control.dt_levels.allocations;
 }
 
-// These functions make up amontons_run and run/accuracy, beside the pieces in amontons.h.
-bool simulation_run(const Scene *scene, const RunOptions *options, RunSummary *summary, Error *err);
-bool simulation_create_by(const Scene *scene, const RunOptions *options, double deadline,
-                          Simulation **simulation, Error *err);
-bool simulation_loop(Simulation *simulation, Error *err);   // steps to the end of the scene
+// --- stages, in the order in which run/simulation calls them ------------------------------------
 
+// From a model that stands to t = 0 (run/start): step control, relaxation, the rod in place, after
+// which rod and load follow the scene's programs, explicit steps.
+bool start_prepare_steps(Simulation *simulation, Error *err);
+void start_programs(Simulation *simulation);
+bool start_relax(Simulation *simulation, Error *err);
+// Puts the explicit scheme in the place of step control: central differences on the full mesh
+// (stepping/explicit_reference). Does nothing for an implicit scheme. Called after relaxing, which
+// is implicit for both schemes: at the explicit step it would take longer than many a run, and so
+// both start from one state of rest.
+//
+// The step is the longest stable one (stepping/stable_step), or time.step_max where that is
+// shorter, shortened so that a whole number of steps makes a recording interval. Recorders see such
+// an interval as one step, so that a benchmark does not measure the recording, and while slip is
+// rapid as many states as with implicit steps. Parts that only implicit steps have (step-size
+// levels, error control) stand still. RunCounters.accepted counts the explicit steps, and
+// run.json's `step_sizes` has one entry, the explicit step size.
+bool start_explicit_steps(Simulation *simulation, Error *err);
+
+// Changes between steps, and how far the run goes (run/steering).
+bool steering_is_open(const Simulation *simulation, Error *err);   // ERROR_INPUT: finished
 // ERROR_INTERRUPT: the caller wants a stop, or the time is up. Asked between phases and steps.
 bool simulation_may_go_on(const Simulation *simulation, Error *err);
-bool steering_is_open(const Simulation *simulation, Error *err);   // ERROR_INPUT: finished
-bool simulation_is_finished(const Simulation *simulation);   // the scene's end, or its period
-Answers simulation_answers(const Simulation *simulation);   // of this run so far, at its end
 // Time when rod or load next come to a point of the scene's programs; INFINITY: never.
 double steering_next_point(const Simulation *simulation);
 // Is called after a step: where it has reached `point` waves are resolved again.
 void steering_pass_point(Simulation *simulation, double point);
 double steering_end(const Simulation *simulation);   // when the scene ends, as the rod moves now
+
+// RESULT/checkpoint.bin (run/checkpoint): a saved state that a run goes on from. Written now and
+// then, where a run is stopped, and at its end; first all steps of the history are put on the disk,
+// so that it goes at least as far.
+//
+// Reads the checkpoint of `folder`. ERROR_INPUT: there is none.
+bool checkpoint_read(const char *folder, SavedState *state, Error *err);
+// Checks that the history of `folder` is that of the checkpoint. ERROR_INPUT: it is another one.
+bool checkpoint_check_history(const char *folder, const HistoryEnd *end, Error *err);
+// Is called after each step. A checkpoint that cannot be written is a warning: the run goes on.
+void checkpoint_when_due(Simulation *simulation);
+bool checkpoint_is_kept(const Simulation *simulation);   // this run writes any
+bool checkpoint_now(Simulation *simulation, Error *err);
+// A finished result that has a history may be gone on with; others need none.
+bool checkpoint_at_end(Simulation *simulation, Error *err);
+
+typedef struct SavedHead {
+    double time;   // the state's
+    HistoryEnd history;   // the one written so far
+} SavedHead;
+
+// The simulation may be restored from `state` (run/saved_state; amontons_simulation.h saves and
+// restores): its checksum holds, and it was saved by a build of these sources from this scene, mesh
+// and basis. ERROR_INPUT, nothing is changed: which of these is not so.
+bool saved_state_fits(Simulation *simulation, const SavedState *state, SavedHead *head, Error *err);
+
+// Output that a scene asks for, opened as recorders or drawn at the end (run/output).
+bool output_check(const Scene *scene, Error *err);   // that this build can write it
+bool output_open(Simulation *simulation, Error *err);   // history and fields
+// With the first step, and what was recorded so far on the disk, an earlier result may go.
+bool output_begin_result(Simulation *simulation, Error *err);
+void output_warn_of_window(Simulation *simulation);   // where nothing lay in it
+bool output_store_warnings(Simulation *simulation, Error *err);   // before the history's finish
+bool output_draw_figures(Simulation *simulation, Error *err);   // from the finished history
+
+// Error that the mesh of one run leaves, as far as this run tells it (run/one_mesh). Sets how far
+// the answers of this run alone are known.
+void one_mesh_answer(const Simulation *simulation, Answers *answers);
+// Contact nodes, and whether cells are too long for slip: for runs behind an error bar.
+void one_mesh_read(const Simulation *simulation, Level *level);
+
+// Increase of mu by the last nodes of the contact. Slow slip grows from the trailing end; where its
+// front comes to the last nodes of the leading end before the block slides, these hold the block
+// while mu rises. The rise depends on their size: shorter cells let go sooner
+// (validation/paper/README.md). The rise from when the front comes to them until the block slides
+// is an error of the mesh. In space a row of nodes lets go one by one, and bars hold without this
+// (validation/space/priors.md). Watched after each step.
+//
+// Zeroed before the first step, but for mu and passed: NaN.
+typedef struct EndWait {
+    double mu;   // when the front came to the last nodes, since the last fall; NaN: it has not
+    double passed;   // when it had come past them
+    double rise;   // sum over bulk slidings
+    int32_t slidings;   // all but the first
+} EndWait;
+
+void end_wait_watch(EndWait *wait, const Simulation *simulation);
+// Mean rise of mu, where the front of slip comes to the last nodes (critical_length: the mean l_c,
+// length) and the block slides as soon as it comes past them. 0: it does not; several pads; in
+// space.
+double end_wait_of(const EndWait *wait, const Interface *interface, double critical_length);
+
+// Data for the caller of amontons.h (run/summary): of an accepted step (also of study/line's;
+// t_end: when the scene ends, time), and at the end counts, answers and seconds.
+StepView step_view(const Observation *seen, const Events *events, const ContactArrays *contact,
+                   double t_end);
+RunSummary summary_none(void);   // of a run that has no answers yet
+RunCounters summary_count(const Simulation *simulation);
+void summary_fill(const Simulation *simulation, const RunCounters *counters, const Answers *answers,
+                  RunSummary *summary);
+
+// Data of a report beside the simulation itself. Nothing is owned.
+typedef struct RunReport {
+    const Simulation *simulation;
+    const Error *failure;   // NULL: done
+    const RunCounters *counters;
+    const Answers *answers;
+    const Event *least_resolved;   // before which the fewest cells slipped; NULL: none
+} RunReport;
+
+// run.json (run/report): what was asked, what was done, what came out with which errors. One
+// object, written last, atomically.
+bool report_write(const char *folder, const RunReport *report, Error *err);
+// The same in memory (memory_free); NULL on failure. Paths in it are as seen from `folder`.
+char *report_text(const char *folder, const RunReport *report, Error *err);
+
+// --- the run, as amontons_run and run/accuracy call it, beside the pieces in amontons.h ---------
+
+bool simulation_run(const Scene *scene, const RunOptions *options, RunSummary *summary, Error *err);
+bool simulation_create_by(const Scene *scene, const RunOptions *options, double deadline,
+                          Simulation **simulation, Error *err);
+bool simulation_loop(Simulation *simulation, Error *err);   // steps to the end of the scene
+bool simulation_is_finished(const Simulation *simulation);   // the scene's end, or its period
+Answers simulation_answers(const Simulation *simulation);   // of this run so far, at its end
 
 // Closes history, draws, reports. failure: NULL, or why the run ended early; it is reported, and
 // what was computed is kept.

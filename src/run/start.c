@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Lengths here are the block's; slip is measured by what the drop of friction can drive
 // (model_friction_slip), where branches have not relaxed yet.
-#include "run/start.h"
+#include "run/simulation_state.h"
 
 #include "base/clock.h"
 #include "base/memory.h"

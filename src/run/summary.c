@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Results of a run for amontons.h: counters from the parts that keep them, phases with their times,
 // answers. Nothing is computed here that is not known already.
-#include "run/summary.h"
+#include "run/simulation_state.h"
 
 #include "answers/drop_series.h"
 #include "answers/program_results.h"

@@ -6,7 +6,7 @@
 #include "study/line/model1d.h"
 
 #include "model/step_rule.h"
-#include "run/summary.h"
+#include "run/simulation_state.h"
 
 #include <math.h>
 

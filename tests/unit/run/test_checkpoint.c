@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A run that dies between two steps and is gone on with ends as if it had not, to the bit; a state
 // can be put back; and what does not belong to a simulation is refused before anything is touched.
-#include "run/checkpoint.h"
+#include "run/simulation_state.h"
 
 #include "base/computation.h"
 #include "base/hash.h"
