@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Which pads slide together at the load drops of a run, and whether two meshes differ in it. Coarse
 // meshes may agree on mu of a regime that finer ones do not have: two pads that slide by turns
-// there, and each by itself here. Filled by run/accuracy_member, read by answers/error_bars.
+// there, and each by itself here. Filled by run/accuracy, read by answers/error_bars.
 #ifndef AMONTONS_ANSWERS_PATTERNS_H
 #define AMONTONS_ANSWERS_PATTERNS_H
 

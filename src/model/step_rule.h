@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Which steps a scene is given, from its keys and a few sizes of the model. Called by run/start and
-// run/accuracy_member for the block and by study/line/steps for the line.
+// run/accuracy for the block and by study/line/steps for the line.
 #ifndef AMONTONS_MODEL_STEP_RULE_H
 #define AMONTONS_MODEL_STEP_RULE_H
 

@@ -7,15 +7,27 @@
 // differ in pressure within accuracy.window, and share mesh and basis. What is done next
 // follows from the largest part of the bar: a finer mesh, or more runs on this one. The last run is
 // the scene itself on the last mesh, with all that it asks to be written, and counts too.
+//
+// Time (accuracy.within) ends a search inside a run. A part of this time is kept for the run in
+// full on the last mesh that has a whole one. A run, or a mesh, is not begun if the forecast says
+// that it takes longer than the time left before that. A run that was cut short has no part in the
+// bar. If it was the first run of all, its own answers stand, without a bar.
+#include "run/accuracy.h"
+
 #include "answers/drop_series.h"
 #include "base/clock.h"
 #include "base/decimal_point.h"
 #include "base/memory.h"
-#include "run/accuracy_figure.h"
-#include "run/accuracy_state.h"
+#include "io/cache/cache_folder.h"
+#include "model/step_rule.h"
+#include "run/simulation_state.h"
 #include "run/warnings.h"
+#include "scene/programs.h"
 
+#include <limits.h>
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 enum { COARSER_MAX = 3 };   // halvings of the scene's mesh that are tried
 static const double RATIO = 1.189207115002721;   // of cell size from level to level: 2^(1/4)
@@ -26,6 +38,329 @@ static const double GROWTH[] = {2, 4};
 // finer meshes differ.
 static const double CONFIRM_SHARE = 1. / 60;
 
+enum {
+    CONTACT_NODES_MIN = 21,   // of the first level
+    PAD_NODES_MIN = 5,   // of it on each piece of the contact
+    SPACE_NODES_MIN = 36,   // likewise in space: 6 x 6, and 3 x 3
+    SPACE_PAD_NODES_MIN = 9,
+    PEAKS_MIN = 8,   // that count in a run, before its answer can be known
+    SPACE_PEAKS_MIN = 4,   // where each takes seconds to minutes
+};
+static const double DROPS_SHARE = 0.2;   // of the bar wanted, for the drops of each run
+static const double LONGER = 4;   // than the scene's end, for a run whose answer is not known; and
+    // once more as much longer where its run-in is not over
+static const double FULL_SHARE = 0.25;   // of the time given, at most, for stepping in full
+
+// Ratio of cell sizes from level to level where cells can only be halved (no .geo with `refine`),
+// and the largest ratio where the last mesh does not resolve slip.
+enum { RATIO_SPLIT = 2 };
+
+typedef struct Accuracy {
+    const Scene *scene;
+    const RunOptions *options;
+    Levels levels;
+    double cell_ratio;   // of cells of a level to those of the next
+    int32_t members;   // whole runs behind the bar, but for that in full
+    double started, deadline;   // wall clock, s; INFINITY: accuracy.within is not given
+    double begun;   // wall clock at which the run under way began, s
+    double stepping;   // expected of the run in full, s; 0: no run is whole
+    double making;   // likewise of its mesh and basis; 0: the cache has them
+    bool out_of_time;
+    char passed_over[400];   // why the last mesh that failed was passed over; "": none was
+    Answers so_far;   // of the run under way
+    char stage[64];   // of it, as the caller is told
+    Simulation *cut;   // the first run of all, where time cut it short; owned
+} Accuracy;
+
+static Level *last_level(Accuracy *accuracy)
+{
+    return &accuracy->levels.list[accuracy->levels.count - 1];
+}
+
+// Before another mesh is looked at: two on the first, where they tell branches from the mesh, and
+// where meshes are few as each halves the cells of the last; else one.
+static int32_t runs_first(const Accuracy *accuracy)
+{
+    return accuracy->levels.count == 1 || accuracy->cell_ratio == RATIO_SPLIT ? 2 : 1;
+}
+
+// Kept back for the run in full, s, where it takes so many times as long.
+static double seconds_in_full(const Accuracy *accuracy, double times)
+{
+    double most = FULL_SHARE * accuracy->scene->accuracy.within;
+    double stepping = times * accuracy->stepping;
+    return times * accuracy->making + (most > 0 ? fmin(stepping, most) : stepping);
+}
+
+// For runs behind the bar, s: what the run in full needs is kept back. INFINITY: no limit.
+static double seconds_left(const Accuracy *accuracy)
+{
+    return accuracy->deadline - seconds_in_full(accuracy, 1) - clock_seconds();
+}
+
+// --- one run of a level --------------------------------------------------------------------------
+
+// The parameter `refine` of every mesh, times what the scene may have set it to (ERROR_INPUT: there
+// is no room for it).
+static bool refine_scene(Scene *scene, double refine, Error *err)
+{
+    int32_t k = 0, count = scene->mesh.parameter_count;
+    while (k < count && strcmp(scene->mesh.parameters[k].name, "refine") != 0) k++;
+    if (refine == 1) return true;
+    if (k < count) {
+        scene->mesh.parameters[k].value *= refine;
+        return true;
+    }
+    if (k == SCENE_LIST_MAX)
+        return REFUSE(err, "%s: mesh.set: no room for `refine` beside %d parameters", scene->path,
+                      k);
+    scene->mesh.parameters[k] = (MeshParameter){.name = "refine", .value = refine};
+    scene->mesh.parameter_count++;
+    return true;
+}
+
+void scene_scale_loads(Scene *scene, double factor)
+{
+    scene->load.pressure *= factor;
+    scene->load.force *= factor;
+    for (int32_t k = 0; k < scene->load.traction_count; k++) {
+        scene->load.tractions[k].x *= factor;
+        scene->load.tractions[k].y *= factor;
+        scene->load.tractions[k].z *= factor;
+    }
+}
+
+// Returns true if the change that more slidings could make is a small part of the bar wanted.
+static bool answer_is_known(const Accuracy *accuracy, const Answers *answers)
+{
+    bool hold = accuracy->levels.of_hold;
+    const Estimate *asked = hold ? &answers->mu_hold : &answers->mu_M;
+    int32_t counted = hold ? answers->regime.count : answers->peaks_counted;
+    double allowed = DROPS_SHARE * accuracy->scene->accuracy.mu;
+    if (answers->steady) return true;
+    if (answers->regime.run_in != RUN_IN_OVER) return false;
+    int32_t least = accuracy->levels.list[accuracy->levels.count - 1].space ? SPACE_PEAKS_MIN
+                                                                            : PEAKS_MIN;
+    if (counted >= least) return asked->error <= allowed * asked->value;
+    return counted == 0 && answers->enough;
+}
+
+static bool is_steered(const Scene *scene)
+{
+    return scene_has_program(&scene->rod.program) || scene_has_program(&scene->load.program);
+}
+
+// Steps until the answer is known, time is up, or the end.
+static bool step_until_known(Accuracy *accuracy, Simulation *simulation, EndWait *wait, Error *err)
+{
+    const Scene *scene = accuracy->scene;
+    Scene *own = &simulation->scene;
+    for (bool finished = false; !finished;) {
+        if (!amontons_simulation_step(simulation, NULL, &finished, err)) return false;
+        end_wait_watch(wait, simulation);
+
+        // As far as the scene itself goes, it slides steadily, and no load drop is ahead.
+        if (simulation->seen.t >= step_rule_end(scene) &&
+            !isnan(steady_mu(&simulation->steady).value) && !is_steered(scene))
+            break;
+
+        // A run that comes to its end in the middle of its run-in, or slides slowly and is not
+        // steady yet, goes on, once. What a program does may well look like a run-in, for ever.
+        bool once = own->time.until_U > LONGER * scene->time.until_U ||
+                    own->time.until_t > LONGER * scene->time.until_t;
+        if (finished && !once && !is_steered(scene)) {
+            bool is_steady_soon = simulation->steady.slides && simulation->drops.count == 0;
+            if (is_steady_soon || regime_of(&simulation->drops).run_in != RUN_IN_OVER) {
+                own->time.until_U *= LONGER;
+                own->time.until_t *= LONGER;
+                simulation->t_end = step_rule_end(own);
+                finished = false;
+            }
+        }
+        if (simulation->events.ended) {
+            accuracy->so_far = answers_of(&simulation->drops);
+            finished = finished || answer_is_known(accuracy, &accuracy->so_far);
+        }
+        if (!finished && !simulation_may_go_on(simulation, err)) return false;
+    }
+    return true;
+}
+
+// A StepCallback: says which run of which mesh it is, and what is known so far.
+static void show_member(const StepView *view, void *context)
+{
+    Accuracy *accuracy = context;
+    double left = fmax(accuracy->deadline - clock_seconds(), 0);
+    StepView named = *view;
+    named.mesh = accuracy->levels.count;
+    named.run = last_level(accuracy)->run_count + 1;
+    named.mu_M = accuracy->so_far.mu_M.value;
+    named.mu_hold = accuracy->so_far.mu_hold.value;
+    named.seconds_left = isfinite(left) ? left : (double)NAN;
+    if (accuracy->options->on_step) accuracy->options->on_step(&named, accuracy->options->context);
+}
+
+// A StageCallback.
+static void show_stage(const char *stage, void *context)
+{
+    Accuracy *accuracy = context;
+    const RunOptions *options = accuracy->options;
+    snprintf(accuracy->stage, sizeof accuracy->stage, "mesh %d: %s", accuracy->levels.count, stage);
+    if (options->on_stage) options->on_stage(accuracy->stage, options->context);
+}
+
+// --- what time allows ---------------------------------------------------------------------------
+
+// Notes a run that was stopped. This is an error only if the caller stopped it, not if time did.
+static void note_cut(Accuracy *accuracy, const Simulation *simulation, Error *err)
+{
+    const volatile sig_atomic_t *stop = accuracy->options->stop;
+    const Level *level = last_level(accuracy);
+    LevelCut *cut = &accuracy->levels.cut;
+    *cut = (LevelCut){.mesh = accuracy->levels.count,
+                      .run = level->run_count + 1,
+                      .contact_nodes = level->contact_nodes,
+                      .U = NAN,
+                      .part = NAN,
+                      .seconds = clock_seconds() - accuracy->begun + level->seconds,
+                      .seconds_expected = level->seconds_expected,
+                      .mu_M = NAN,
+                      .mu_hold = NAN};
+    if (simulation->seen.t > 0) {
+        Answers answers = answers_of(&simulation->drops);
+        cut->U = simulation->seen.U;
+        cut->part = fmin(simulation->seen.t / simulation->t_end, 1);
+        cut->mu_M = answers.mu_M.value;
+        cut->mu_hold = answers.mu_hold.value;
+    }
+    *err = (Error){0};
+    accuracy->out_of_time = !(stop && *stop);
+    if (!accuracy->out_of_time)
+        (void)FAULT(err, ERROR_INTERRUPT, "stopped on mesh %.0f of an error bar", cut->mesh);
+}
+
+// Adds a run that came to its end, and the pads that slid in it, to the last level.
+static void count_run(Accuracy *accuracy, const Simulation *simulation, double pressure,
+                      const Answers *answers)
+{
+    patterns_add_drops(&last_level(accuracy)->patterns, &simulation->drops, answers->first);
+    levels_add_run(&accuracy->levels, pressure, simulation->seen.U, answers,
+                   simulation->control.counters.accepted);
+}
+
+// Returns true if nothing new is learnt on the last mesh: it is finer than the one before and has
+// no more contact nodes, or coarser and has no fewer; it has too few; or its cells are too long for
+// slip.
+static bool is_too_coarse(const Accuracy *accuracy, const Interface *interface)
+{
+    const Level *level = &accuracy->levels.list[accuracy->levels.count - 1];
+    bool space = interface->dim > 2;
+    if (level->undamped) return true;
+    if (accuracy->levels.count > 1) {
+        int32_t more = level->contact_nodes - level[-1].contact_nodes;
+        if (level->refine > level[-1].refine ? more <= 0 : more >= 0) return true;
+    }
+    if (interface->contact_count < (space ? SPACE_NODES_MIN : CONTACT_NODES_MIN)) return true;
+    int32_t least = space ? SPACE_PAD_NODES_MIN : PAD_NODES_MIN;
+    for (int32_t pad = 0; pad < interface->pad_count; pad++)
+        if (pad_size(interface, pad).nodes < least) return true;
+    return false;
+}
+
+// One run of the last level, at the next pressure of the window. *coarse (NULL: not asked): the
+// mesh has too few contact nodes, as many as the one before, its cells are too long for slip, or
+// the run failed. Then, as when time is out, nothing was added.
+static bool run_member(Accuracy *accuracy, bool *coarse, Error *err)
+{
+    Level *level = last_level(accuracy);
+    RunOptions options = {.on_step = show_member,
+                          .on_stage = show_stage,
+                          .context = accuracy,
+                          .stop = accuracy->options->stop};
+    Simulation *simulation = NULL;
+    EndWait wait = {.mu = NAN, .passed = NAN};
+    bool first = !levels_have_runs(&accuracy->levels) && accuracy->levels.count == 1;
+    double started = clock_seconds(), deadline = accuracy->deadline - seconds_in_full(accuracy, 1);
+    accuracy->begun = started;
+
+    // The next pressure, over the scene's: the ends of the window, then points between them, in
+    // pairs that leave the mean where it is.
+    static const double places[] = {1, 0.5, 0.75, 0.25};
+    double half = accuracy->scene->accuracy.window / 2;
+    double place = places[accuracy->members / 2 % (int32_t)(sizeof places / sizeof *places)];
+    double pressure = 1 + (accuracy->members % 2 == 0 ? -half : half) * place;
+
+    // The scene of a run that writes nothing, and is ended by its answer.
+    Scene *scene = NEW_ARRAY(Scene, 1, err);
+    accuracy->so_far = (Answers){.mu_M = {NAN, NAN}, .mu_hold = {NAN, NAN}};
+    TRY(scene);
+    *scene = *accuracy->scene;
+    scene->output.history = scene->output.fields = false;
+    scene->output.figures.count = 0;
+    scene->time.until_U *= LONGER;
+    scene->time.until_t *= LONGER;
+    scene->time.until_periodic = false;
+    scene->time.until_slidings = scene->time.until_mu_below = 0;
+    scene_scale_loads(scene, pressure);
+    TRY(refine_scene(scene, level->refine, err));
+
+    // Mesh and basis.
+    TRY(simulation_create_by(scene, &options, first ? INFINITY : deadline, &simulation, err));
+    simulation->deadline = deadline;   // one step is made, whatever time there is
+    const Interface *interface = &simulation->model.interface;
+    one_mesh_read(simulation, level);
+    if (coarse && (*coarse = is_too_coarse(accuracy, interface))) goto cleanup;
+
+    // Steps. Where they come to no end, as where slip weakens faster than viscosity can damp on a
+    // cell, the mesh is passed over: a finer one may.
+    double begun = clock_seconds();
+    step_until_known(accuracy, simulation, &wait, err);
+    if (coarse && (*coarse = err->code == ERROR_COMPUTE)) {
+        snprintf(accuracy->passed_over, sizeof accuracy->passed_over,
+                 "no run on the mesh of %d contact nodes, finer ones were taken: %.300s",
+                 level->contact_nodes, err->message);
+        *err = (Error){0};
+        goto cleanup;
+    }
+    TRY(error_is_clean(err));
+
+    // A whole run: what it says, and the time it took. Mesh and basis are made once where the cache
+    // keeps them.
+    Answers answers = simulation_answers(simulation);
+    const Event *least = drops_least_resolved(&simulation->drops, answers.first);
+    if (least) level->slip_cells = fmin(level->slip_cells, least->slip_cells);
+    level->end_wait = fmax(level->end_wait, end_wait_of(&wait, interface, answers.critical_length));
+    count_run(accuracy, simulation, pressure, &answers);
+    accuracy->members++;
+    char cache[PATH_MAX];
+    if (simulation->model.is_reduced && simulation->scene.reduction.cache &&
+        cache_folder_path(cache))
+        level->making += begun - started;
+    else
+        accuracy->making = begun - started;
+
+    // The run in full goes to the scene's end at the same pace, unless an event ends it before.
+    // Output is not in it, and where it would take more than its share it is cut short.
+    const Scene *whole = accuracy->scene;
+    double way = step_rule_end(whole) / simulation->control.now.time;
+    bool sooner = whole->time.until_periodic || whole->time.until_slidings > 0 ||
+                  whole->time.until_mu_below > 0;
+    if (sooner || !isfinite(way)) way = fmin(way, 1);
+    accuracy->stepping = way * (clock_seconds() - begun);
+cleanup:
+    if (err->code == ERROR_INTERRUPT) note_cut(accuracy, simulation, err);
+    if (accuracy->out_of_time && !levels_have_runs(&accuracy->levels)) {
+        accuracy->cut = simulation;
+        simulation = NULL;
+    }
+    amontons_simulation_destroy(simulation);
+    memory_free(scene);
+    level->seconds += clock_seconds() - started;
+    return error_is_clean(err);
+}
+
+// --- from mesh to mesh ---------------------------------------------------------------------------
+
 // One more run on its mesh, s.
 static double seconds_of_run(const Level *level)
 {
@@ -35,8 +370,8 @@ static double seconds_of_run(const Level *level)
 // For so many more runs on the last level.
 static bool has_time_for(Accuracy *accuracy, int32_t runs)
 {
-    const Level *level = accuracy_last_level(accuracy);
-    return seconds_of_run(level) * runs <= accuracy_seconds_left(accuracy);
+    const Level *level = last_level(accuracy);
+    return seconds_of_run(level) * runs <= seconds_left(accuracy);
 }
 
 static bool add_runs(Accuracy *accuracy, int32_t count, Error *err)
@@ -44,7 +379,7 @@ static bool add_runs(Accuracy *accuracy, int32_t count, Error *err)
     for (int32_t k = 0; k < count && !accuracy->out_of_time; k++) {
         accuracy->out_of_time = !has_time_for(accuracy, 1);
         if (accuracy->out_of_time) break;
-        if (!accuracy_run_member(accuracy, NULL, err)) return false;
+        if (!run_member(accuracy, NULL, err)) return false;
     }
     return true;
 }
@@ -67,7 +402,7 @@ static double level_seconds(const Accuracy *accuracy, double ratio)
 static void begin_level(Accuracy *accuracy, double refine)
 {
     double expected = accuracy->levels.count > 0
-                          ? level_seconds(accuracy, refine / accuracy_last_level(accuracy)->refine)
+                          ? level_seconds(accuracy, refine / last_level(accuracy)->refine)
                           : NAN;
     accuracy->levels.list[accuracy->levels.count++] =
         (Level){.refine = refine, .slip_cells = NAN, .seconds_expected = expected};
@@ -89,10 +424,10 @@ static bool is_short_enough(const Accuracy *accuracy)
 // begun in any case.
 static bool has_time_for_level(const Accuracy *accuracy, double ratio)
 {
-    if (accuracy->levels.count == 1) return accuracy_seconds_left(accuracy) > 0;
-    double more = accuracy_full(accuracy, growth_ahead(accuracy, ratio)) -
-                  accuracy_full(accuracy, 1);
-    return level_seconds(accuracy, ratio) + more <= accuracy_seconds_left(accuracy);
+    if (accuracy->levels.count == 1) return seconds_left(accuracy) > 0;
+    double more = seconds_in_full(accuracy, growth_ahead(accuracy, ratio)) -
+                  seconds_in_full(accuracy, 1);
+    return level_seconds(accuracy, ratio) + more <= seconds_left(accuracy);
 }
 
 // The largest of `ratio`, and of those that are smaller by powers of the usual one, at which there
@@ -142,24 +477,24 @@ static bool add_level(Accuracy *accuracy, double refine, Error *err)
         bool *may_be = k >= LEVELS_MAX ? NULL : &coarse;
         coarse = false;
         begin_level(accuracy, refine * next_ratio(accuracy));
-        if (!accuracy_run_member(accuracy, may_be, err) && err->code == ERROR_INPUT &&
+        if (!run_member(accuracy, may_be, err) && err->code == ERROR_INPUT &&
             accuracy->cell_ratio < RATIO_SPLIT) {
             *err = (Error){0};
             accuracy->cell_ratio = RATIO_SPLIT;
             accuracy->levels.count--;
             begin_level(accuracy, refine * accuracy->cell_ratio);
-            accuracy_run_member(accuracy, may_be, err);
+            run_member(accuracy, may_be, err);
         }
         if (!error_is_clean(err)) return false;
-        refine = accuracy_last_level(accuracy)->refine;
+        refine = last_level(accuracy)->refine;
         if (!coarse) break;
         accuracy->out_of_time = growth_ahead(accuracy, accuracy->cell_ratio) *
-                                    accuracy_last_level(accuracy)->seconds >
-                                accuracy_seconds_left(accuracy);
+                                    last_level(accuracy)->seconds >
+                                seconds_left(accuracy);
         accuracy->levels.count--;
         if (accuracy->out_of_time) return true;
     }
-    return add_runs(accuracy, accuracy_runs_first(accuracy) - 1, err);
+    return add_runs(accuracy, runs_first(accuracy) - 1, err);
 }
 
 // Where a second mesh that is finer is not expected to end in time, a coarser one tells how far
@@ -167,7 +502,7 @@ static bool add_level(Accuracy *accuracy, double refine, Error *err)
 static bool wants_coarser_level(const Accuracy *accuracy)
 {
     return accuracy->levels.count == 1 && accuracy->cell_ratio < RATIO_SPLIT &&
-           level_seconds(accuracy, accuracy->cell_ratio) > accuracy_seconds_left(accuracy);
+           level_seconds(accuracy, accuracy->cell_ratio) > seconds_left(accuracy);
 }
 
 // The coarser of two meshes, in the time that is left, becomes the first level. The finer one is
@@ -177,11 +512,11 @@ static bool add_coarser_level(Accuracy *accuracy, Error *err)
     Levels *levels = &accuracy->levels;
     Level finer = levels->list[0];
     double stepping = accuracy->stepping, making = accuracy->making;
-    double excess = level_seconds(accuracy, 1) / accuracy_seconds_left(accuracy);
+    double excess = level_seconds(accuracy, 1) / seconds_left(accuracy);
     double ratio = fmax(pow(excess, 1 / GROWTH[finer.space]), accuracy->cell_ratio);
     bool coarse = false;
     begin_level(accuracy, finer.refine / fmin(ratio, RATIO_SPLIT));
-    accuracy_run_member(accuracy, &coarse, err);
+    run_member(accuracy, &coarse, err);
     accuracy->stepping = stepping;   // the run in full is on the finer one
     accuracy->making = making;
     if (coarse || err->code == ERROR_INPUT || err->code == ERROR_LIBRARY) {
@@ -189,7 +524,7 @@ static bool add_coarser_level(Accuracy *accuracy, Error *err)
         levels->count--;
         return add_level(accuracy, finer.refine, err);
     }
-    if (accuracy_last_level(accuracy)->run_count > 0) {
+    if (last_level(accuracy)->run_count > 0) {
         levels->list[0] = levels->list[1];
         levels->list[1] = finer;
     }
@@ -234,20 +569,20 @@ static bool find_levels(Accuracy *accuracy, Error *err)
     for (int32_t halvings = COARSER_MAX; halvings >= 0; halvings--) {
         bool coarse = false, last = halvings == 0;
         begin_level(accuracy, ldexp(1, -halvings));
-        accuracy_run_member(accuracy, last ? NULL : &coarse, err);
+        run_member(accuracy, last ? NULL : &coarse, err);
         if (!coarse && (last || error_is_clean(err))) break;
         if (err->code == ERROR_INPUT || err->code == ERROR_LIBRARY) *err = (Error){0};
         if (!error_is_clean(err)) return false;
         levels->count--;
     }
     if (!error_is_clean(err)) return false;
-    if (!add_runs(accuracy, accuracy_runs_first(accuracy) - 1, err)) return false;
+    if (!add_runs(accuracy, runs_first(accuracy) - 1, err)) return false;
     if (!levels_have_runs(levels)) levels->ended = NO_TIME;
     if (!levels->ended) show_level(accuracy, levels->list);
 
     while (!levels->ended) {
         const ErrorBar *answer = asked(accuracy);
-        const Level *level = accuracy_last_level(accuracy);
+        const Level *level = last_level(accuracy);
         int32_t before = levels->count, runs = level->run_count;
         double refine = level->refine;
 
@@ -274,13 +609,13 @@ static bool find_levels(Accuracy *accuracy, Error *err)
         if (!more_runs && accuracy->out_of_time) levels->ended = NO_TIME;
 
         // A level without a whole run does not count.
-        if (levels->count > 1 && accuracy_last_level(accuracy)->run_count == 0) levels->count--;
+        if (levels->count > 1 && last_level(accuracy)->run_count == 0) levels->count--;
         levels_estimate(levels);
         if (!added) return false;
 
         // A mesh that was added is the last one or, where that is still the one of before, the
         // first.
-        const Level *last = accuracy_last_level(accuracy);
+        const Level *last = last_level(accuracy);
         bool grown = levels->count != before;
         if (grown || last->run_count != runs)
             show_level(accuracy, grown && last->refine == refine ? levels->list : last);
@@ -298,7 +633,7 @@ static bool run_in_full(Accuracy *accuracy, RunSummary *summary, Error *err)
     Scene *scene = NEW_ARRAY(Scene, 1, err);
     TRY(scene);
     *scene = *accuracy->scene;
-    TRY(scene_refine(scene, accuracy_last_level(accuracy)->refine, err));
+    TRY(refine_scene(scene, last_level(accuracy)->refine, err));
     TRY(amontons_simulation_create(scene, accuracy->options, &simulation, err));
     simulation->deadline = accuracy->deadline;
     if (!simulation_loop(simulation, err)) {   // which is no error where it was for time
@@ -312,13 +647,13 @@ static bool run_in_full(Accuracy *accuracy, RunSummary *summary, Error *err)
             simulation->seen.U);
     }
     Answers answers = simulation_answers(simulation);
-    if (accuracy_is_known(accuracy, &answers) && levels_reach(levels, simulation->seen.U))
-        accuracy_count_run(accuracy, simulation, 1, &answers);
+    if (answer_is_known(accuracy, &answers) && levels_reach(levels, simulation->seen.U))
+        count_run(accuracy, simulation, 1, &answers);
 
     // More runs where branches, not the mesh, are why the bar is not met.
-    while (!is_met(accuracy) && accuracy_seconds_left(accuracy) > 0 &&
+    while (!is_met(accuracy) && seconds_left(accuracy) > 0 &&
            asked(accuracy)->parts.mesh < levels->wanted * asked(accuracy)->value &&
-           accuracy_last_level(accuracy)->run_count + 2 <= LEVEL_RUNS_MAX)
+           last_level(accuracy)->run_count + 2 <= LEVEL_RUNS_MAX)
         TRY(add_runs(accuracy, 2, err));
 
     if (levels->met && !is_met(accuracy)) levels->ended = "the run in full widened it";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/accuracy_figure.h"
+#include "run/accuracy.h"
 
 #include "amontons.h"
 #include "base/text.h"

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A search for an error bar that is stopped, and what it says of a bar not met;
 // loads and parameters of its runs. How good its bars are is tested by end_to_end.accuracy.
-#include "run/accuracy_figure.h"
-#include "run/accuracy_state.h"
+#include "run/accuracy.h"
 #include "run/warnings.h"
 
 #include "base/memory.h"
