@@ -125,7 +125,7 @@ static double arrival_at(const ResultView *view, const double *times, double x)
 }
 
 // Finds speeds between stations a twentieth of the block apart, by the times at which slip there
-// first gets faster than twice the rod, as in record/front_path. Where slip was slow before the
+// first gets faster than twice the rod, as in record/events. Where slip was slow before the
 // front is one of speeding up, and may run faster than any wave.
 static bool find_speeds(ResultView *view, double start, double stop, ViewCurve *curve, Error *err)
 {

@@ -4,7 +4,7 @@
 // peaks then lie on branches some per cent apart, with periods of 2 and more, or without any.
 #include "answers/answers.h"
 
-#include "answers/drop_series.h"
+#include "record/drops.h"
 #include "answers/statistics.h"
 
 #include <math.h>

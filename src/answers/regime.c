@@ -4,7 +4,7 @@
 // drop to drop, with most of the contact stuck, is thus no period, however long it goes on.
 #include "answers/regime.h"
 
-#include "answers/drop_series.h"
+#include "record/drops.h"
 #include "answers/statistics.h"
 
 #include <math.h>

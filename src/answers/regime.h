@@ -6,7 +6,7 @@
 //             successive drops shows a trend that stands out from their scatter, or a scatter that
 //             grows
 //   period    the state of the whole contact comes back: what slid, mu and the share of the load
-//             that each segment carries (record/segments)
+//             that each segment carries (record/drops)
 //
 // Read by answers/answers.
 #ifndef AMONTONS_ANSWERS_REGIME_H

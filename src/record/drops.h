@@ -12,8 +12,38 @@
 #define AMONTONS_RECORD_DROPS_H
 
 #include "record/events.h"
+#include "record/observation.h"
 #include "record/series.h"
-#include "record/segments.h"
+
+// --- the contact in segments --------------------------------------------------------------------
+
+// The state of the whole contact in a few numbers. The contact is cut into segments, a pad or a
+// part of one; each carries a share of the load and lags behind the drive. An elastic block at rest
+// is in the same state as before when all of them carry the same again, and it can only come back
+// to it when each has slipped as far as the drive has gone: a segment that sticks on is loaded more
+// and more. Kept for each drop, judged by answers/regime.
+typedef struct Segments {
+    int32_t count;
+    int32_t contact_count;
+    int32_t *of_node;   // [contact_count] the segment, from 0; owned
+    double *nodes;   // [count] how many it has; owned
+    uint8_t *slipped;   // [contact_count] the node has slipped since the first step; owned
+    int32_t stuck;   // nodes that have not
+} Segments;
+
+bool segments_create(const Interface *interface, Segments *segments, Error *err);
+void segments_destroy(Segments *segments);
+
+// Marks the nodes that slip, or are open, in this step.
+void segments_follow(Segments *segments, const Observation *seen);
+
+// state: [2 count], overwritten: the shear of each over the normal force of all, whose sum is mu;
+// then how far it lags behind the drive, length.
+void segments_read(const Segments *segments, const Observation *seen, double *state);
+
+void segments_archive(Segments *segments, Archive *archive);
+
+// --- drops --------------------------------------------------------------------------------------
 
 typedef enum DropKind { DROP_BULK, DROP_LOAD, DROP_PADS } DropKind;
 
@@ -38,7 +68,7 @@ typedef struct Drops {
     double tolerance;   // drops agree within this, relative
     int32_t count, room;
     Drop *list;   // [count] in order of time; owned
-    SeriesItem *series;   // [room] work of answers/drop_series; owned
+    SeriesItem *series;   // [room] work of drops_series; owned
     Segments segments;   // of the contact
     uint8_t *slid;   // [room][pad_count] 1: this pad slid over all its length in the drop; owned
     int32_t pad_count;
@@ -56,6 +86,9 @@ typedef struct Drops {
     double mu_beside;   // the larger one of those in the steps before and after that of mu_max
 } Drops;
 
+// So many cells must slip before slow slip turns fast for mu to be sure; measured: run/warnings.
+enum { SLIP_CELLS_ENOUGH = 8 };
+
 extern const double LEAST_DROP;
 
 Drops drops_none(void);   // before anything is recorded: every answer of it is NaN
@@ -70,6 +103,12 @@ int32_t drops_count(const Drops *drops, DropKind kind);
 // Drop k of the list as one of this kind: what it holds since the drop before, it holds since the
 // one of the same kind before.
 Drop drops_as(const Drops *drops, DropKind kind, int32_t k);
+// mu of the drops of one kind from number `first` of the list on, into drops->series, their kind
+// the number of pads that slid, with the contact's state. Returns how many they are.
+int32_t drops_series(const Drops *drops, DropKind kind, int32_t first);
+// Among the load drops from number `first` of the list on, finds the event before which the fewest
+// cells slipped on the pad where slow slip turned fast; NULL: no such drop.
+const Event *drops_least_resolved(const Drops *drops, int32_t first);
 bool drops_archive(Drops *drops, Archive *archive, Error *err);
 
 #endif

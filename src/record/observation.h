@@ -5,6 +5,7 @@
 #ifndef AMONTONS_RECORD_OBSERVATION_H
 #define AMONTONS_RECORD_OBSERVATION_H
 
+#include "base/archive.h"
 #include "contact/contact_check.h"
 #include "contact/slip.h"
 #include "stepping/step_control.h"
@@ -61,6 +62,32 @@ static inline uint8_t seen_status(const Observation *seen, int32_t i)
 
 Observation observe(const StepControl *control, const ObservationScales *scales);
 
+// Forces and slip of each pad in one accepted step, summed over its nodes.
+typedef struct PadSum {
+    double normal_force;   // force/width
+    double shear;   // positive where the plane holds the block back, force/width
+    double shear_across;   // towards -y; 0 in the plane, force
+    double slipping;   // how much of the pad slips, length, in space length^2
+    double slipping_cells;   // in the plane the same counted in nodes, an end of the pad as half a
+        // one: cells of the contact, halves of them where elements are of order 2
+    double fastest;   // largest |slip rate|, velocity
+} PadSum;
+
+// sums: [pad_count], overwritten. Open nodes carry nothing and do not count as slipping.
+void pad_sums(const Observation *seen, PadSum *sums);
+
+// Size of a pad.
+typedef struct PadSize {
+    int32_t nodes;
+    double x_from, x_to;   // length
+    double y_from, y_to;   // 0 in the plane
+    double weight;   // sum of its nodes': length, in space length^2
+    double breadth;   // its weight over its extent along the drive, length; 1 in the plane
+} PadSize;
+PadSize pad_size(const Interface *interface, int32_t p);
+
+void pad_sums_archive(PadSum *sums, int32_t count, Archive *archive);
+
 typedef struct Recorder {
     void *self;   // not owned
     bool (*record)(void *self, const Observation *seen, Error *err);
@@ -76,5 +103,21 @@ typedef struct Recorders {
 void recorders_add(Recorders *recorders, void *self,
                    bool (*record)(void *self, const Observation *seen, Error *err));
 bool recorders_record(const Recorders *recorders, const Observation *seen, Error *err);
+
+// The part of a run that a scene wants written, output.window. A recorder that hands steps on to
+// those inside of it while it is open.
+typedef struct WindowDef {
+    bool given;   // else all of the run
+    double from_U, to_U, from_t, to_t;   // length, time; to: INFINITY where not asked
+} WindowDef;
+
+typedef struct Window {
+    WindowDef def;
+    Recorders inside;
+    int32_t steps;   // handed on inside
+} Window;
+
+bool window_record(void *self, const Observation *seen, Error *err);   // a Recorder
+void window_archive(Window *window, Archive *archive);
 
 #endif

@@ -14,7 +14,7 @@
 // bar. If it was the first run of all, its own answers stand, without a bar.
 #include "run/accuracy.h"
 
-#include "answers/drop_series.h"
+#include "record/drops.h"
 #include "base/clock.h"
 #include "base/decimal_point.h"
 #include "base/memory.h"

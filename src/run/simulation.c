@@ -3,7 +3,7 @@
 #include "run/simulation_state.h"
 
 #include "algebra/dense.h"
-#include "answers/drop_series.h"
+#include "record/drops.h"
 #include "answers/steady_answer.h"
 #include "base/clock.h"
 #include "base/decimal_point.h"

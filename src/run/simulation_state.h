@@ -17,7 +17,7 @@
 #include "record/program_readings.h"
 #include "record/rotation.h"
 #include "record/steady.h"
-#include "record/window.h"
+#include "record/observation.h"
 #include "run/result/result_folder.h"
 #include "stepping/explicit_reference.h"
 

@@ -3,7 +3,7 @@
 // answers. Nothing is computed here that is not known already.
 #include "run/simulation_state.h"
 
-#include "answers/drop_series.h"
+#include "record/drops.h"
 #include "answers/program_results.h"
 #include "answers/steady_answer.h"
 #include "base/decimal_point.h"

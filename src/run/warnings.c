@@ -14,7 +14,7 @@
 // %, largest 3.2 %).
 #include "run/warnings.h"
 
-#include "answers/drop_series.h"
+#include "record/drops.h"
 #include "friction/friction.h"
 #include "model/step_rule.h"
 #include "scene/keys.h"

@@ -10,7 +10,7 @@
 #include "contact/rod_course.h"
 #include "model/node_laws.h"
 #include "model/gaps.h"
-#include "record/window.h"
+#include "record/observation.h"
 #include "scene/keys.h"
 #include "scene/materials.h"
 #include "scene/profile.h"

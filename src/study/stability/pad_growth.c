@@ -22,7 +22,7 @@
 #include "algebra/dense.h"
 #include "base/memory.h"
 #include "contact/slip.h"
-#include "record/pad_sums.h"
+#include "record/observation.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -4,6 +4,8 @@
 
 #include "base/memory.h"
 #include "drops_by_hand.h"
+#include "plane.h"
+#include "seen_by_hand.h"
 
 // Which drops of mu are load drops depends on their size relative to mu alone, whoever slips and at
 // whatever load.
@@ -268,5 +270,109 @@ TEST(test_memory_faults)
     assert_int_equal(hand.drops.count, full + 100);
     for (int32_t k = 0; k < 100; k++)
         assert_near("mu", hand.drops.list[full + k].mu, 0.3 + 1e-3 * k, 0);
+    hand_drops_end(&hand);
+}
+
+// --- the contact in segments: how nodes are shared out ------------------------------------------
+
+TEST(test_state_of_segments)
+{
+    Error err = {0};
+    HandSeen hand;
+    Segments segments;
+    double found[2 * SEEN_NODES];
+    hand_seen_init(&hand);
+    hand_split(&hand, 2);
+    assert_true(segments_create(&hand.interface, &segments, &err));
+    assert_int_equal(segments.count, SEEN_NODES);   // fewer nodes than segments: each is one
+    for (int32_t i = 0; i < SEEN_NODES; i++) {
+        hand.reaction[plane_normal(i)] = 2;
+        hand.reaction[plane_tangent(i)] = -0.1 * i;
+    }
+    const Observation *seen = hand_seen(&hand, 10, (double[]){1, 1, 1, 0, 0});   // U = 1
+    segments_read(&segments, seen, found);
+    for (int32_t s = 0; s < SEEN_NODES; s++) {
+        assert_near("share", found[s], 0.01 * s, 1e-15);
+        assert_near("lag", found[SEEN_NODES + s], s < 3 ? 0 : 1, 1e-15);
+    }
+    segments_follow(&segments, seen);
+    assert_int_equal(segments.stuck, 2);
+    segments_follow(&segments, hand_seen(&hand, 11, (double[]){0, 1, 0, 1, 1}));
+    assert_int_equal(segments.stuck, 0);
+    segments_destroy(&segments);
+    segments_destroy(&segments);
+}
+
+// 200 nodes on a long pad, 20 on a short one, 1 on a third: parts with as many nodes each, and no
+// pad without.
+TEST(test_shared_out)
+{
+    enum { NODES = 221 };
+    Error err = {0};
+    Segments segments;
+    int32_t pad[NODES];
+    for (int32_t i = 0; i < NODES; i++) pad[i] = i < 200 ? 0 : (i < 220 ? 1 : 2);
+    Interface interface = {.dim = 2, .contact_count = NODES, .pad = pad, .pad_count = 3};
+    int64_t live = memory_counters().live;
+    assert_true(segments_create(&interface, &segments, &err));
+    assert_int_equal(segments.count, 14 + 1 + 1);
+    for (int32_t s = 0; s < 14; s++)
+        assert_in_range((int32_t)segments.nodes[s], 14, 15);   // 200 / 14
+    assert_near("short", segments.nodes[14], 20, 0);
+    assert_near("a node", segments.nodes[15], 1, 0);
+    for (int32_t i = 1; i < NODES; i++)
+        assert_in_range(segments.of_node[i] - segments.of_node[i - 1], 0, 1);
+    segments_destroy(&segments);
+    for (int32_t k = 0; k < 3; k++) {
+        memory_fail_after(k);
+        assert_false(segments_create(&interface, &segments, &err));
+        memory_fail_after(-1);
+        error_clear(&err);
+        segments_destroy(&segments);
+        assert_int_equal(memory_counters().live, live);
+    }
+}
+
+// --- the drops of one kind as a series ----------------------------------------------------------
+
+// There are two bulk slidings, three load drops, and three of pads.
+TEST(test_series_of_a_kind)
+{
+    HandDrops hand;
+    hand_drops_begin(&hand, 2);
+    drop(&hand, 0.5, 0.1, ACROSS);
+    drop(&hand, 0.4, 0.399, LEFT);
+    drop(&hand, 0.3, 0.1, PART);
+    drop(&hand, 0.35, 0.1, ACROSS);
+    assert_int_equal(drops_series(&hand.drops, DROP_BULK, 0), 2);
+    assert_near("series", hand.drops.series[1].value, 0.4, 0);
+    assert_int_equal(hand.drops.series[1].kind, 2);
+    assert_int_equal(drops_series(&hand.drops, DROP_LOAD, 0), 3);
+    assert_near("series", hand.drops.series[1].value, 0.4, 0);
+    assert_int_equal(drops_series(&hand.drops, DROP_PADS, 2), 1);
+    hand_drops_end(&hand);
+}
+
+// The second event begins on the right pad, of which a node that weighs 1/8 slipped. Only drops
+// from a given one on are asked.
+TEST(test_least_resolved)
+{
+    HandDrops hand;
+    hand_drops_begin(&hand, 2);
+    assert_null(drops_least_resolved(&hand.drops, 0));
+    drop(&hand, 0.5, 0.1, ACROSS);
+    see(&hand, 0.2, (double[]){0.5, 0, 0, 0, 0.5});
+    see(&hand, 0.4, (double[]){0.5, 0, 0, 3, 3});
+    see(&hand, 0.1, ACROSS);
+    see(&hand, 0.1, REST);
+    drop(&hand, 0.4, 0.1, ACROSS);
+    const Event *least = drops_least_resolved(&hand.drops, 0);
+    assert_non_null(least);
+    assert_true(least->pad == 1);
+    assert_near("cells", least->slip_cells, 0.5, 0);
+    least = drops_least_resolved(&hand.drops, 2);
+    assert_non_null(least);
+    assert_true(least->pad == 0);
+    assert_near("cells", least->slip_cells, 1.5, 0);
     hand_drops_end(&hand);
 }
