@@ -4,13 +4,109 @@
 // peaks then lie on branches some per cent apart, with periods of 2 and more, or without any.
 #include "answers/answers.h"
 
-#include "record/drops.h"
 #include "answers/statistics.h"
+#include "record/drops.h"
 
 #include <math.h>
 #include <stddef.h>
 
 static const double MEAN_ERROR = 0.02;
+
+// Length that slipped when slip turned fast, over the length of the front from the trailing end.
+// Above this ratio most of it slipped elsewhere, and the front says nothing of when the block
+// slides.
+static const double ELSEWHERE = 2;
+
+// --- the first loading, and the cycles after it -------------------------------------------------
+
+// Number of the first sliding of the whole block from event number `from` on; without one the
+// number of events.
+static int32_t next_sliding(const Events *events, int32_t from)
+{
+    int32_t k = from;
+    while (k < events->count && events->list[k].kind != EVENT_LEADING) k++;
+    return k;
+}
+
+// Distance from the trailing end of the block to which a rapid event came, length.
+static double precursor_length(const Events *events, const Event *event)
+{
+    return event->reach - events->trailing;
+}
+
+// Counts the precursors among the events from number `from` to the one before `to`. *longest: the
+// largest of their lengths, 0 without any.
+static int32_t count_precursors(const Events *events, int32_t from, int32_t to, double *longest)
+{
+    int32_t count = 0;
+    *longest = 0;
+    for (int32_t k = from; k < to; k++) {
+        if (events->list[k].kind != EVENT_BOUNDED) continue;
+        *longest = fmax(*longest, precursor_length(events, &events->list[k]));
+        count++;
+    }
+    return count;
+}
+
+FirstLoading first_loading_of(const Drops *drops)
+{
+    FirstLoading first = {.mu = {NAN, NAN},
+                          .parts = {NAN, NAN, NAN},
+                          .known_to = NAN,
+                          .U = NAN,
+                          .critical_length = NAN,
+                          .critical_part = NAN};
+    const Events *events = drops->events;
+    if (!events) return first;   // a run that failed early
+    int32_t sliding = next_sliding(events, 0);
+    first.precursors = count_precursors(events, 0, sliding, &first.longest);
+
+    // A block that moves from t = 0 on has slid without a peak before: no drop belongs to that.
+    for (int32_t k = 0; k < drops->count && !first.slid; k++) {
+        if (!drops->list[k].bulk || drops->list[k].event != sliding) continue;
+        Drop peak = drops_as(drops, DROP_BULK, k);
+        first.slid = true;
+        first.mu.value = peak.mu;
+        first.U = peak.U;
+        for (int32_t i = 0; i < sliding; i++)
+            if (events->list[i].kind == EVENT_BOUNDED && events->list[i].U_start < peak.U &&
+                isfinite(events->list[i].mu_start))
+                first.since_precursor = fmax(peak.mu - events->list[i].mu_start, 0);
+        const Event *event = &events->list[sliding];
+        bool elsewhere = event->slip_length > ELSEWHERE * peak.critical_length;
+        first.critical_length = elsewhere ? (double)NAN : peak.critical_length;
+        first.critical_part = peak.critical_part;
+    }
+    return first;
+}
+
+LaterCycles later_cycles_of(const Drops *drops, int32_t first)
+{
+    LaterCycles later = {.way = NAN, .precursors = NAN, .longest = NAN};
+    const Events *events = drops->events;
+    double U = NAN, way = 0, precursors = 0, longest = 0;
+    int32_t before = -1;   // number of the sliding before
+    for (int32_t k = 0; k < drops->count; k++) {
+        if (!drops->list[k].bulk) continue;
+        Drop peak = drops_as(drops, DROP_BULK, k);
+        if (k >= first && before >= 0) {
+            double most;
+            precursors += count_precursors(events, before + 1, peak.event, &most);
+            longest += most;
+            way += peak.U - U;
+            later.count++;
+        }
+        before = peak.event;
+        U = peak.U;
+    }
+    if (later.count == 0) return later;
+    later.way = way / later.count;
+    later.precursors = precursors / later.count;
+    later.longest = longest / later.count;
+    return later;
+}
+
+// --- the regime ---------------------------------------------------------------------------------
 
 // The lowest of the series and the range of its branch.
 static Estimate lowest_branch(const Drops *drops, int32_t count)
@@ -101,6 +197,14 @@ Answers answers_of(const Drops *drops)
     return answers;
 }
 
+void steady_answer(const Steady *steady, Answers *answers)
+{
+    answers->steady = answers->peaks_counted == 0 && !isnan(steady_mu(steady).value);
+    if (!answers->steady) return;
+    answers->mu_M = steady_mu(steady);
+    answers->mu_M_parts = (ErrorParts){NAN, NAN, answers->mu_M.error};
+}
+
 // --- run.json -----------------------------------------------------------------------------------
 
 // Writes the branches of the drops of one kind that count; by the number of pads that slid, then
@@ -177,6 +281,37 @@ static void write_parts(JsonWriter *json, const char *name, const ErrorParts *pa
     json_end(json);
 }
 
+// Writes `first` and `later_cycles`. length: L.
+static void write_first_loading(const FirstLoading *first, const LaterCycles *later,
+                                const Events *events, double length, JsonWriter *json)
+{
+    json_begin_object(json, "first");
+    json_boolean(json, "slid", first->slid);
+    json_numbers_of(json, {"mu", first->mu.value}, {"mu_error", first->mu.error});
+    json_begin_object(json, "mu_error_parts");
+    json_numbers_of(json, {"mesh", first->parts.mesh}, {"branches", first->parts.branches});
+    json_end(json);
+    json_numbers_of(json, {"mu_known_to", first->known_to}, {"U", first->U});
+    json_integer(json, "precursors", first->precursors);
+    json_number(json, "longest_over_L", first->longest / length);
+    json_number(json, "l_c_over_L", first->critical_length / length);
+    if (events && events->in_space) json_number(json, "A_c_over_A", first->critical_part);
+    int32_t sliding = events ? next_sliding(events, 0) : 0;
+    json_begin_list(json, "list");
+    for (int32_t k = 0; k < sliding; k++) {
+        const Event *event = &events->list[k];
+        if (event->kind != EVENT_BOUNDED) continue;
+        json_object_of(json, NULL, {"U", event->U_start}, {"mu", event->mu_start},
+                       {"length_over_L", precursor_length(events, event) / length},
+                       {"slipped_over_A", event->slipped / events->size},
+                       {"peak_slip_rate", event->peak_slip_rate});
+    }
+    json_end(json);
+    json_end(json);
+    json_object_of(json, "later_cycles", {"count", later->count}, {"U", later->way},
+                   {"precursors", later->precursors}, {"longest_over_L", later->longest / length});
+}
+
 void answers_write_json(const Answers *answers, const Drops *drops, double length, JsonWriter *json)
 {
     json_numbers_of(json, {"mu_M", answers->mu_M.value}, {"mu_M_error", answers->mu_M.error});
@@ -195,8 +330,8 @@ void answers_write_json(const Answers *answers, const Drops *drops, double lengt
                     {"l_sc_over_L", answers->subcritical_length / length},
                     {"l_c_over_L", answers->critical_length / length});
     if (is_in_space(drops)) json_number(json, "A_c_over_A", answers->critical_part);
-    first_loading_write_json(&answers->first_loading, &answers->later_cycles, drops->events, length,
-                             json);
+    write_first_loading(&answers->first_loading, &answers->later_cycles, drops->events, length,
+                        json);
     answers_write_peaks(answers, drops, length, json);
 
     // Drops that do not repeat scatter: their branches are the numbers of pads that slid.
@@ -224,4 +359,26 @@ void answers_write_json(const Answers *answers, const Drops *drops, double lengt
         low = fmin(low, drops->series[k].value);   // fmin of NaN and a number is the number
     json_number(json, "mu_first_pad", low);
     write_list(drops, DROP_PADS, "pad_slidings", json);
+}
+
+const char *steady_words(const Steady *steady, const Answers *answers)
+{
+    if (!steady->events) return "none: the run failed before its first step";
+    if (answers->steady) return "steady sliding";
+    if (!isnan(answers->mu_M.value)) return "peaks";
+    if (steady->slides) return "none: the block slides slowly, and F_T/F_N is not steady yet";
+    if (answers->peaks > 0)
+        return "none: what slidings of the whole block there were belong to the start or run-in";
+    if (steady->events->kinds[EVENT_LEADING] > 0)
+        return "none: the block slid from the start on, and not once from rest";
+    if (answers->regime.count > 0) return "none: only parts of the block slid in this run";
+    return "none: the block as a whole did not slide in this run";
+}
+
+void steady_write_json(const Steady *steady, const Answers *answers, JsonWriter *json)
+{
+    Estimate mu = steady_mu(steady);
+    json_text(json, "mu_M_is", steady_words(steady, answers));
+    json_numbers_of(json, {"mu_steady", mu.value}, {"mu_steady_error", mu.error},
+                    {"mu_steady_from_U", isnan(mu.value) ? NAN : steady->from});
 }

@@ -13,12 +13,44 @@
 #ifndef AMONTONS_ANSWERS_ANSWERS_H
 #define AMONTONS_ANSWERS_ANSWERS_H
 
-#include "answers/first_loading.h"
 #include "answers/regime.h"
 #include "io/text/json_writer.h"
+#include "record/drops.h"
+#include "record/steady.h"
 
 // Standard errors in an error bar: 95 % of normal deviates.
 enum { ERROR_BAR = 2 };
+
+typedef struct ErrorParts {   // NaN: not known
+    double mesh, branches, drops;
+} ErrorParts;
+
+// The first loading, which an experiment measures: from where the rod starts to the first sliding
+// of the whole block. It begins from a block that nobody has pushed, so that its peak and its
+// precursors are not those of later cycles, which are given beside it.
+typedef struct FirstLoading {
+    bool slid;   // the block came to slide as a whole, from rest
+    Estimate mu;   // the largest mu before it did; one value, whose error only several runs tell
+    ErrorParts parts;   // of this error
+    double known_to;   // as Answers has it of mu_M, and what one precursor more or less changes
+    // Rise of mu up to its largest since the last precursor before that began; 0: none was.
+    double since_precursor;
+    double U;   // where mu was so large, length
+    int32_t precursors;   // bounded rapid events before it; so far, where it has not slid
+    double longest;   // length of the longest of them, length; 0: none
+    // l_c of the first sliding, length; NaN: as of a Drop, or more than half of what slipped when
+    // slip turned fast was elsewhere than behind the front
+    double critical_length;
+    double critical_part;   // A_c/A of it
+} FirstLoading;
+
+// Cycles that count for mu_M, but for the first loading. NaN: there is none.
+typedef struct LaterCycles {
+    int32_t count;
+    double way;   // of the rod from peak to peak, length
+    double precursors;   // bounded rapid events in a cycle
+    double longest;   // length of the longest precursor of a cycle, length
+} LaterCycles;   // means over the cycles
 
 typedef struct Answers {
     Regime regime;   // of the load drops
@@ -46,6 +78,14 @@ typedef struct Answers {
 } Answers;
 
 Answers answers_of(const Drops *drops);
+FirstLoading first_loading_of(const Drops *drops);
+LaterCycles later_cycles_of(const Drops *drops, int32_t first);   // from drop number `first` on
+
+// Where no bulk sliding counts mu_M is that of steady sliding, its error half the range in which it
+// keeps; other meshes have another, as with load drops.
+void steady_answer(const Steady *steady, Answers *answers);
+// The meaning of mu_M: "peaks", "steady sliding", or "none: " and why.
+const char *steady_words(const Steady *steady, const Answers *answers);   // static storage
 
 void error_parts_write(const ErrorParts *parts, JsonWriter *json);   // into the open object
 
@@ -54,5 +94,7 @@ void answers_write_json(const Answers *answers, const Drops *drops, double lengt
                         JsonWriter *json);
 void answers_write_peaks(const Answers *answers, const Drops *drops, double length,
                          JsonWriter *json);
+// Into results: mu_M_is, mu_steady, its error and from where on.
+void steady_write_json(const Steady *steady, const Answers *answers, JsonWriter *json);
 
 #endif

@@ -26,6 +26,54 @@ static const double END_WAITS = 3;   // mu may rise so many times as much before
 // the contact lets go in part, and another mesh has other precursors: nine of ten differ by less.
 static const double ONE_PRECURSOR = 0.3;
 static const double STEPS = 0.002;   // of mu: what tolerances of steps and reduction leave
+static const double BRANCH_WIDTH = 0.005;   // of mu: the next branch is twice as far and more
+static const double CHANCE = 0.05;   // less likely differences of patterns are no chance
+
+// --- which pads slide together ------------------------------------------------------------------
+
+void patterns_add(Patterns *patterns, uint64_t pads)
+{
+    int32_t k = 0;
+    patterns->drops++;
+    while (k < patterns->count && patterns->list[k].pads != pads) k++;
+    if (k == PATTERNS_MAX) return;
+    if (k == patterns->count) patterns->list[patterns->count++] = (Pattern){.pads = pads};
+    patterns->list[k].drops++;
+}
+
+void patterns_add_drops(Patterns *patterns, const Drops *drops, int32_t first)
+{
+    for (int32_t k = first; k < drops->count; k++) {
+        const uint8_t *slid = &drops->slid[(int64_t)k * drops->pad_count];
+        uint64_t pads = 0;
+        if (!drop_is(&drops->list[k], DROP_LOAD)) continue;
+        for (int32_t p = 0; p < drops->pad_count; p++) pads |= (uint64_t)(slid[p] != 0) << p % 64;
+        patterns_add(patterns, pads);
+    }
+}
+
+// All drops with a pattern are among those of `one`: the chance of that where both have it alike.
+static bool lacks(const Patterns *other, const Patterns *one)
+{
+    for (int32_t k = 0; k < one->count; k++) {
+        double chance = 1;
+        bool has = other->count == PATTERNS_MAX;   // it may be one of those that are not listed
+        for (int32_t i = 0; i < other->count; i++)
+            has = has || other->list[i].pads == one->list[k].pads;
+        if (has) continue;
+        for (int32_t i = 0; i < one->list[k].drops; i++)
+            chance *= (double)(one->drops - i) / (one->drops + other->drops - i);
+        if (chance < CHANCE) return true;
+    }
+    return false;
+}
+
+bool patterns_differ(const Patterns *one, const Patterns *other)
+{
+    return lacks(one, other) || lacks(other, one);
+}
+
+// --- levels -------------------------------------------------------------------------------------
 
 // NaN: a run has no such answer.
 static double mean_of(const Level *level, AnswerKind kind)
@@ -378,4 +426,76 @@ double levels_order(const Levels *levels)
     return log(difference(levels, last - 1, levels->asked) /
                difference(levels, last, levels->asked)) /
            log(ratio);
+}
+
+// --- run.json -----------------------------------------------------------------------------------
+
+void levels_write_json(const Levels *levels, JsonWriter *json)
+{
+    json_begin_object(json, "accuracy");
+    json_number(json, "wanted", levels->wanted);
+    json_boolean(json, "met", levels->met);
+    json_text(json, "of", ANSWER_NAMES[levels->asked]);
+    json_text(json, "ended", levels->ended);
+
+    // All values of the run that was cut are null if none was.
+    static const LevelCut none = {NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+    const LevelCut *cut = levels->cut.mesh == 0 ? &none : &levels->cut;
+    json_object_of(json, "cut", {"mesh", cut->mesh}, {"run", cut->run},
+                   {"contact_nodes", cut->contact_nodes}, {"U", cut->U}, {"part", cut->part},
+                   {"seconds", cut->seconds}, {"seconds_expected", cut->seconds_expected},
+                   {"mu_M", cut->mu_M}, {"mu_hold", cut->mu_hold});
+    json_number(json, "observed_order", levels_order(levels));
+
+    // Values to which the runs of the last level come, and which part of them.
+    SeriesItem sorted[LEVEL_RUNS_MAX];
+    const Level *last = levels_last(levels);
+    int32_t count = 0;
+    for (int32_t k = 0; last && k < last->run_count; k++) {
+        double value = last->runs[k].answer[levels->asked].value;
+        if (!isnan(value)) sorted[count++] = (SeriesItem){.value = value};
+    }
+    series_sort(sorted, count);
+    json_begin_list(json, "branches");
+    for (int32_t k = 0; k < count;) {
+        SeriesBranch branch;
+        k = series_branch(sorted, count, k, BRANCH_WIDTH, &branch);
+        json_object_of(json, NULL, {"mu", branch.mean}, {"share", (double)branch.count / count});
+    }
+    json_end(json);
+
+    json_begin_list(json, "levels");
+    for (int32_t l = 0; l < levels->count; l++) {
+        const Level *level = &levels->list[l];
+        json_begin_object(json, NULL);
+        json_numbers_of(json, {"refine", level->refine}, {"contact_nodes", level->contact_nodes},
+                        {"seconds", level->seconds}, {"seconds_expected", level->seconds_expected});
+        json_boolean(json, "undamped", level->undamped);
+        json_boolean(json, "other_drops", level->other_drops);
+        json_numbers_of(json, {"slip_cells", level->slip_cells}, {"end_wait", level->end_wait});
+        for (AnswerKind kind = 0; kind < ANSWER_KINDS; kind++) {
+            const ErrorBar *bar = &level->answer[kind];
+            json_begin_object(json, ANSWER_NAMES[kind]);
+            json_numbers_of(json, {"value", bar->value}, {"bar", bar->bar});
+            error_parts_write(&bar->parts, json);
+            json_end(json);
+        }
+        json_begin_list(json, "runs");
+        for (int32_t k = 0; k < level->run_count; k++) {
+            const LevelRun *run = &level->runs[k];
+            json_begin_object(json, NULL);
+            json_numbers_of(json, {"pressure", run->pressure},
+                            {"mu_M", run->answer[ANSWER_MU_M].value},
+                            {"mu_hold", run->answer[ANSWER_MU_HOLD].value},
+                            {"mu_first", run->answer[ANSWER_MU_FIRST].value}, {"peaks", run->peaks},
+                            {"period", run->period});
+            json_text(json, "run_in", run_in_name(run->run_in));
+            json_integer(json, "steps", run->steps);
+            json_end(json);
+        }
+        json_end(json);
+        json_end(json);
+    }
+    json_end(json);
+    json_end(json);
 }

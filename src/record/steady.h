@@ -4,7 +4,7 @@
 // slides. Steady is a state in which every node of the contact slips (or is open), none fast, and
 // mu keeps within STEADY_RANGE while the drive goes as far as the slip that the drop of friction
 // drives, and as what the contact remembers takes to fall below STEADY_RANGE: before, mu is on its
-// way, or turns back for a moment. Fed after record/events; read by answers/steady_answer.
+// way, or turns back for a moment. Fed after record/events; read by answers/answers.
 #ifndef AMONTONS_RECORD_STEADY_H
 #define AMONTONS_RECORD_STEADY_H
 

@@ -6,7 +6,7 @@
 #include "run/simulation_state.h"
 
 #include "answers/program_results.h"
-#include "answers/steady_answer.h"
+#include "answers/answers.h"
 #include "base/computation.h"
 #include "base/kernels.h"
 #include "io/text/json_writer.h"

@@ -4,7 +4,7 @@
 
 #include "algebra/dense.h"
 #include "record/drops.h"
-#include "answers/steady_answer.h"
+#include "answers/answers.h"
 #include "base/clock.h"
 #include "base/decimal_point.h"
 #include "base/memory.h"

@@ -5,7 +5,7 @@
 
 #include "record/drops.h"
 #include "answers/program_results.h"
-#include "answers/steady_answer.h"
+#include "answers/answers.h"
 #include "base/decimal_point.h"
 #include "base/memory.h"
 #include "base/text.h"

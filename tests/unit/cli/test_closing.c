@@ -77,7 +77,7 @@ TEST(test_static_friction)
     RunSummary summary = no_answers();
     const char *said = closing("", &summary);
     assert_true(strncmp(said, "done\n", 5) == 0);
-    assert_says(said, "mu_M            none: it stands");   // the words of answers/steady_answer
+    assert_says(said, "mu_M            none: it stands");   // the words of answers/answers
     assert_says(said, "critical length not reached");
     assert_null(strstr(said, "Results in"));
     summary.peaks = 3;
