@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Several runs side by side: their numbers, where their scenes differ, their force curves over each
 // other.
-#include "page/pages.h"
+#include "page/page.h"
 
 #include "base/memory.h"
 #include "base/module.h"
 #include "io/text/json_reader.h"
-#include "page/numbers.h"
-#include "page/scene_part.h"
-#include "page/sheet.h"
-#include "render/render.h"
 
 #include <string.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "page/numbers.h"
+#include "page/page.h"
 
 #include "base/text.h"
 #include "io/text/json_reader.h"

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // amontons_report: which page the results want, and the page as a file.
-#include "amontons.h"
+#include "page/page.h"
 
 #include "base/child_process.h"
 #include "base/decimal_point.h"
 #include "io/files/open_file.h"
 #include "io/files/part_file.h"
-#include "page/pages.h"
-#include "page/run_source.h"
 #include "render/picture_options.h"
 #include "run/result/pictures.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "page/run_source.h"
+#include "page/page.h"
 
 #include "base/memory.h"
 #include "io/files/text_file.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Keys and values are taken as run.json has them, whatever keys there are: a new one needs no line
 // here.
-#include "page/scene_part.h"
+#include "page/page.h"
 
 #include "base/memory.h"
 #include "io/text/json_reader.h"

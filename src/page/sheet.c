@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The policy names style and script by their SHA-256 (Content Security Policy 3): no other script
 // runs, whatever a text should smuggle in.
-#include "page/sheet.h"
+#include "page/page.h"
 
 #include "io/text/json_reader.h"
 #include "page_resources.h"

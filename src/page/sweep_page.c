@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A sweep on a page, from its tables: figures, ranking, all points, and what failed or warned.
-#include "page/pages.h"
+#include "page/page.h"
 
 #include "base/memory.h"
 #include "base/module.h"
@@ -9,10 +9,6 @@
 #include "io/hdf5/array_file.h"
 #include "io/text/csv_reader.h"
 #include "io/text/json_reader.h"
-#include "page/numbers.h"
-#include "page/scene_part.h"
-#include "page/sheet.h"
-#include "render/render.h"
 #include "study/sweep/showing/warned.h"
 
 #include <dirent.h>
