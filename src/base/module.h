@@ -2,7 +2,7 @@
 // Modules: the parts that need a heavy library (gmsh, HDF5, VTK, what draws, libav) are shared
 // objects of their own, opened on first use, because loading all of them costs more than a whole
 // run. Called by io/mesh/mesh_read, io/hdf5/array_file, io/fields/field_file,
-// io/video/video_file, run/result/pictures and run/info/info_mesh.
+// io/video/video_file, run/result/pictures and run/info/info.
 #ifndef AMONTONS_BASE_MODULE_H
 #define AMONTONS_BASE_MODULE_H
 

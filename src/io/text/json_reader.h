@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Looks single values up in a JSON text of our own (io/text/json_writer): nothing is kept, what is
-// not asked for is skipped. Called by study/sweep, run/info/info_result and page/ for run.json,
+// not asked for is skipped. Called by study/sweep, run/info/info and page/ for run.json,
 // which may hold thousands of events.
 #ifndef AMONTONS_IO_TEXT_JSON_READER_H
 #define AMONTONS_IO_TEXT_JSON_READER_H
