@@ -676,7 +676,7 @@ bool amontons_run(const Scene *scene, const RunOptions *options, RunSummary *sum
 {
     NUMBERS_HAVE_A_POINT;
     if (!(scene->accuracy.mu > 0)) return simulation_run(scene, options, summary, err);
-    *summary = summary_none();
+    *summary = (RunSummary){0};
     ResultFolder folder = {0};
     Accuracy *accuracy = NEW_ARRAY(Accuracy, 1, err);
     TRY(accuracy);

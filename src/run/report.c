@@ -69,10 +69,9 @@ static void write_slip(JsonWriter *json, const Event *event, const Pads *pads)
                     {"slip_cells", event ? event->slip_cells : NAN});
 }
 
-static void write_results(JsonWriter *json, const RunReport *report)
+static void write_results(JsonWriter *json, const Simulation *simulation)
 {
-    const Simulation *simulation = report->simulation;
-    const Answers *answers = report->answers;
+    const Answers *answers = &simulation->answers;
     const Model *model = &simulation->model;
     json_begin_object(json, "results");
     answers_write_json(answers, &simulation->drops, model->length, json);
@@ -85,7 +84,7 @@ static void write_results(JsonWriter *json, const RunReport *report)
                         {"F_T_hold", load * answers->mu_hold.value},
                         {"F_T_max", load * answers->mu_max});
     steady_write_json(&simulation->steady, answers, json);
-    write_slip(json, report->least_resolved, &simulation->pads);
+    write_slip(json, simulation->least_resolved, &simulation->pads);
     pads_write_json(&simulation->pads, json);
     if (simulation->rotation.contact && model->interface.dim > 2)
         rotation_write_json(&simulation->rotation, json);
@@ -153,18 +152,17 @@ static void write_energy(JsonWriter *json, const Simulation *simulation)
     json_end(json);
 }
 
-// report->failure NULL: the run ended as it should.
-static void write_all(JsonWriter *json, const char *folder, const RunReport *report)
+static void write_all(const Simulation *simulation, const Error *failure, const char *folder,
+                      JsonWriter *json)
 {
-    const Simulation *simulation = report->simulation;
     char sources[HASH_TEXT_SIZE];
     Hash computation = computation_hash();
     hash_write(&computation, sources);
     json_begin_object(json, NULL);
-    json_text(json, "status", report->failure ? "failed" : "done");
-    if (report->failure) {
-        json_text(json, "failure", amontons_error_name(report->failure->code));
-        json_text(json, "message", report->failure->message);
+    json_text(json, "status", failure ? "failed" : "done");
+    if (failure) {
+        json_text(json, "failure", amontons_error_name(failure->code));
+        json_text(json, "message", failure->message);
     }
     json_text(json, "version", AMONTONS_VERSION);
 
@@ -186,20 +184,21 @@ static void write_all(JsonWriter *json, const char *folder, const RunReport *rep
     scene_write_json(&simulation->scene, json, "scene", folder);
 
     // The counters of amontons.h, name by name: a benchmark reads them here.
+    const RunCounters *steps = &simulation->counters;
     json_begin_object(json, "steps");
-    json_integer(json, "accepted", report->counters->accepted);
-    json_integer(json, "rejected", report->counters->rejected);
-    json_integer(json, "rejected_uncertified", report->counters->rejected_uncertified);
-    json_integer(json, "stepped_over_oscillations", report->counters->stepped_over_oscillations);
-    json_integer(json, "unsolved_retries", report->counters->unsolved_retries);
-    json_integer(json, "factorisations", report->counters->factorisations);
-    json_integer(json, "solves", report->counters->solves);
-    json_integer(json, "contact_solves", report->counters->contact_solves);
-    json_integer(json, "contact_iterations", report->counters->contact_iterations);
-    json_integer(json, "contact_fallbacks", report->counters->contact_fallbacks);
-    json_integer(json, "contact_rescued", report->counters->contact_rescued);
-    json_integer(json, "certificates", report->counters->certificates);
-    json_integer(json, "loop_allocations", report->counters->loop_allocations);
+    json_integer(json, "accepted", steps->accepted);
+    json_integer(json, "rejected", steps->rejected);
+    json_integer(json, "rejected_uncertified", steps->rejected_uncertified);
+    json_integer(json, "stepped_over_oscillations", steps->stepped_over_oscillations);
+    json_integer(json, "unsolved_retries", steps->unsolved_retries);
+    json_integer(json, "factorisations", steps->factorisations);
+    json_integer(json, "solves", steps->solves);
+    json_integer(json, "contact_solves", steps->contact_solves);
+    json_integer(json, "contact_iterations", steps->contact_iterations);
+    json_integer(json, "contact_fallbacks", steps->contact_fallbacks);
+    json_integer(json, "contact_rescued", steps->contact_rescued);
+    json_integer(json, "certificates", steps->certificates);
+    json_integer(json, "loop_allocations", steps->loop_allocations);
     json_end(json);
 
     // Levels on which a step was accepted, the longest first.
@@ -228,7 +227,7 @@ static void write_all(JsonWriter *json, const char *folder, const RunReport *rep
                    {"total", timing->total}, {"outside_loop_cpu", timing->outside});
 
     write_model(json, simulation);
-    write_results(json, report);
+    write_results(json, simulation);
     if (simulation->levels) levels_write_json(simulation->levels, json);
     write_energy(json, simulation);
 
@@ -243,20 +242,22 @@ static void write_all(JsonWriter *json, const char *folder, const RunReport *rep
 }
 
 // Written beside its name and renamed: never half a report.
-bool report_write(const char *folder, const RunReport *report, Error *err)
+bool report_write(const Simulation *simulation, const Error *failure, const char *folder,
+                  Error *err)
 {
     char path[AMONTONS_PATH_SIZE + 16];
     snprintf(path, sizeof path, "%s/run.json", folder);
     JsonWriter *json = json_create(path, err);
     if (!json) return false;
-    write_all(json, folder, report);
+    write_all(simulation, failure, folder, json);
     return json_finish(json, err);
 }
 
-char *report_text(const char *folder, const RunReport *report, Error *err)
+char *report_text(const Simulation *simulation, const Error *failure, const char *folder,
+                  Error *err)
 {
     JsonWriter *json = json_create(NULL, err);
     if (!json) return NULL;
-    write_all(json, folder, report);
+    write_all(simulation, failure, folder, json);
     return json_take(json, err);
 }

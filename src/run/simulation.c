@@ -402,22 +402,23 @@ bool simulation_finish(Simulation *simulation, const Error *failure, RunSummary 
     events_close(&simulation->events, &simulation->seen);
     if (simulation->recorders.count > 0)
         simulation->errors.reduction = dt_levels_reduction_error(&simulation->control.dt_levels);
-    Answers answers = simulation_answers(simulation);
-    double own_mu_M = answers.mu_M.value;
-    const Event *least = drops_least_resolved(&simulation->drops, answers.first);
-    one_mesh_answer(simulation, &answers);
-    if (simulation->levels) levels_answer_for(simulation->levels, &answers);
-    warnings_of_slip(&simulation->scene, &simulation->model.interface, least,
+    Answers *answers = &simulation->answers;
+    *answers = simulation_answers(simulation);
+    double own_mu_M = answers->mu_M.value;
+    simulation->least_resolved = drops_least_resolved(&simulation->drops, answers->first);
+    one_mesh_answer(simulation, answers);
+    if (simulation->levels) levels_answer_for(simulation->levels, answers);
+    warnings_of_slip(&simulation->scene, &simulation->model.interface, simulation->least_resolved,
                      &simulation->warnings);
-    warnings_of_strain(&simulation->model, answers.mu_max, &simulation->warnings);
+    warnings_of_strain(&simulation->model, answers->mu_max, &simulation->warnings);
     warnings_of_base(base_slip(&simulation->model, &simulation->control.now),
                      &simulation->warnings);
     warnings_of_rotation(&simulation->scene, &simulation->rotation, &simulation->warnings);
-    RunCounters counters = summary_count(simulation);
+    simulation->counters = summary_count(simulation);   // what follows allocates
     if (simulation->history.file && !simulation->folder.aside &&
         !(output_store_warnings(simulation, err) &&
-          history_finish(&simulation->history, &simulation->drops, answers.first,
-                         answers.mu_M.value, answers.critical_length, err) &&
+          history_finish(&simulation->history, &simulation->drops, answers->first,
+                         answers->mu_M.value, answers->critical_length, err) &&
           output_draw_figures(simulation, err)))
         return false;
     simulation->timing.output += clock_seconds() - started;
@@ -427,19 +428,19 @@ bool simulation_finish(Simulation *simulation, const Error *failure, RunSummary 
     // run.json, and the same for the caller. A run whose input was refused leaves none; one that
     // failed before t = 0 has made no list of its files yet.
     const RunOptions *options = &simulation->options;
-    RunReport report = {simulation, failure, &counters, &answers, least};
     bool refused = failure && failure->code == ERROR_INPUT;
     if (result_folder_is_settled(&simulation->folder) && !refused &&
         !(own_list_make(simulation->folder.path, err) &&
-          report_write(simulation->folder.path, &report, err)))
+          report_write(simulation, failure, simulation->folder.path, err)))
         return false;
     if (options->on_report) {
-        char *text = report_text(options->folder ? options->folder : ".", &report, err);
+        const char *folder = options->folder ? options->folder : ".";
+        char *text = report_text(simulation, failure, folder, err);
         if (!text) return false;
         options->on_report(text, options->context);
         memory_free(text);
     }
-    summary_fill(simulation, &counters, &answers, summary);
+    summary_fill(simulation, summary);
     summary->bar_own_mu_M = own_mu_M;
     return true;
 }
@@ -482,7 +483,7 @@ void simulation_end(Simulation *simulation, RunSummary *summary, const Error *er
 bool simulation_run(const Scene *scene, const RunOptions *options, RunSummary *summary, Error *err)
 {
     Simulation *simulation = NULL;
-    *summary = summary_none();
+    *summary = (RunSummary){0};
     TRY(amontons_simulation_create(scene, options, &simulation, err));
     TRY(simulation_loop(simulation, err));
     TRY(amontons_simulation_finish(simulation, summary, err));

@@ -83,6 +83,10 @@ struct Simulation {
     double deadline;   // of it, when the run ends as if it were stopped; INFINITY: never
     int64_t allocations_before;   // simulation_allocations() when the time loop began
     int32_t figures;   // drawn
+    // Set at the end (simulation_finish), for run.json and the caller alike.
+    Answers answers;   // by all levels, where there are several
+    RunCounters counters;
+    const Event *least_resolved;   // before which the fewest cells slipped, of `events`; NULL: none
 };
 
 // Arrays allocated so far, but for those of levels.
@@ -186,25 +190,16 @@ double end_wait_of(const EndWait *wait, const Interface *interface, double criti
 // t_end: when the scene ends, time), and at the end counts, answers and seconds.
 StepView step_view(const Observation *seen, const Events *events, const ContactArrays *contact,
                    double t_end);
-RunSummary summary_none(void);   // of a run that has no answers yet
 RunCounters summary_count(const Simulation *simulation);
-void summary_fill(const Simulation *simulation, const RunCounters *counters, const Answers *answers,
-                  RunSummary *summary);
-
-// Data of a report beside the simulation itself. Nothing is owned.
-typedef struct RunReport {
-    const Simulation *simulation;
-    const Error *failure;   // NULL: done
-    const RunCounters *counters;
-    const Answers *answers;
-    const Event *least_resolved;   // before which the fewest cells slipped; NULL: none
-} RunReport;
+void summary_fill(const Simulation *simulation, RunSummary *summary);   // once it has answers
 
 // run.json (run/report): what was asked, what was done, what came out with which errors. One
-// object, written last, atomically.
-bool report_write(const char *folder, const RunReport *report, Error *err);
+// object, written last, atomically. failure: why the run ended early; NULL: it is done.
+bool report_write(const Simulation *simulation, const Error *failure, const char *folder,
+                  Error *err);
 // The same in memory (memory_free); NULL on failure. Paths in it are as seen from `folder`.
-char *report_text(const char *folder, const RunReport *report, Error *err);
+char *report_text(const Simulation *simulation, const Error *failure, const char *folder,
+                  Error *err);
 
 // --- the run, as amontons_run and run/accuracy call it, beside the pieces in amontons.h ---------
 

@@ -87,44 +87,9 @@ void amontons_known_to(double value, double known_to, char text[ESTIMATE_SIZE])
     text_known_to(value, known_to, text);
 }
 
-RunSummary summary_none(void)
+void summary_fill(const Simulation *simulation, RunSummary *summary)
 {
-    return (RunSummary){.mu_M = NAN,
-                        .mu_hold = NAN,
-                        .mu_max = NAN,
-                        .mu_steady = NAN,
-                        .mu_M_error = NAN,
-                        .mu_hold_error = NAN,
-                        .mu_M_known_to = NAN,
-                        .mu_hold_known_to = NAN,
-                        .mu_max_known_to = NAN,
-                        .mu_M_parts = {NAN, NAN, NAN},
-                        .mu_hold_parts = {NAN, NAN, NAN},
-                        .mu_M_spread = NAN,
-                        .run_in_drift = NAN,
-                        .run_in_drops_left = NAN,
-                        .normal_force = NAN,
-                        .base_slip = NAN,
-                        .critical_length = NAN,
-                        .first_mu = NAN,
-                        .first_U = NAN,
-                        .first_critical_length = NAN,
-                        .first_longest = NAN,
-                        .first_mu_error = NAN,
-                        .first_mu_known_to = NAN,
-                        .later_precursors = NAN,
-                        .later_longest = NAN,
-                        .slip_length = NAN,
-                        .slip_cells = NAN,
-                        .energy_error = NAN,
-                        .moment_error = NAN,
-                        .complementarity_error = NAN};
-}
-
-// counters, answers: made by the caller, who writes them into run.json as well.
-void summary_fill(const Simulation *simulation, const RunCounters *counters, const Answers *answers,
-                  RunSummary *summary)
-{
+    const Answers *answers = &simulation->answers;
     const int32_t *kinds = simulation->events.kinds;
     const Model *model = &simulation->model;
     double length = model->length;
@@ -171,7 +136,7 @@ void summary_fill(const Simulation *simulation, const RunCounters *counters, con
                      .seconds_solve = simulation->timing.solve,
                      .seconds_output = simulation->timing.output,
                      .seconds_total = simulation->timing.total,
-                     .counters = *counters,
+                     .counters = simulation->counters,
                      .warnings = simulation->warnings,
                      .field_files = simulation->fields.written,
                      .figures = simulation->figures};
@@ -181,7 +146,7 @@ void summary_fill(const Simulation *simulation, const RunCounters *counters, con
 
     // The load drop, from number `first` on, at which slow slip had the fewest cells to turn fast
     // on.
-    const Event *least = drops_least_resolved(&simulation->drops, answers->first);
+    const Event *least = simulation->least_resolved;
     const Interface *interface = &simulation->model.interface;
     summary->slip_length = least ? least->slip_length : NAN;
     summary->slip_cells = least ? least->slip_cells : NAN;
