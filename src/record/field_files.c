@@ -17,26 +17,26 @@ static int32_t node_of(const FieldFiles *files, int64_t point)
 }
 
 // corners: of all cells. Third coordinates stay 0.
-static bool make_cells(int64_t points, int64_t cells, int64_t corners, FieldCells *made, Error *err)
+static bool make_cells(int64_t points, int64_t cells, int64_t corners, FieldGrid *made, Error *err)
 {
-    *made = (FieldCells){.point_count = points};
+    *made = (FieldGrid){.point_count = points};
     made->points = NEW_ARRAY(double, 3 * points, err);
     made->offsets = NEW_ARRAY(int64_t, cells + 1, err);
     made->connectivity = NEW_ARRAY(int64_t, corners, err);
-    made->types = NEW_ARRAY(uint8_t, cells, err);
+    made->cell_types = NEW_ARRAY(uint8_t, cells, err);
     return error_is_clean(err);
 }
 
 enum { VTK_LINE_CELL = 3, VTK_TRIANGLE_CELL = 5, VTK_QUAD_CELL = 9, FACE_CELLS_MAX = 4 };
 
 // Adds a cell of points by their numbers among those of a face; whole: in their order.
-static void add_cell(FieldCells *line, const int32_t *points, const uint8_t *which, int32_t count)
+static void add_cell(FieldGrid *line, const int32_t *points, const uint8_t *which, int32_t count)
 {
     static const uint8_t types[] = {[2] = VTK_LINE_CELL, VTK_TRIANGLE_CELL, VTK_QUAD_CELL};
     int64_t cell = line->cell_count++, first = line->offsets[cell];
     for (int32_t k = 0; k < count; k++) line->connectivity[first + k] = points[which[k]];
     line->offsets[cell + 1] = first + count;
-    line->types[cell] = types[count];
+    line->cell_types[cell] = types[count];
 }
 
 bool field_files_create(const Mesh *mesh, const Interface *interface, FieldFiles *files, Error *err)
@@ -49,7 +49,7 @@ bool field_files_create(const Mesh *mesh, const Interface *interface, FieldFiles
 
     // The grid of the block.
     if (!nodal_stress_create(mesh, &files->stress, err)) return false;
-    FieldCells *bulk = &files->bulk;
+    FieldGrid *bulk = &files->bulk;
     int32_t cells = mesh->element_count;
     int64_t points = files->stress.point_count;
     files->vectors = NEW_ARRAY(double, 6 * points, err);
@@ -66,12 +66,12 @@ bool field_files_create(const Mesh *mesh, const Interface *interface, FieldFiles
         for (int32_t k = 0; k < element_node_count(kind); k++)
             bulk->connectivity[first + k] = all[first + element_vtk_node(kind, k)];
         bulk->offsets[e + 1] = mesh->first_node[e + 1];
-        bulk->types[e] = ELEMENTS[kind].vtk_type;
+        bulk->cell_types[e] = ELEMENTS[kind].vtk_type;
     }
 
     // The grid of the contact: in the plane one segment between neighbours of the same pad, so that
     // gaps between pads stay gaps.
-    FieldCells *line = &files->line;
+    FieldGrid *line = &files->line;
     int32_t count = interface->contact_count;
     int64_t line_points = (int64_t)count + faces->corner_count;
     int64_t line_cells = interface->y ? (int64_t)FACE_CELLS_MAX * faces->count : count;
@@ -103,9 +103,9 @@ bool field_files_create(const Mesh *mesh, const Interface *interface, FieldFiles
     return true;
 }
 
-static void cells_destroy(FieldCells *cells)
+static void cells_destroy(FieldGrid *cells)
 {
-    memory_free_all(cells->points, cells->offsets, cells->connectivity, cells->types);
+    memory_free_all(cells->points, cells->offsets, cells->connectivity, cells->cell_types);
 }
 
 void field_files_destroy(FieldFiles *files)
@@ -115,20 +115,6 @@ void field_files_destroy(FieldFiles *files)
     cells_destroy(&files->line);
     memory_free_all(files->vectors, files->line_values);
     *files = (FieldFiles){0};
-}
-
-static FieldGrid grid_of(const FieldCells *cells, const FieldArray *arrays, int32_t count,
-                         double time)
-{
-    return (FieldGrid){.point_count = cells->point_count,
-                       .points = cells->points,
-                       .cell_count = cells->cell_count,
-                       .offsets = cells->offsets,
-                       .connectivity = cells->connectivity,
-                       .cell_types = cells->types,
-                       .time = time,
-                       .point_array_count = count,
-                       .point_arrays = arrays};
 }
 
 // state: [dim * nodes] displacement and velocity of the mesh. Three components, the last 0 in the
@@ -155,8 +141,10 @@ bool field_files_write_bulk(FieldFiles *files, const FieldState *state, const ch
         {.name = "stress_elastic", .components = strains, .values = files->stress.elastic},
         {.name = "stress", .components = strains, .values = files->stress.total},
         {.name = "von_mises", .components = 1, .values = files->stress.von_mises}};
-    FieldGrid grid =
-        grid_of(&files->bulk, arrays, (int32_t)(sizeof arrays / sizeof arrays[0]), state->time);
+    FieldGrid grid = files->bulk;
+    grid.time = state->time;
+    grid.point_arrays = arrays;
+    grid.point_array_count = (int32_t)(sizeof arrays / sizeof arrays[0]);
     return field_file_write(path, &grid, err);
 }
 
@@ -203,6 +191,9 @@ bool field_files_write_line(FieldFiles *files, const double *line, double time, 
         }
         line += rows[k].columns * nodes;
     }
-    FieldGrid grid = grid_of(&files->line, arrays, FIELD_LINE_ARRAYS, time);
+    FieldGrid grid = files->line;
+    grid.time = time;
+    grid.point_arrays = arrays;
+    grid.point_array_count = FIELD_LINE_ARRAYS;
     return field_file_write(path, &grid, err);
 }

@@ -16,22 +16,15 @@ static inline int32_t field_line_columns(int32_t tangents)
     return 3 * tangents + 4;
 }
 
-// Points and cells of a file as VTK wants them. Owned by FieldFiles.
-typedef struct FieldCells {
-    int64_t point_count, cell_count;
-    double *points;   // [point_count * 3]
-    int64_t *offsets, *connectivity;   // [cell_count + 1] into connectivity
-    uint8_t *types;   // [cell_count]
-} FieldCells;
-
 // Data that all times of a mesh share, and work arrays for one time.
 typedef struct FieldFiles {
     const Mesh *mesh;   // not owned
     const Material *materials;   // not owned; the caller's to set, before the first file
     const Spectrum *spectrum;   // of their branches; likewise
     NodalStress stress;   // of the last .vtu; owned, like all that follows
-    FieldCells bulk;   // of stress.point_count points
-    FieldCells line;   // contact nodes, and behind them corners of faces that touch nothing
+    // Grids without arrays of points, which each file has its own of.
+    FieldGrid bulk;   // of stress.point_count points
+    FieldGrid line;   // contact nodes, and behind them corners of faces that touch nothing
     double *vectors;   // [bulk points * 6] displacement, velocity
     const ContactFaces *faces;   // none in the plane; not owned
     int32_t contact_count, tangents;   // tangents: 1 in the plane, 2 in space

@@ -5,7 +5,6 @@
 
 #include "base/module.h"
 #include "base/text.h"
-#include "io/fields/field_file_module.h"
 #include "io/text/text_writer.h"
 #include "io/files/part_file.h"
 
@@ -24,12 +23,11 @@ bool field_file_write(const char *path, const FieldGrid *grid, Error *err)
 {
     PartFile file = {0};
     FieldFormat format = text_ends_with(path, ".vtp") ? FIELD_VTP : FIELD_VTU;
-    FieldOutput output = {.format = format, .sink = write_bytes, .context = &file};
     FieldEncodeFunction encode =
         (FieldEncodeFunction)module_function("vtk", "amontons_vtk_encode", err);
     if (!encode) goto cleanup;
     TRY(part_file_create(&file, path, err));
-    TRY(encode(grid, &output, err));
+    TRY(encode(grid, format, write_bytes, &file, err));
     TRY(part_file_commit(&file, err));
 cleanup:
     part_file_discard(&file);

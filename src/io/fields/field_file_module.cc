@@ -2,7 +2,7 @@
 // The one C++ file: VTK's XML writers and a reader behind two C functions, which catch every
 // exception. Double arrays are handed to VTK as they are, without a copy.
 extern "C" {
-#include "io/fields/field_file_module.h"
+#include "io/fields/field_file.h"
 }
 
 #include <vtkCallbackCommand.h>
@@ -152,14 +152,15 @@ void keep_first(vtkObject *, unsigned long, void *message, void *text)
 }
 
 // Runs a writer into memory and hands the bytes on.
-bool write(vtkXMLWriter *writer, const FieldGrid &grid, const FieldOutput &output, Error *err)
+bool write(vtkXMLWriter *writer, const FieldGrid &grid, FieldFormat format, FieldSink sink,
+           void *context, Error *err)
 {
     std::string message;
     vtkNew<vtkCallbackCommand> observer;   // with one, VTK does not print its errors
     observer->SetCallback(keep_first);
     observer->SetClientData(&message);
     vtkNew<MeshCompressor> compressor;
-    compressor->begin(&grid, output.format);
+    compressor->begin(&grid, format);
     compressor->AddObserver("ErrorEvent", observer);
     writer->AddObserver("ErrorEvent", observer);
     writer->SetCompressor(compressor);
@@ -174,12 +175,12 @@ bool write(vtkXMLWriter *writer, const FieldGrid &grid, const FieldOutput &outpu
         return false;
     }
     const std::string bytes = writer->GetOutputString();
-    return output.sink(output.context, bytes.data(), static_cast<int64_t>(bytes.size()), err);
+    return sink(context, bytes.data(), static_cast<int64_t>(bytes.size()), err);
 }
 
-bool encode(const FieldGrid &grid, const FieldOutput &output, Error *err)
+bool encode(const FieldGrid &grid, FieldFormat format, FieldSink sink, void *context, Error *err)
 {
-    if (output.format == FIELD_VTP) {
+    if (format == FIELD_VTP) {
         vtkNew<vtkPolyData> contact;
         fill(contact, grid);
         const bool lines = !grid.cell_types || grid.cell_types[0] == VTK_LINE;
@@ -189,7 +190,7 @@ bool encode(const FieldGrid &grid, const FieldOutput &output, Error *err)
             contact->SetPolys(make_cells(grid));
         vtkNew<vtkXMLPolyDataWriter> writer;
         writer->SetInputDataObject(contact);
-        return write(writer, grid, output, err);
+        return write(writer, grid, format, sink, context, err);
     }
     vtkNew<vtkUnstructuredGrid> cells;
     fill(cells, grid);
@@ -197,7 +198,7 @@ bool encode(const FieldGrid &grid, const FieldOutput &output, Error *err)
                     make_cells(grid));
     vtkNew<vtkXMLUnstructuredGridWriter> writer;
     writer->SetInputDataObject(cells);
-    return write(writer, grid, output, err);
+    return write(writer, grid, format, sink, context, err);
 }
 
 // As doubles, whatever the file has: indices are exact in them.
@@ -300,9 +301,10 @@ static bool guarded(const Work &work, Error *err)
 }
 
 extern "C" __attribute__((visibility("default"))) bool
-amontons_vtk_encode(const FieldGrid *grid, const FieldOutput *output, Error *err)
+amontons_vtk_encode(const FieldGrid *grid, FieldFormat format, FieldSink sink, void *context,
+                    Error *err)
 {
-    return guarded([&] { return encode(*grid, *output, err); }, err);
+    return guarded([&] { return encode(*grid, format, sink, context, err); }, err);
 }
 
 extern "C" __attribute__((visibility("default"))) bool

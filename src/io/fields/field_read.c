@@ -3,7 +3,7 @@
 
 #include "base/memory.h"
 #include "base/module.h"
-#include "io/fields/field_file_module.h"
+#include "io/fields/field_file.h"
 #include "io/files/open_file.h"
 
 #include <errno.h>

@@ -20,12 +20,12 @@
 enum { POINTS = 25, CELLS = 5, LINES = 4 };
 
 // Quad, 8-node quad, 9-node quad, triangle, 6-node triangle, over shared points.
-static const uint8_t cell_types[CELLS] = {9, 23, 28, 5, 22};
-static const int64_t offsets[CELLS + 1] = {0, 4, 12, 21, 24, 30};
-static const int64_t connectivity[30] = {0,  1,  6,  5,  1,  3,  13, 11, 2, 8,  12, 6,  10, 12, 22,
-                                         20, 11, 17, 21, 15, 16, 3,  4,  9, 12, 14, 24, 13, 19, 18};
-static const int64_t line_offsets[LINES + 1] = {0, 2, 4, 6, 8};
-static const int64_t line_nodes[2 * LINES] = {0, 1, 1, 2, 2, 3, 3, 4};
+static uint8_t cell_types[CELLS] = {9, 23, 28, 5, 22};
+static int64_t offsets[CELLS + 1] = {0, 4, 12, 21, 24, 30};
+static int64_t connectivity[30] = {0,  1,  6,  5,  1,  3,  13, 11, 2, 8,  12, 6,  10, 12, 22,
+                                   20, 11, 17, 21, 15, 16, 3,  4,  9, 12, 14, 24, 13, 19, 18};
+static int64_t line_offsets[LINES + 1] = {0, 2, 4, 6, 8};
+static int64_t line_nodes[2 * LINES] = {0, 1, 1, 2, 2, 3, 3, 4};
 
 static char folder[256];
 static char path[300], part[308];
