@@ -7,8 +7,8 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "friction/friction_start.h"
-#include "io/text/json_writer.h"
 #include "model/scene_mesh.h"
+#include "run/result/figure_file.h"
 #include "scene/friction_file.h"
 #include "scene/friction_law.h"
 #include "scene/material_file.h"
@@ -28,20 +28,6 @@ enum {
 static const double BEYOND = 3;   // how far a law is drawn beyond its data, in factors of speed
 static const double DECADES = 1e3;   // beyond v_c to either side, where there are no data
 
-typedef struct Curve {
-    const char *label;
-    const char *line, *marker;   // as in a plot's file (render/plot/plot_file.h)
-    int32_t color;   // of its eight; 0: ink
-    int32_t count;
-    const double *x, *y;   // [count]
-    const double *error;   // [count] of y; NULL: no bars
-} Curve;
-
-typedef struct Axis {
-    const char *label, *unit;   // unit NULL: none
-    bool by_log;
-} Axis;
-
 bool info_picture_is_of(const char *picture, const char *name)
 {
     const char *slash = strrchr(picture, '/'), *first = slash ? slash + 1 : picture;
@@ -50,61 +36,36 @@ bool info_picture_is_of(const char *picture, const char *name)
     return length >= size && strncmp(first + length - size, name, size) == 0;
 }
 
-static void write_list(JsonWriter *json, const char *name, const double *value, const double *error,
-                       double sign, int32_t count)
-{
-    json_begin_list(json, name);
-    for (int32_t k = 0; k < count; k++)
-        json_number(json, NULL, value[k] + (error ? sign * error[k] : 0));
-    json_end(json);
-}
-
-// Draws the curves into options->picture. NaN: a gap.
-static bool draw_curves(const char *title, const Axis axes[2], const Curve *curves, int32_t count,
-                        const InfoOptions *options, Error *err)
+// Draws the curves into options->picture. NaN: a gap. axes: words, unit and scale of each.
+static bool draw_curves(const char *title, const char *const axes[2][3], const Curve *curves,
+                        int32_t count, const InfoOptions *options, Error *err)
 {
     char folder[PATH_SIZE], path[PATH_SIZE + 16];
     const char *place = getenv("TMPDIR");
     PictureStyle style = {.overwrite = options->overwrite};
-    bool done = false;
     snprintf(folder, sizeof folder, "%s/amontons-XXXXXX", place && *place ? place : "/tmp");
     if (!mkdtemp(folder)) return FAULT(err, ERROR_FILE, "cannot make the folder %s", folder);
     snprintf(path, sizeof path, "%s/plot.json", folder);
     JsonWriter *json = json_create(path, err);
-    if (!json) goto cleanup;
+    Figure figure = {.json = json};
+    TRY(json);
     json_begin_object(json, NULL);
     json_text(json, "title", title);
-    for (int32_t d = 0; d < 2; d++) {
-        json_begin_object(json, d == 0 ? "x" : "y");
-        json_text(json, "label", axes[d].label);
-        if (axes[d].unit) json_text(json, "unit", axes[d].unit);
-        json_text(json, "scale", axes[d].by_log ? "log" : "linear");
-        json_end(json);
-    }
+    for (int32_t d = 0; d < 2; d++)
+        figure_write_axis(&figure, d == 0 ? "x" : "y", axes[d][0], axes[d][1], NULL, axes[d][2]);
     json_begin_list(json, "series");
-    for (int32_t k = 0; k < count; k++) {
-        const Curve *curve = &curves[k];
-        json_begin_object(json, NULL);
-        json_text(json, "label", curve->label);
-        write_list(json, "x", curve->x, NULL, 0, curve->count);
-        write_list(json, "y", curve->y, NULL, 0, curve->count);
-        if (curve->error) {
-            write_list(json, "low", curve->y, curve->error, -1, curve->count);
-            write_list(json, "high", curve->y, curve->error, 1, curve->count);
-        }
-        json_integer(json, "color", curve->color);
-        json_text(json, "marker", curve->marker);
-        json_boolean(json, "filled", true);
-        json_text(json, "line", curve->line);
-        json_end(json);
-    }
+    for (int32_t k = 0; k < count && error_is_clean(err); k++)
+        figure_write_curve(&figure, &curves[k], err);
     json_end(json);
     json_end(json);
-    done = json_finish(json, err) && amontons_render_plot_file(path, options->picture, &style, err);
+    if (!error_is_clean(err))
+        json_abandon(json);
+    else if (json_finish(json, err))
+        amontons_render_plot_file(path, options->picture, &style, err);
 cleanup:
     unlink(path);
     rmdir(folder);
-    return done;
+    return error_is_clean(err);
 }
 
 bool info_draw_friction(const Scene *scene, const InfoOptions *options, Error *err)
@@ -156,15 +117,19 @@ bool info_draw_friction(const Scene *scene, const InfoOptions *options, Error *e
     char at_rest[80];
     snprintf(at_rest, sizeof at_rest, "at rest: %.3g", rest);
     Curve curves[4] = {{law->remembers ? "steady slip" : "the law", "solid", "none", 1,
-                        FRICTION_SPEEDS, speed, mu, NULL}};
+                        FRICTION_SPEEDS, true, speed, mu, NULL, false}};
     int32_t count = 1;
-    if (!law->creeps) curves[count++] = (Curve){at_rest, "dashed", "none", 0, 2, ends, level, NULL};
+    if (!law->creeps)
+        curves[count++] = (Curve){at_rest, "dashed", "none", 0, 2, true, ends, level, NULL, false};
     if (rod > 0)
-        curves[count++] = (Curve){"~{V} of the rod", "thin", "none", 2, 2, driven, span, NULL};
+        curves[count++] =
+            (Curve){"~{V} of the rod", "thin", "none", 2, 2, true, driven, span, NULL, false};
     if (points > 0)
-        curves[count++] = (Curve){"measured", "none", "circle", 3, points, at, value, data.error};
-    Axis axes[2] = {{"slip rate ~{v}", scene->units == UNITS_SI ? "m/s" : NULL, true},
-                    {"coefficient ~{\xCE\xBC}", NULL, false}};
+        curves[count++] =
+            (Curve){"measured", "none", "circle", 3, points, true, at, value, data.error, false};
+    const char *const axes[2][3] = {
+        {"slip rate ~{v}", scene->units == UNITS_SI ? "m/s" : NULL, "log"},
+        {"coefficient ~{\xCE\xBC}", NULL, "linear"}};
     TRY(draw_curves(*scene->title ? scene->title : "friction", axes, curves, count, options, err));
 cleanup:
     friction_data_destroy(&data);
@@ -303,25 +268,25 @@ bool info_draw_material(const Scene *scene, const InfoOptions *options, Error *e
     char loss[80];
     snprintf(loss, sizeof loss, "%s measured", words[1]);
     double low[2] = {band[0], band[0]}, high[2] = {band[1], band[1]}, span[2] = {least, most};
-    Curve curves[6] = {{label[0], "solid", "none", 1, MODULUS_POINTS, x, y[0], NULL}};
+    Curve curves[6] = {{label[0], "solid", "none", 1, MODULUS_POINTS, true, x, y[0], NULL, false}};
     int32_t count = 1;
     if (!over_time)
-        curves[count++] = (Curve){"", "solid", "none", 1, MODULUS_POINTS, x, y[1], NULL};
+        curves[count++] =
+            (Curve){"", "solid", "none", 1, MODULUS_POINTS, true, x, y[1], NULL, false};
+    int32_t measured = moduli->count;
     curves[count++] =
-        (Curve){label[1], "none", "circle", 3, moduli->count, at, moduli->storage, NULL};
+        (Curve){label[1], "none", "circle", 3, measured, true, at, moduli->storage, NULL, false};
     if (!over_time)
-        curves[count++] = (Curve){loss, "none", "square", 2, moduli->count, at, moduli->loss, NULL};
+        curves[count++] =
+            (Curve){loss, "none", "square", 2, measured, true, at, moduli->loss, NULL, false};
     if (known) {
-        curves[count++] = (Curve){
-            "rates of the run: 1/duration, wave/cell", "thin", "none", 0, 2, low, span, NULL};
-        curves[count++] = (Curve){"", "thin", "none", 0, 2, high, span, NULL};
+        const char *rates = "rates of the run: 1/duration, wave/cell";
+        curves[count++] = (Curve){rates, "thin", "none", 0, 2, true, low, span, NULL, false};
+        curves[count++] = (Curve){"", "thin", "none", 0, 2, true, high, span, NULL, false};
     }
-    Axis axes[2] = {{over_time ? "time ~{t}" : "frequency ~{f}",
-                     !si         ? NULL
-                     : over_time ? "s"
-                                 : "Hz",
-                     true},
-                    {"modulus", si ? "Pa" : NULL, true}};
+    const char *unit = !si ? NULL : over_time ? "s" : "Hz";
+    const char *const axes[2][3] = {{over_time ? "time ~{t}" : "frequency ~{f}", unit, "log"},
+                                    {"modulus", si ? "Pa" : NULL, "log"}};
     TRY(draw_curves(title, axes, curves, count, options, err));
 cleanup:
     memory_free(at);

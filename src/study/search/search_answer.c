@@ -94,8 +94,8 @@ bool search_draw(const Search *search, const Frame *frame, const Curve *curves, 
     Figure figure = {
         .folder = search->options->folder, .name = frame->name, .title = search->study->title};
     if (!figure_begin(&figure, err)) return false;
-    figure_write_axis(&figure, "x", &frame->x, frame->x_scale);
-    figure_write_axis(&figure, "y", &frame->y, frame->y_scale);
+    figure_write_axis(&figure, "x", frame->x.words, frame->x.unit, frame->x.column, frame->x_scale);
+    figure_write_axis(&figure, "y", frame->y.words, frame->y.unit, frame->y.column, frame->y_scale);
     json_begin_list(figure.json, "series");
     for (int32_t k = 0; k < count && error_is_clean(err); k++)
         figure_write_curve(&figure, &curves[k], err);

@@ -5,7 +5,8 @@
 #define AMONTONS_STUDY_SEARCH_SEARCH_ANSWER_H
 
 #include "study/search/search.h"
-#include "study/sweep/showing/figure_file.h"
+#include "run/result/figure_file.h"
+#include "study/sweep/showing/quantity_label.h"
 
 // Text that is written to `out` between begin and end goes to options->out (NULL: nowhere) and to
 // DIR/answer.txt.

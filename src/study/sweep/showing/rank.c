@@ -14,7 +14,8 @@
 #include "io/text/csv_writer.h"
 #include "io/text/json_reader.h"
 #include "study/sweep/reading/study.h"
-#include "study/sweep/showing/figure_file.h"
+#include "run/result/figure_file.h"
+#include "study/sweep/showing/quantity_label.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -389,7 +390,7 @@ static bool draw_ranking(const Sweep *sweep, const SweepTable *table, const Rank
     TRY(figure_begin(&figure, err));
     JsonWriter *json = figure.json;
     json_number(json, "height", fmax(0.3, HEIGHT_LEFT + ROW_HEIGHT * shown));
-    figure_write_axis(&figure, "x", &label, "linear");
+    figure_write_axis(&figure, "x", label.words, label.unit, label.column, "linear");
 
     // Names: the values of the keys chosen, from the lowest row of the figure upwards.
     json_begin_object(json, "y");

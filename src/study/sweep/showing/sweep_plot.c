@@ -8,8 +8,8 @@
 #include "base/order.h"
 #include "io/files/folder.h"
 #include "render/picture_options.h"
+#include "run/result/figure_file.h"
 #include "study/sweep/reading/study.h"
-#include "study/sweep/showing/figure_file.h"
 #include "study/sweep/showing/plot_table.h"
 
 #include <math.h>
@@ -307,13 +307,15 @@ static bool write_figure(PlotFigure *self, Error *err)
         QuantityLabel label = quantity->label;
         const char *equals = strchr(plot->text[key], '=');
         label.column = equals ? equals + strspn(equals, "= ") : plot->text[key];
-        figure_write_axis(&self->figure, plot_key_name(key), &label,
+        figure_write_axis(&self->figure, plot_key_name(key), label.words, label.unit, label.column,
                           is_log[key] ? "log" : "linear");
     }
-    if (self->quantity[PLOT_COLOR])
-        figure_write_axis(&self->figure, "color", &self->quantity[PLOT_COLOR]->label, NULL);
-    if (self->quantity[PLOT_CONTOURS])
-        figure_write_axis(&self->figure, "contours", &self->quantity[PLOT_CONTOURS]->label, NULL);
+    for (PlotKey key = PLOT_COLOR; key <= PLOT_CONTOURS; key++) {
+        if (!self->quantity[key]) continue;
+        const QuantityLabel *label = &self->quantity[key]->label;
+        figure_write_axis(&self->figure, plot_key_name(key), label->words, label->unit,
+                          label->column, NULL);
+    }
 
     // Panels, each with its map or its curves.
     json = self->figure.json;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "study/sweep/showing/figure_file.h"
+#include "run/result/figure_file.h"
 
 #include "base/memory.h"
 #include "base/module.h"
@@ -15,7 +15,7 @@ static bool figure_path(const Figure *figure, const char *ending, char path[AMON
 {
     if (snprintf(path, AMONTONS_PATH_SIZE, "%s/figures/%s.%s", figure->folder, figure->name,
                  ending) >= AMONTONS_PATH_SIZE)
-        return REFUSE(err, "the path of the sweep's folder is too long");
+        return REFUSE(err, "the path of the folder %s is too long", figure->folder);
     return true;
 }
 
@@ -23,7 +23,7 @@ bool figure_begin(Figure *figure, Error *err)
 {
     char path[AMONTONS_PATH_SIZE], name[AMONTONS_PATH_SIZE];
     if (snprintf(path, sizeof path, "%s/figures", figure->folder) >= (int)sizeof path)
-        return REFUSE(err, "the path of the sweep's folder is too long");
+        return REFUSE(err, "the path of the folder %s is too long", figure->folder);
     if (!folder_make(path, err)) return false;
     if (!figure_path(figure, "json", name, err)) return false;
     if (!(figure->json = json_create(name, err))) return false;
@@ -63,7 +63,7 @@ bool figure_end(Figure *figure, Error *err)
 bool figure_write_numbers(Figure *figure, const char *key, const double *values, int32_t count,
                           Error *err)
 {
-    if (figure->written + count > TEXT_NUMBERS_MAX) {
+    if (figure->folder && figure->written + count > TEXT_NUMBERS_MAX) {
         // A long array becomes a column of figures/NAME.h5, and the text says which.
         char path[AMONTONS_PATH_SIZE], name[NAME_SIZE], place[AMONTONS_PATH_SIZE];
         ArraySeries series = {.name = name,
@@ -84,13 +84,13 @@ bool figure_write_numbers(Figure *figure, const char *key, const double *values,
     return true;
 }
 
-void figure_write_axis(Figure *figure, const char *name, const QuantityLabel *label,
-                       const char *scale)
+void figure_write_axis(Figure *figure, const char *name, const char *words, const char *unit,
+                       const char *column, const char *scale)
 {
     json_begin_object(figure->json, name);
-    json_text(figure->json, "label", label->words);
-    if (label->unit) json_text(figure->json, "unit", label->unit);
-    if (label->column) json_text(figure->json, "column", label->column);
+    json_text(figure->json, "label", words);
+    if (unit) json_text(figure->json, "unit", unit);
+    if (column) json_text(figure->json, "column", column);
     if (scale) json_text(figure->json, "scale", scale);
     json_end(figure->json);
 }

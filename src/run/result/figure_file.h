@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A figure of a sweep: first a description in render/plot/plot_file's format, figures/NAME.json,
-// which a user may edit and draw again (`amontons render`); the module `render` makes the picture.
-// Arrays too long for a text stand beside it in figures/NAME.h5. Called by
-// sweep_plot, rank and study/search/search_answer.
-#ifndef AMONTONS_STUDY_SWEEP_SHOWING_FIGURE_FILE_H
-#define AMONTONS_STUDY_SWEEP_SHOWING_FIGURE_FILE_H
+// A figure of curves or maps: first a description in render/plot/plot_file's format,
+// figures/NAME.json, which a user may edit and draw again (`amontons render`); the module `render`
+// makes the picture. Arrays too long for a text stand beside it in figures/NAME.h5. Called by
+// run/accuracy_figure and the studies, in part by run/info/info_curves.
+#ifndef AMONTONS_RUN_RESULT_FIGURE_FILE_H
+#define AMONTONS_RUN_RESULT_FIGURE_FILE_H
 
 #include "amontons.h"
 #include "io/hdf5/array_file.h"
 #include "io/text/json_writer.h"
-#include "study/sweep/showing/quantity_label.h"
 
 typedef struct Figure {
-    const char *folder, *name, *title;   // of the sweep; "ranking"; of the study
+    const char *folder;   // of the result; NULL: all stands in the text, and `json` is the caller's
+    const char *name, *title;   // "ranking"; of the study
     const PictureStyle *style;   // NULL: the usual one
     const char *compare;   // a table of measurements, from the working folder; NULL: none
     JsonWriter *json;
@@ -35,9 +35,10 @@ typedef struct Curve {
 bool figure_begin(Figure *figure, Error *err);
 // The description on disk, then its picture. Called once, also after a failure.
 bool figure_end(Figure *figure, Error *err);
-// Its ends fit the data. scale: "linear", "log", or NULL: it has none.
-void figure_write_axis(Figure *figure, const char *name, const QuantityLabel *label,
-                       const char *scale);
+// Its ends fit the data. unit: of SI, to be written with the prefix that suits; column: what tables
+// of measurements call it; scale: "linear" or "log". NULL: it has none of these.
+void figure_write_axis(Figure *figure, const char *name, const char *words, const char *unit,
+                       const char *column, const char *scale);
 bool figure_write_numbers(Figure *figure, const char *key, const double *values, int32_t count,
                           Error *err);
 bool figure_write_curve(Figure *figure, const Curve *curve, Error *err);
