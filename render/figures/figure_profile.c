@@ -117,21 +117,6 @@ static void add_event(const ResultView *view, Profiles *profiles)
             profiles);
 }
 
-// [count * nodes] of a series at the moments.
-static bool take_series(ResultView *view, ResultSeries series, const Profiles *profiles,
-                        double **values, Error *err)
-{
-    double *all = NULL;
-    TRY(*values = NEW_ARRAY(double, (int64_t)profiles->count * profiles->nodes, err));
-    TRY(result_view_read(view, series, false, &all, err));
-    for (int32_t k = 0; k < profiles->count; ++k)
-        memcpy(*values + (int64_t)k * profiles->nodes, all + profiles->row[k] * profiles->nodes,
-               (size_t)profiles->nodes * sizeof *all);
-cleanup:
-    memory_free(all);
-    return error_is_clean(err);
-}
-
 // at: "U=0.01,U=0.02", "t=12", or "mu=0.2", all moments at which F_T/F_N rises through it, the last
 // ones; NULL: around the last sliding of the whole block (else the last rapid event): before it at
 // the load that is left after it, just before it, and after it. Without an event the largest
@@ -144,14 +129,17 @@ static bool profiles_read(ResultView *view, const char *at, Profiles *profiles, 
         TRY(add_asked(view, at, profiles, err));
     else
         add_event(view, profiles);
-    TRY(take_series(view, SERIES_PRESSURE, profiles, &values[PROFILE_PRESSURE], err));
-    TRY(take_series(view, SERIES_SHEAR, profiles, &values[PROFILE_SHEAR], err));
-    TRY(take_series(view, SERIES_SLIP, profiles, &values[PROFILE_SLIP], err));
-    TRY(take_series(view, SERIES_STATUS, profiles, &profiles->status, err));
+    const int64_t *rows = profiles->row;
+    int32_t count = profiles->count;
+    TRY(result_view_read_at(view, SERIES_PRESSURE, false, rows, count, &values[PROFILE_PRESSURE],
+                            err));
+    TRY(result_view_read_at(view, SERIES_SHEAR, false, rows, count, &values[PROFILE_SHEAR], err));
+    TRY(result_view_read_at(view, SERIES_SLIP, false, rows, count, &values[PROFILE_SLIP], err));
+    TRY(result_view_read_at(view, SERIES_STATUS, false, rows, count, &profiles->status, err));
     if (result_file_has_series(view->file, SERIES_GAP))
-        TRY(take_series(view, SERIES_GAP, profiles, &values[PROFILE_GAP], err));
+        TRY(result_view_read_at(view, SERIES_GAP, false, rows, count, &values[PROFILE_GAP], err));
     if (result_file_has_series(view->file, SERIES_AREA))
-        TRY(take_series(view, SERIES_AREA, profiles, &values[PROFILE_AREA], err));
+        TRY(result_view_read_at(view, SERIES_AREA, false, rows, count, &values[PROFILE_AREA], err));
     int32_t nodes = profiles->nodes;
     TRY(values[PROFILE_RATIO] = NEW_ARRAY(double, (int64_t)profiles->count *nodes, err));
     for (int32_t k = profiles->count - 1; k >= 0; --k)

@@ -52,35 +52,18 @@ typedef struct Frames {
 
 // --- along the contact ---------------------------------------------------------------------------
 
-// One quantity at the chosen steps, [count * nodes]; the whole series is in memory only meanwhile.
-static bool read_rows(Frames *frames, ResultSeries series, double **values, Error *err)
-{
-    double *all = NULL;
-    int32_t nodes = frames->view.nodes;
-    TRY(result_view_read(&frames->view, series, false, &all, err));
-    TRY(*values = NEW_ARRAY(double, (int64_t)frames->count *nodes, err));
-    for (int32_t k = 0; k < frames->count; ++k) {
-        int64_t row = frames->rows[frames->chosen[k]];
-        if (row >= frames->view.rows)
-            FAIL(err, ERROR_FILE, "%s has %lld rows only", result_series_name(series),
-                 (long long)frames->view.rows);
-        for (int32_t i = 0; i < nodes; ++i) (*values)[k * nodes + i] = all[row * nodes + i];
-    }
-cleanup:
-    memory_free(all);
-    return error_is_clean(err);
-}
-
 // A point for each node, and one that is not there between two pads.
 static bool read_contact(Frames *frames, Error *err)
 {
-    const ResultView *view = &frames->view;
+    ResultView *view = &frames->view;
     int32_t count = frames->count;
     double *pressure = NULL, *shear = NULL, *rate = NULL, *status = NULL;
-    TRY(read_rows(frames, SERIES_PRESSURE, &pressure, err));
-    TRY(read_rows(frames, SERIES_SHEAR, &shear, err));
-    TRY(read_rows(frames, SERIES_SLIP_RATE, &rate, err));
-    TRY(read_rows(frames, SERIES_STATUS, &status, err));
+    int64_t rows[RENDER_FRAMES_MAX];
+    for (int32_t k = 0; k < count; ++k) rows[k] = frames->rows[frames->chosen[k]];
+    TRY(result_view_read_at(view, SERIES_PRESSURE, false, rows, count, &pressure, err));
+    TRY(result_view_read_at(view, SERIES_SHEAR, false, rows, count, &shear, err));
+    TRY(result_view_read_at(view, SERIES_SLIP_RATE, false, rows, count, &rate, err));
+    TRY(result_view_read_at(view, SERIES_STATUS, false, rows, count, &status, err));
     TRY(frames->x = NEW_ARRAY(double, 2 * (int64_t)view->nodes, err));
     for (int32_t i = 0; i < view->nodes; ++i) {
         if (i > 0 && view->pad[i] != view->pad[i - 1]) frames->x[frames->points++] = NAN;

@@ -187,6 +187,24 @@ cleanup:
     return error_is_clean(err);
 }
 
+bool result_view_read_at(ResultView *view, ResultSeries series, bool whole, const int64_t *rows,
+                         int32_t count, double **values, Error *err)
+{
+    double *all = NULL;
+    int32_t nodes = whole ? view->all_nodes : view->nodes;
+    TRY(result_view_read(view, series, whole, &all, err));
+    TRY(*values = NEW_ARRAY(double, (int64_t)count *nodes, err));
+    for (int32_t k = 0; k < count; ++k) {
+        if (rows[k] >= view->rows)
+            FAIL(err, ERROR_FILE, "%s has %lld rows only", result_series_name(series),
+                 (long long)view->rows);
+        memcpy(*values + (int64_t)k * nodes, all + rows[k] * nodes, (size_t)nodes * sizeof *all);
+    }
+cleanup:
+    memory_free(all);
+    return error_is_clean(err);
+}
+
 // A text of several lines; "" where the history has none: no error.
 static bool lines_read(ResultView *view, const char *name, char **lines, Error *err)
 {

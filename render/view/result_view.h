@@ -109,6 +109,9 @@ bool result_view_read_front(ResultView *view, Error *err);
 // no state.
 bool result_view_read(ResultView *view, ResultSeries series, bool whole, double **values,
                       Error *err);
+// The same of [count] rows of the history alone: *values [count * nodes] in their order.
+bool result_view_read_at(ResultView *view, ResultSeries series, bool whole, const int64_t *rows,
+                         int32_t count, double **values, Error *err);
 
 // The name of the state that is chosen.
 enum { VIEW_STATE_SIZE = 64 };
