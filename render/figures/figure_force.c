@@ -4,7 +4,6 @@
 #include "render/figures/figures.h"
 
 #include "render/figures/columns.h"
-#include "render/view/range.h"
 #include "render/view/zoom.h"
 
 #include <math.h>

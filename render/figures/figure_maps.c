@@ -11,7 +11,6 @@
 #include "render/figures/columns.h"
 #include "render/figures/figures.h"
 #include "render/figures/measured.h"
-#include "render/view/range.h"
 #include "render/view/zoom.h"
 
 #include <math.h>

@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "io/text/csv_writer.h"
 #include "render/figures/probe_data.h"
-#include "render/view/range.h"
+#include "render/view/zoom.h"
 
 #include <math.h>
 #include <stdio.h>

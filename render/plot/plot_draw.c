@@ -5,15 +5,18 @@
 
 #include "base/memory.h"
 #include "base/order.h"
+#include "io/text/csv_reader.h"
+#include "io/text/csv_writer.h"
 #include "render/picture_options.h"
 #include "render/plot/plot_map.h"
 #include "render/plot/legend.h"
 #include "render/plot/marks.h"
-#include "render/plot/plot_compare.h"
 #include "render/plot/plot_file.h"
 #include "render/render.h"
 
+#include <limits.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -139,6 +142,185 @@ static bool panels_draw(const Page *page, const Plot *plot, const Box *below, Er
     return true;
 }
 
+// --- measurements --------------------------------------------------------------------------------
+// One more series with the misfit in its label, from a table of comma-separated values.
+
+static const double WIDER = 0.05;   // of the axis, beyond a measurement outside of it
+
+// The column called `given`, with a unit or without, else the plain one. *factor: to SI where it
+// has a unit, else the numbers are the plot's.
+static bool find_column(const CsvTable *table, const char *given, const char *plain,
+                        int32_t *column, double *factor, Error *err)
+{
+    CsvUnit unit = {"", 0};
+    *factor = 1;
+    *column = -1;
+    if (given[0] && !csv_find(table, given, column, &unit, err)) return false;
+    if (*column < 0 && !csv_find(table, plain, column, &unit, err)) return false;
+    return unit.length == 0 || csv_to_si(table, *column, unit, NULL, factor, err);
+}
+
+static bool read_points(const Plot *plot, const CsvTable *table, PlotSeries *series, Error *err)
+{
+    CsvUnit unit;
+    int32_t x = -1, y = -1, error = -1;
+    double factor[3];   // of x, y, error
+    if (!find_column(table, plot->column[0], "x", &x, &factor[0], err) ||
+        !find_column(table, plot->column[1], "y", &y, &factor[1], err))
+        return false;
+    if (x < 0 || y < 0)
+        return REFUSE(err, "%s: it needs the columns %s and %s", table->path,
+                      plot->column[0][0] ? plot->column[0] : "x",
+                      plot->column[1][0] ? plot->column[1] : "y");
+    csv_find_error(table, y, &error, &unit);
+    factor[2] = factor[1];   // in the unit of y where it has none
+    if (error >= 0 && unit.length > 0 && !csv_to_si(table, error, unit, NULL, &factor[2], err))
+        return false;
+    if (table->rows == 0)
+        return REFUSE(err, "%s: below the names of its columns there is no row", table->path);
+    if (!(csv_check(table, x, false, err) && csv_check(table, y, false, err) &&
+          csv_check(table, error, true, err)))
+        return false;
+    if (!(series->x = NEW_ARRAY(double, table->rows, err))) return false;
+    if (!(series->y = NEW_ARRAY(double, table->rows, err))) return false;
+    if (!(series->low = NEW_ARRAY(double, table->rows, err))) return false;
+    if (!(series->high = NEW_ARRAY(double, table->rows, err))) return false;
+    for (int32_t row = 0; row < table->rows; ++row) {
+        double value = factor[1] * csv_value(table, row, y);
+        double bar = error < 0 ? (double)NAN : factor[2] * csv_value(table, row, error);
+        series->x[row] = factor[0] * csv_value(table, row, x);
+        series->y[row] = value;
+        series->low[row] = value - bar;
+        series->high[row] = value + bar;
+    }
+    series->count = table->rows;
+    return true;
+}
+
+static double on_axis(const Axis *axis, double value)
+{
+    return axis->is_log ? log10(value) : value;
+}
+
+// Widens an axis to values outside of it.
+static void widen(Axis *axis, const double *values, int32_t count)
+{
+    double low = on_axis(axis, axis->low), high = on_axis(axis, axis->high);
+    double margin = WIDER * (high - low), least = low, most = high;
+    for (int32_t k = 0; k < count; ++k) {
+        double value = on_axis(axis, values[k]);
+        if (!isfinite(value)) continue;
+        least = fmin(least, value - (value < low ? margin : 0));
+        most = fmax(most, value + (value > high ? margin : 0));
+    }
+    axis->low = axis->is_log ? pow(10, least) : least;
+    axis->high = axis->is_log ? pow(10, most) : most;
+}
+
+// The columns are those that the axes name (`column`), or x and y; `error`, or the second column's
+// name with _error behind it, is the bar. The misfit is the root of the mean square of measured
+// less computed, linear between the points of the curve (over logarithms where the axis has them),
+// over those that it covers; in parts of the errors too where all have one. Where a plot has
+// several curves there is none. ERROR_INPUT: a column is missing, or the plot is a map.
+static bool compare_draw(Plot *plot, const char *path, Error *err)
+{
+    CsvTable table = {0};
+    if (plot->main.y.names) return true;   // a ranking
+    TRY(csv_read(path, &table, err));
+    if (plot->main.has_map || (plot->panel_count > 0 && plot->panels[0].has_map))
+        FAIL(err, ERROR_INPUT, "measurements are drawn over curves, not over a map");
+    if (plot->main.series_count == PLOT_SERIES_MAX)
+        FAIL(err, ERROR_INPUT, "the plot has %d curves, and no room for measurements",
+             PLOT_SERIES_MAX);
+
+    // The curve to compare with: the one with a line through several points, if it is one alone.
+    PlotSeries *series = &plot->main.series[plot->main.series_count], *curve = NULL;
+    int32_t curves = 0;
+    for (int32_t k = 0; k < plot->main.series_count; ++k) {
+        PlotSeries *other = &plot->main.series[k];
+        if (other->line == LINE_NONE || other->count < 2) continue;
+        curve = other;
+        ++curves;
+    }
+    if (plot->panel_count > 0 || curves > 1) curve = NULL;
+    plot->main.series_count++;
+    *series = (PlotSeries){.marker = MARKER_CROSS, .filled = true, .line = LINE_NONE};
+    TRY(read_points(plot, &table, series, err));
+
+    // Name of the file and misfit, where there is one curve.
+    const char *slash = strrchr(path, '/');
+    int length = snprintf(series->label, sizeof series->label, "%.40s", slash ? slash + 1 : path);
+    if (curve) {
+        double sum = 0, parts = 0;
+        int32_t count = 0;
+        if (!curve->label[0]) snprintf(curve->label, sizeof curve->label, "computed");
+        TRY(plot->computed = NEW_ARRAY(double, series->count, err));
+        for (int32_t k = 0; k < series->count; ++k) {
+            // Between two points of the curve, on its axis; NaN: the curve does not come to x.
+            const Axis *axis = &plot->main.x;
+            double x = series->x[k];
+            plot->computed[k] = NAN;
+            for (int32_t i = 0; i + 1 < curve->count; ++i) {
+                double low = curve->x[i], high = curve->x[i + 1];
+                if (!(x >= fmin(low, high) && x <= fmax(low, high))) continue;
+                double span = on_axis(axis, high) - on_axis(axis, low);
+                double part = span != 0 ? (on_axis(axis, x) - on_axis(axis, low)) / span : 1;
+                plot->computed[k] = curve->y[i] + part * (curve->y[i + 1] - curve->y[i]);
+                break;
+            }
+            double away = series->y[k] - plot->computed[k];
+            double error = (series->high[k] - series->low[k]) / 2;
+            if (!isfinite(away)) continue;
+            sum += away * away;
+            parts += away * away / (error * error);
+            ++count;
+        }
+        size_t room = sizeof series->label;
+        if (count > 0)
+            length += snprintf(series->label + length, room - (size_t)length, ": misfit %.3g",
+                               sqrt(sum / count));
+        if (count > 0 && isfinite(parts))
+            snprintf(series->label + length, room - (size_t)length, ", %.3g of its errors",
+                     sqrt(parts / count));
+    }
+
+    // The ends of the axes were those of what was computed.
+    widen(&plot->main.x, series->x, series->count);
+    widen(&plot->main.y, series->y, series->count);
+    widen(&plot->main.y, series->low, series->count);
+    widen(&plot->main.y, series->high, series->count);
+cleanup:
+    csv_destroy(&table);
+    error_context(err, "measurements");
+    return error_is_clean(err);
+}
+
+// Each measurement with what was computed there, into PICTURE-compared.csv, if anything is.
+static bool compare_write(const Plot *plot, const char *picture, Error *err)
+{
+    static const char *const plain[2] = {"x", "y"};
+    char path[PATH_MAX];
+    const char *dot = strrchr(picture, '.');
+    if (!plot->computed) return true;
+    const PlotSeries *series = &plot->main.series[plot->main.series_count - 1];
+    int length = snprintf(path, sizeof path, "%.*s-compared.csv", (int)(dot - picture), picture);
+    if (length >= (int)sizeof path) return REFUSE(err, "the picture's path is too long");
+    CsvWriter *csv = csv_create(path, err);
+    if (!csv) return false;
+    for (int32_t c = 0; c < 2; ++c) csv_text(csv, plot->column[c][0] ? plot->column[c] : plain[c]);
+    csv_text(csv, "error");
+    csv_text(csv, "computed");
+    csv_end_row(csv);
+    for (int32_t k = 0; k < series->count; ++k) {
+        csv_number(csv, series->x[k]);
+        csv_number(csv, series->y[k]);
+        csv_rounded(csv, (series->high[k] - series->low[k]) / 2);   // a difference: digits are lost
+        csv_number(csv, plot->computed[k]);
+        csv_end_row(csv);
+    }
+    return csv_finish(csv, err);
+}
+
 // --- the page -----------------------------------------------------------------------------------
 
 static const double RIGHT_MARGIN = 6, POWER_MARGIN = 9;   // points: half a number may stand there
@@ -231,7 +413,7 @@ bool plot_draw(Page *page, Plot *plot, const PictureStyle *style, const char *ti
     }
     if (used.legend) plot->no_legend = strcmp(used.legend, "none") == 0;
     if (!limit_colors(plot, &used, err)) return false;
-    if (used.compare && !plot_compare(plot, used.compare, err)) return false;
+    if (used.compare && !compare_draw(plot, used.compare, err)) return false;
     if (!page_begin(page, &def, err)) return false;
 
     // The frames, above the legend.
@@ -263,7 +445,7 @@ amontons_render_plot(const char *path, const char *picture, const PictureStyle *
     TRY(error_is_clean(err));
     TRY(plot_draw(&page, plot, &used, plot->title, err));
     TRY(page_finish(&page, picture, plot->title, err));
-    TRY(plot_compare_write(plot, picture, err));
+    TRY(compare_write(plot, picture, err));
 cleanup:
     page_destroy(&page);
     if (plot) plot_destroy(plot);

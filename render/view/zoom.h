@@ -6,6 +6,7 @@
 #ifndef AMONTONS_RENDER_VIEW_ZOOM_H
 #define AMONTONS_RENDER_VIEW_ZOOM_H
 
+#include "amontons_pictures.h"
 #include "render/view/result_view.h"
 
 enum { ZOOM_WORDS_SIZE = 48 };
@@ -44,5 +45,17 @@ bool zoom_choose_cycle(ResultView *view, const char *words, Error *err);
 
 // The sliding of the cycle that is asked for; NULL: none is, or the history has no such table.
 const ViewEvent *zoom_sliding(const ResultView *view);
+
+enum { RANGE_WORDS_SIZE = 64 };
+
+// Which part of U a figure against U shows: what was asked for, a cycle too; else all of it, or of
+// a run with so many slidings that each would be a hair the last ones, and the figure says so.
+typedef struct ViewRange {
+    double low, high;   // U, length
+    char words[RANGE_WORDS_SIZE];   // "the last 30 of 281 slidings"; "": all, or what was asked
+} ViewRange;
+
+bool view_range_find(const ResultView *view, const PictureStyle *style, ViewRange *shown,
+                     Error *err);
 
 #endif

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The shown part of a run: the last slidings of many, or what was asked for, by U or by time.
-#include "render/view/range.h"
+#include "render/view/zoom.h"
 
 #include "cases.h"
 
