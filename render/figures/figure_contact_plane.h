@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// One map of the contact of a block in space, seen from above. Called by film_panels.
+// One map of the contact of a block in space, seen from above. Called by film_page.
 #ifndef AMONTONS_RENDER_FIGURES_FIGURE_CONTACT_PLANE_H
 #define AMONTONS_RENDER_FIGURES_FIGURE_CONTACT_PLANE_H
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A field over U, or seconds of film, and x: its pixels in colours, with the gaps between pads. The
 // maps themselves, slip-map, state-map, contact-density and contact-area, are declared in
-// figures.h. Called by film_band.
+// figures.h. Called by film_page.
 #ifndef AMONTONS_RENDER_FIGURES_FIGURE_MAPS_H
 #define AMONTONS_RENDER_FIGURES_FIGURE_MAPS_H
 

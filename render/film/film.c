@@ -3,6 +3,7 @@
 // and puts the page into the file.
 #include "render/canvas/color.h"
 #include "render/film/film_page.h"
+#include "render/film/film_times.h"
 #include "render/picture_options.h"
 #include "render/render.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// From the time of a film to the time of the run. Numbers only; called by film and film_band.
+// From the time of a film to the time of the run. Numbers only; called by film and film_page.
 //
 // A second of film is a part of the run that is the shorter the faster the contact slips: by
 // (2 V / v)^p while the fastest node slips at v > 2 V, rapidly, and the same otherwise. The power p

@@ -6,8 +6,7 @@
 #define AMONTONS_RENDER_FILM_FILM_PAGE_H
 
 #include "render/figures/block_page.h"
-#include "render/film/film_band.h"
-#include "render/film/film_panels.h"
+#include "render/film/film_clock.h"
 
 typedef struct FilmPageDef {
     const char *folder;   // of the result

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // From slip rates, or states, at accepted steps and contact nodes to those at pixels of U against
-// x. Numbers only; called by figure_maps and film_band.
+// x. Numbers only; called by figure_maps and film_page.
 //
 // Steps lie very unevenly in U: thousands inside a rapid event that is thinner than a pixel, none
 // for many pixels while nothing happens. A column of pixels takes the fastest of the steps
