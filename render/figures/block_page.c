@@ -3,9 +3,8 @@
 
 #include "base/memory.h"
 #include "io/mesh/shape_functions.h"
+#include "render/figures/figures.h"
 #include "render/figures/rod_mark.h"
-#include "render/figures/space_page.h"
-#include "render/figures/surface_draw.h"
 #include "render/figures/color_scale.h"
 #include "render/view/space_time.h"
 
@@ -13,7 +12,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { ARROWS = 9, STATUSES = 4 };
+enum { ARROWS = 9, ARROWS_IN_SPACE = 7, STATUSES = 4, TICKS_WANTED = 4 };
 
 static const double ROOM_LEFT = 15, ROOM_RIGHT = 5;   // points: rod and its arrow; paper
 static const double ROOM_ABOVE = 13, ROOM_BELOW = 7;   // points: load; contact
@@ -46,51 +45,48 @@ static void take_place(const double place[2], double extent[4])
     }
 }
 
-void block_page_deform(Block *blocks, int32_t count, double *magnification, double extent[4])
+static double floor_height(const Block *block)
 {
-    double least = INFINITY, corner[4][2];
-    for (int32_t k = 0; k < count && *magnification == 0; ++k)
-        least = fmin(least, block_magnification(&blocks[k]));
-    if (*magnification == 0) *magnification = least;
-    extent[0] = extent[2] = INFINITY;
-    extent[1] = extent[3] = -INFINITY;
-    for (int32_t k = 0; k < count; ++k) {
-        block_deform(&blocks[k], *magnification);
-        for (int32_t i = 0; i < blocks[k].frame.node_count; ++i)
-            take_place(blocks[k].place[i], extent);
-        if (blocks[k].moved) space_page_floor_corners(&blocks[k], corner);
-        for (int32_t c = 0; c < 4 && blocks[k].moved; ++c) take_place(corner[c], extent);
+    return block->low[2] - camera_drop(block->low, block->high);
+}
+
+// Finds where the camera sees the corners of its floor.
+static void find_corners(const Block *block, double corner[4][2])
+{
+    for (int32_t k = 0; k < 4; ++k) {
+        const double place[3] = {k % 2 ? block->high[0] : block->low[0],
+                                 k / 2 ? block->high[1] : block->low[1], floor_height(block)};
+        double seen[3];
+        camera_see(&block->camera, place, seen);
+        memcpy(corner[k], seen, sizeof corner[k]);
     }
 }
 
-double block_page_scale(const double extent[4], double width, double share)
-{
-    return (width - share * (ROOM_LEFT + ROOM_RIGHT)) / (extent[1] - extent[0]);
-}
+// --- size and colours ----------------------------------------------------------------------------
 
-double block_page_height(const double extent[4], double scale, double share)
-{
-    return scale * (extent[3] - extent[2]) + share * (ROOM_ABOVE + ROOM_BELOW);
-}
-
-void block_page_ranges(const double extent[4], double scale, double share, Axes *axes)
-{
-    axes->x.low = extent[0] - share * ROOM_LEFT / scale;
-    axes->x.high = extent[1] + share * ROOM_RIGHT / scale;
-    axes->y.low = extent[2] - share * ROOM_BELOW / scale;
-    axes->y.high = extent[3] + share * ROOM_ABOVE / scale;
-}
-
-// --- range of the colours ------------------------------------------------------------------------
-
-bool block_page_fit(BlockPage *map, const Block *blocks, int32_t count, BlockQuantity quantity,
+bool block_page_fit(BlockPage *map, Block *blocks, int32_t count, BlockQuantity quantity,
                     Error *err)
 {
     int64_t total = 0;
+    double least = INFINITY, corner[4][2], *extent = map->extent;
     WeighedValue *nodes = NULL;
     BlockWords words = block_words(quantity);
     ValueWords shown = {words.words, words.si, words.normalised, map->view->si, false};
     if (quantity == BLOCK_PRESSURE && map->view->line) shown.words = PRESSURE_IN_SPACE;
+    for (int32_t k = 0; k < count && map->magnification == 0; ++k)
+        least = fmin(least, block_magnification(&blocks[k]));
+    if (map->magnification == 0) map->magnification = least;
+    extent[0] = extent[2] = INFINITY;
+    extent[1] = extent[3] = -INFINITY;
+    for (int32_t k = 0; k < count; ++k) {
+        block_deform(&blocks[k], map->magnification);
+        for (int32_t i = 0; i < blocks[k].frame.node_count; ++i)
+            take_place(blocks[k].place[i], extent);
+        if (blocks[k].moved) find_corners(&blocks[k], corner);
+        for (int32_t c = 0; c < 4 && blocks[k].moved; ++c) take_place(corner[c], extent);
+    }
+
+    // The range of the colours.
     for (int32_t k = 0; k < count; ++k) total += blocks[k].frame.node_count;
     TRY(nodes = NEW_ARRAY(WeighedValue, total, err));
     WeighedValue *own = nodes;   // those of block k
@@ -122,6 +118,45 @@ cleanup:
     return error_is_clean(err);
 }
 
+bool block_page_sample(BlockPage *map, const BlockSource *source, const int32_t *index,
+                       int32_t count, Error *err)
+{
+    Block *blocks = NEW_ARRAY(Block, count, err);
+    TRY(blocks);
+    for (int32_t k = 0; k < count; ++k) TRY(block_read(source, index[k], &blocks[k], err));
+    TRY(block_page_fit(map, blocks, count, source->quantity, err));
+cleanup:
+    for (int32_t k = 0; blocks && k < count; ++k) block_destroy(&blocks[k]);
+    memory_free(blocks);
+    return error_is_clean(err);
+}
+
+void block_page_size(BlockPage *map, double width, double most_height)
+{
+    double beside = map->share * (ROOM_LEFT + ROOM_RIGHT), length = map->extent[1] - map->extent[0];
+    double over = map->share * (ROOM_ABOVE + ROOM_BELOW), rise = map->extent[3] - map->extent[2];
+    map->width = width;
+    map->scale = (width - beside) / length;
+    map->height = map->scale * rise + over;
+    if (!(map->height > most_height)) return;
+    map->height = most_height;
+    map->scale = (most_height - over) / rise;
+    map->width = map->scale * length + beside;
+}
+
+void block_page_place(const Page *page, const BlockPage *map, double left, double top, Axes *axes)
+{
+    double mark = map->share / map->scale;   // length: a point of a mark
+    axes->x.low = map->extent[0] - mark * ROOM_LEFT;
+    axes->x.high = map->extent[1] + mark * ROOM_RIGHT;
+    axes->y.low = map->extent[2] - mark * ROOM_BELOW;
+    axes->y.high = map->extent[3] + mark * ROOM_ABOVE;
+    axes->box = (Box){.left = left,
+                      .right = left + round(map->width * page->point),
+                      .top = top,
+                      .bottom = top + round(map->height * page->point)};
+}
+
 bool block_cut_read(const ResultView *view, const char *words, SpaceCut *cut, Error *err)
 {
     if (words && !view->line)
@@ -129,20 +164,194 @@ bool block_cut_read(const ResultView *view, const char *words, SpaceCut *cut, Er
     return space_cut_read(words, cut, err);
 }
 
-// --- the block -----------------------------------------------------------------------------------
+// --- in space ------------------------------------------------------------------------------------
 
-static SpacePage space_of(const Page *page, const BlockPage *map, const Axes *axes)
+static const double SEAM = 0.2, FLOOR_WIDTH = 0.4, STRIP_WIDTH = 1.2;   // points
+static const double ROD_LENGTH = 11, ROD_HEAD = 3, ROD_WIDTH = 1;   // points
+static const double TICK = 2.5, NUMBER_GAP = 2, NAME_GAP = 13;   // points
+static const double GAP_IN_SPACE = 1;   // points: load to the top
+static const double SLACK_IN_SPACE = 1e-6;   // of the diagonal
+
+static double diagonal(const Block *block)
 {
-    static const SpaceCut whole = {0};
-    SpacePage space = {.view = map->view,
-                       .cut = map->cut ? map->cut : &whole,
-                       .edges = map->edges,
-                       .unit = map->share * page->point,
-                       .axes = *axes,
-                       .bar = &map->bar};
-    for (int32_t k = 0; k < STATUSES; ++k) space.status[k] = STATUS[k].color;
-    return space;
+    double sum = 0;
+    for (int32_t d = 0; d < 3; ++d) sum += pow(block->high[d] - block->low[d], 2);
+    return sqrt(sum);
 }
+
+static Point see_on_page(const Block *block, const Axes *axes, double x, double y, double z)
+{
+    const double place[3] = {x, y, z};
+    return surface_see(block, axes, place).at;
+}
+
+// Distance of a node of the trailing face above or below the strip; INFINITY: it is beside it.
+static double off_strip(const Block *block, int64_t node, const double low[2], const double high[2])
+{
+    const double *was = block->frame.position + 3 * node;
+    double slack = SLACK_IN_SPACE * diagonal(block);
+    bool beside = was[0] > block->low[0] + slack || was[1] < low[0] - slack ||
+                  was[1] > high[0] + slack;
+    return beside ? INFINITY : fmax(0, fmax(low[1] - was[2], was[2] - high[1]));
+}
+
+// The strip that the rod pushes, and an arrow against its middle; not where it was cut away.
+static void draw_rod(const Page *page, const BlockPage *map, const Block *block, const Axes *axes)
+{
+    static const int32_t round[5][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}};
+    double unit = map->share * page->point;
+    const double *number = map->view->number;
+    const SpaceCut *cut = &map->cut;
+    double breadth = number[NUMBER_ROD_BREADTH], middle = (block->low[1] + block->high[1]) / 2;
+    double low[2] = {block->low[1], number[NUMBER_ROD_LOW]};
+    double high[2] = {block->high[1], number[NUMBER_ROD_HIGH]};
+    if (breadth > 0) low[0] = middle - breadth / 2, high[0] = middle + breadth / 2;
+
+    // The cut leaves the strip from this y on.
+    double left = cut->count > 0 ? INFINITY : low[0];
+    for (int32_t k = 0; k < cut->count; ++k) {
+        if (cut->axis[k] == 1) left = fmax(low[0], cut->value[k]);
+        if (cut->axis[k] == 2 && (low[1] + high[1]) / 2 < cut->value[k]) {
+            left = low[0];
+            break;
+        }
+    }
+    low[0] = left;
+    middle = (low[0] + high[0]) / 2;
+    if (!(low[0] < high[0]) || !isfinite(low[1] + high[1])) return;
+
+    // Mean way, as drawn, of the nodes of the trailing face in the strip, or next to it where no
+    // node is inside.
+    double nearest = INFINITY, count = 0, moved[3] = {0, 0, 0};
+    for (int64_t i = 0; i < block->frame.node_count; ++i)
+        nearest = fmin(nearest, off_strip(block, i, low, high));
+    for (int64_t i = 0; i < block->frame.node_count && isfinite(nearest); ++i) {
+        if (off_strip(block, i, low, high) > nearest + SLACK_IN_SPACE * diagonal(block)) continue;
+        count += 1;
+        for (int32_t d = 0; d < 3; ++d)
+            moved[d] += block->moved[i][d] - block->frame.position[3 * i + d];
+    }
+    if (count == 0) return;
+    for (int32_t d = 0; d < 3; ++d) moved[d] /= count;
+
+    Stroke strip = {.color = ROD_COLOR, .width = STRIP_WIDTH * unit};
+    Stroke shaft = {.color = ROD_COLOR, .width = ROD_WIDTH * unit};
+    Point line[5];
+    for (int32_t k = 0; k < 5; ++k)
+        line[k] = see_on_page(block, axes, block->low[0] + moved[0],
+                              (round[k][0] ? high[0] : low[0]) + moved[1],
+                              (round[k][1] ? high[1] : low[1]) + moved[2]);
+    draw_line(page->canvas, &strip, line, 5);
+    double z = (low[1] + high[1]) / 2 + moved[2], x = block->low[0] + moved[0];
+    Point tip = see_on_page(block, axes, x, middle, z);
+    Point back = see_on_page(block, axes, x - diagonal(block), middle, z);
+    double way = hypot(back.x - tip.x, back.y - tip.y);
+    double part = ROD_LENGTH * unit / way;
+    Point from = {tip.x + part * (back.x - tip.x), tip.y + part * (back.y - tip.y)};
+    arrow_draw(page, &shaft, from, tip, ROD_HEAD * unit);
+}
+
+// Statuses of the contact at a step, on the floor let down.
+static void draw_floor(const Page *page, const BlockPage *map, const Block *block, int64_t row,
+                       const Axes *axes)
+{
+    static const int32_t round[5][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}};
+    double unit = map->share * page->point;
+    const ContactPlane *plane = &map->view->plane;
+    double floor = floor_height(block);
+    Stroke border = {.color = INK, .width = FLOOR_WIDTH * unit};
+    Point line[5];
+    for (int32_t k = 0; k < plane->patch_count && map->view->contact_status; ++k) {
+        const ContactPatch *patch = &plane->patches[k];
+        double status = map->view->contact_status[row * plane->nodes + patch->node];
+        if (status >= 0 && status < STATUSES) {
+            Color color = STATUS[(int32_t)status].color;
+            Stroke seam = {.color = color, .width = fmax(1, SEAM * unit)};
+            Point corner[PATCH_CORNERS + 1];
+            for (int32_t c = 0; c <= PATCH_CORNERS; ++c) {
+                const double *at = patch->corner[c % PATCH_CORNERS];
+                corner[c] = see_on_page(block, axes, at[0], at[1], floor_height(block));
+            }
+            draw_polygon(page->canvas, color, corner, PATCH_CORNERS);
+            draw_line(page->canvas, &seam, corner, PATCH_CORNERS + 1);
+        }
+    }
+    for (int32_t k = 0; k < plane->side_count; ++k) {
+        for (int32_t c = 0; c < 3; ++c)
+            line[c] = see_on_page(block, axes, plane->sides[k].point[c][0],
+                                  plane->sides[k].point[c][1], floor);
+        draw_line(page->canvas, &border, line, 3);
+    }
+    for (int32_t k = 0; k < 5; ++k)
+        line[k] = see_on_page(block, axes, round[k][0] ? block->high[0] : block->low[0],
+                              round[k][1] ? block->high[1] : block->low[1], floor);
+    draw_line(page->canvas, &border, line, 5);
+}
+
+// Draws along `axis` from `start`: ticks go to `aside`, a direction on the page. Where that is left
+// or right the name rises, beside the numbers that it passes: the axis may lean.
+static void draw_axis(const Page *page, const BlockPage *map, const Block *block, const Axes *axes,
+                      int32_t axis, const double start[3], Point aside)
+{
+    static const char *const names[] = {"x", "y", "z"};
+    Axis own = figure_length_axis(map->view, names[axis], block->low[axis], block->high[axis]);
+    Ticks ticks = axis_ticks(&own, TICKS_WANTED);
+    double point = page->point, at[3] = {start[0], start[1], start[2]};
+    bool flat = fabs(aside.x) > fabs(aside.y), left = aside.x < 0;
+    Stroke stroke = {.color = INK, .width = FRAME_WIDTH * point};
+    TextStyle style = {.size = NUMBER_SIZE * point, .color = INK};
+    TextStyle name_style = {.size = LABEL_SIZE * point, .color = INK, .across = 0.5, .up = 1};
+    style.across = flat ? left ? 1 : 0 : 0.5;
+    style.up = flat ? 0.5 : 1;
+    at[axis] = (block->low[axis] + block->high[axis]) / 2;
+    Point name = see_on_page(block, axes, at[0], at[1], at[2]);
+    double half = text_width(page->text, name_style.size, own.label) / 2 + style.size;
+    double away = flat ? (TICK + NUMBER_GAP) * point : NAME_GAP * point;   // of the name
+    for (int32_t k = 0; k < ticks.count; ++k) {
+        char number[TICK_LABEL_SIZE];
+        double offset = axis == 2 ? start[2] - block->low[2] : 0;   // the block's own heights
+        at[axis] = tick_value(&ticks, k) / own.factor + offset;
+        Point foot = see_on_page(block, axes, at[0], at[1], at[2]);
+        Point end = {foot.x + TICK * point * aside.x, foot.y + TICK * point * aside.y};
+        draw_segment(page->canvas, &stroke, foot, end);
+        tick_label(&ticks, k, number);
+        end.x += NUMBER_GAP * point * aside.x;
+        end.y += NUMBER_GAP * point * aside.y;
+        text_draw(page->text, &style, end, number);
+        if (!flat || fabs(end.y - name.y) > half) continue;
+        double outer = (end.x - name.x) / aside.x + text_width(page->text, style.size, number);
+        away = fmax(away, outer + NUMBER_GAP * point);
+    }
+    if (flat) {
+        name_style.rising = true;
+        name_style.up = left ? 0 : 1;
+    }
+    text_draw(page->text, &name_style, (Point){name.x + away * aside.x, name.y + away * aside.y},
+              own.label);
+}
+
+// The block, its floor, load and rod.
+static bool draw_in_space(const Page *page, const BlockPage *map, const Block *block,
+                          const Axes *axes, Error *err)
+{
+    double unit = map->share * page->point, top = -INFINITY;
+    draw_floor(page, map, block, block->row, axes);
+    if (!surface_draw(page, map, block, axes, err)) return false;
+
+    // The load: arrows on the far edge of the top.
+    Stroke load = {.color = LOAD_COLOR, .width = 0.6 * unit};
+    for (int64_t i = 0; i < block->frame.node_count; ++i) top = fmax(top, block->moved[i][2]);
+    for (int32_t k = 0; k < ARROWS_IN_SPACE && map->view->number[NUMBER_PRESSURE] > 0; ++k) {
+        double x = block->low[0] + (block->high[0] - block->low[0]) * (k + 0.5) / ARROWS_IN_SPACE;
+        Point tip = see_on_page(block, axes, x, block->high[1], top);
+        tip.y -= GAP_IN_SPACE * unit;
+        arrow_draw(page, &load, (Point){tip.x, tip.y - LOAD_LENGTH * unit}, tip, LOAD_HEAD * unit);
+    }
+    draw_rod(page, map, block, axes);
+    return true;
+}
+
+// --- the block -----------------------------------------------------------------------------------
 
 // Draws below the floor's line a colour for each contact node, where it is drawn on the deformed
 // block: at its node of the block, the lowest one there of the elements above the floor's line,
@@ -195,20 +404,23 @@ static void draw_contact(const Page *page, const BlockPage *map, const Block *bl
 void block_page_contact(const Page *page, const BlockPage *map, const Block *block, int64_t row,
                         const Axes *axes)
 {
-    SpacePage space = space_of(page, map, axes);
     if (block->moved)
-        space_page_floor(page, &space, block, row);
+        draw_floor(page, map, block, row, axes);
     else
         draw_contact(page, map, block, row, axes);
 }
 
 void block_page_axes(const Page *page, const BlockPage *map, const Block *block, const Axes *axes)
 {
-    SpacePage space = space_of(page, map, axes);
-    if (block->moved)
-        space_page_axes(page, &space, block);
-    else
+    if (!block->moved) {
         axes_draw(page, axes);
+        return;
+    }
+    const double front[3] = {block->low[0], block->low[1], floor_height(block)};
+    const double side[3] = {block->low[0], block->high[1], block->low[2]};
+    draw_axis(page, map, block, axes, 0, front, (Point){0, 1});
+    draw_axis(page, map, block, axes, 1, front, (Point){-1, 0});
+    draw_axis(page, map, block, axes, 2, side, (Point){-1, 0});
 }
 
 // Arrows along what was the top before anything moved.
@@ -256,11 +468,9 @@ static double drawn_height(const Block *block, double height, double face, doubl
 bool block_page_draw(const Page *page, const BlockPage *map, const Block *block, const Axes *axes,
                      Error *err)
 {
-    SpacePage space = space_of(page, map, axes);
-    if (block->moved) return space_page_draw(page, &space, block, err);
-    const SurfaceDrawing drawing = {block, axes, &map->bar, space.cut, map->edges, space.unit};
-    Stroke outline = {.color = INK, .width = OUTLINE_WIDTH * space.unit};
-    if (!surface_draw(page, &drawing, err)) return false;
+    if (block->moved) return draw_in_space(page, map, block, axes, err);
+    Stroke outline = {.color = INK, .width = OUTLINE_WIDTH * (map->share * page->point)};
+    if (!surface_draw(page, map, block, axes, err)) return false;
     draw_contact(page, map, block, block->row, axes);
     Point left = axes_place(axes, axes->x.low, 0), right = axes_place(axes, axes->x.high, 0);
     draw_segment(page->canvas, &outline, left, right);

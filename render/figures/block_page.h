@@ -1,40 +1,30 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A block at one time on a page: its field in colours, what holds, drives and presses it. Called by
+// A block at one time on a page: its field in colours, what holds, drives and presses it. In space
+// it is seen in perspective, cut open where that is asked; below it, as if the floor had been let
+// down, what each part of the contact does. Called by
 // figure_field and figure_strip.
 #ifndef AMONTONS_RENDER_FIGURES_BLOCK_PAGE_H
 #define AMONTONS_RENDER_FIGURES_BLOCK_PAGE_H
 
-#include "render/canvas/colorbar.h"
-#include "render/canvas/page.h"
-#include "render/view/surface.h"
-
-typedef struct BlockPage {
-    const ResultView *view;   // its statuses have been read
-    bool edges;   // of elements are drawn
-    const SpaceCut *cut;   // of a block in space; NULL: none
-    double share;   // of the sizes of marks: 1, or less on a small picture
-    const PictureStyle *style;   // whose limits the colours have; NULL: those that fit
-    Colorbar bar;   // block_page_fit sets it
-} BlockPage;
+#include "render/figures/surface_draw.h"
 
 // Reads as space_cut_read does. ERROR_INPUT also where the block is in the plane.
 bool block_cut_read(const ResultView *view, const char *words, SpaceCut *cut, Error *err);
 
-// Deforms all of [count] blocks by *magnification, by the least that suits any of them where it is
-// 0, and finds what they take as drawn: low and high of x, then of z.
-void block_page_deform(Block *blocks, int32_t count, double *magnification, double extent[4]);
-
-// Width in points, of the block and what stands beside it, becomes the scale: points a length.
-double block_page_scale(const double extent[4], double width, double share);
-// Points of height that the block then takes, with load and contact.
-double block_page_height(const double extent[4], double scale, double share);
-// Ranges of the axes whose box has such a width and height.
-void block_page_ranges(const double extent[4], double scale, double share, Axes *axes);
-
-// Fits low, high and ticks of the bar to the values of all blocks, but for the outermost of them,
-// which singular corners have.
-bool block_page_fit(BlockPage *map, const Block *blocks, int32_t count, BlockQuantity quantity,
+// Deforms all of [count] blocks by map->magnification, by the least that suits any of them where it
+// is 0, and finds what they take as drawn. Fits low, high and ticks of the bar to the values of
+// all, but for the outermost of them, which singular corners have.
+bool block_page_fit(BlockPage *map, Block *blocks, int32_t count, BlockQuantity quantity,
                     Error *err);
+// Fits to [count] times of a source, whose quantity is shown.
+bool block_page_sample(BlockPage *map, const BlockSource *source, const int32_t *index,
+                       int32_t count, Error *err);
+
+// Scale, width and height, in points, of the block with what stands beside it: as wide as `width`,
+// or less where it would be higher than most_height.
+void block_page_size(BlockPage *map, double width, double most_height);
+// Ranges and box of the axes with that size, its corner at left and top, pixels.
+void block_page_place(const Page *page, const BlockPage *map, double left, double top, Axes *axes);
 
 // Draws into axes->box; colours and lines.
 bool block_page_draw(const Page *page, const BlockPage *map, const Block *block, const Axes *axes,

@@ -16,34 +16,22 @@ static const double SHAPE_MAX = 1.1;   // of the frame's height over the room fo
 
 enum { WORDS_SIZE = 160 };
 
-double field_page_lay_out(FieldPage *field, double page_width)
+double field_page_lay_out(BlockPage *map, double page_width)
 {
     double room = page_width - LEFT - RIGHT;
     Axes axes = {.x.label = "x"};
-    field->width = room;
-    field->scale = block_page_scale(field->extent, room, 1);
-    field->height = block_page_height(field->extent, field->scale, 1);
-    if (field->height > SHAPE_MAX * room) {
-        field->scale *= SHAPE_MAX * room / field->height;
-        field->height = block_page_height(field->extent, field->scale, 1);
-        block_page_ranges(field->extent, field->scale, 1, &axes);
-        field->width = field->scale * (axes.x.high - axes.x.low);
-    }
-    return (WORDS_HEIGHT + field->height + axes_bottom_margin(&axes) + LEGEND_HEIGHT) / page_width;
+    block_page_size(map, room, SHAPE_MAX * room);
+    return (WORDS_HEIGHT + map->height + axes_bottom_margin(&axes) + LEGEND_HEIGHT) / page_width;
 }
 
-bool field_page_draw(const Page *page, const FieldPage *field, const BlockPage *map,
-                     const Block *block, Error *err)
+bool field_page_draw(const Page *page, const BlockPage *map, const Block *block, Error *err)
 {
-    double point = page->point, low = field->extent[0], high = field->extent[1];
+    double point = page->point, low = map->extent[0], high = map->extent[1];
     Axes axes = {.x = figure_length_axis(map->view, "x", low, high)};
     axes.y = axes.x;
     snprintf(axes.y.label, sizeof axes.y.label, "~{z}%.80s", axes.x.label + 4);   // behind "~{x}"
-    block_page_ranges(field->extent, field->scale, 1, &axes);
-    axes.box.left = round(LEFT * point);
-    axes.box.top = page->room.top + round(WORDS_HEIGHT * point);
-    axes.box.right = axes.box.left + round(field->width * point);
-    axes.box.bottom = axes.box.top + round(field->height * point);
+    block_page_place(page, map, round(LEFT * point), page->room.top + round(WORDS_HEIGHT * point),
+                     &axes);
     if (!block_page_draw(page, map, block, &axes, err)) return false;
     block_page_axes(page, map, block, &axes);
 
@@ -52,7 +40,7 @@ bool field_page_draw(const Page *page, const FieldPage *field, const BlockPage *
     Axis U = figure_length_axis(map->view, "U", block->U, block->U);
     TextStyle style = {.size = SMALL_SIZE * page->point, .color = INK};
     snprintf(words, sizeof words, "%s = %.5g    deformation \u00d7 %g", U.label,
-             block->U * U.factor, field->magnification);
+             block->U * U.factor, map->magnification);
     text_draw_within(page->text, &style, (Point){axes.box.left, axes.box.top - 3.5 * page->point},
                      axes.box.right - axes.box.left, words);
 
@@ -72,19 +60,14 @@ bool figure_field_shows(const char *folder, const char *quantity)
 bool figure_field(Page *page, const FigureInput *input, Error *err)
 {
     Block block = {0};
-    FieldPage field = {0};
     PageDef def = input->def;
-    SpaceCut cut;
     BlockSource source = {.folder = input->folder,
                           .view = input->view,
                           .quantity = BLOCK_VON_MISES,
                           .depth = def.style->depth};
-    BlockPage map = {.view = input->view,
-                     .edges = input->field->edges,
-                     .cut = &cut,
-                     .share = 1,
-                     .style = input->def.style};
-    TRY(block_cut_read(input->view, input->field->cut, &cut, err));
+    BlockPage map = {
+        .view = input->view, .edges = input->field->edges, .share = 1, .style = input->def.style};
+    TRY(block_cut_read(input->view, input->field->cut, &map.cut, err));
     TRY(block_quantity_find(input->field->of, &source.quantity, err));
 
     // The state that the request asks for; without a word the last one before the zoomed sliding.
@@ -95,11 +78,10 @@ bool figure_field(Page *page, const FigureInput *input, Error *err)
     TRY(block_read(&source, index, &block, err));
     TRY(result_view_read_status(input->view, err));
 
-    block_page_deform(&block, 1, &field.magnification, field.extent);
     TRY(block_page_fit(&map, &block, 1, source.quantity, err));
-    def.height = field_page_lay_out(&field, page_width(def.style));
+    def.height = field_page_lay_out(&map, page_width(def.style));
     TRY(page_begin(page, &def, err));
-    TRY(field_page_draw(page, &field, &map, &block, err));
+    TRY(field_page_draw(page, &map, &block, err));
 cleanup:
     block_source_close(&source);
     block_destroy(&block);

@@ -5,18 +5,11 @@
 
 #include "render/figures/block_page.h"
 
-typedef struct FieldPage {
-    double magnification;   // of the deformation
-    double extent[4];   // of the block as drawn
-    double scale, width, height;   // of the frame, points; set by field_page_lay_out
-} FieldPage;
+// map: fitted. Lays it out to scale on a page so many points wide, or less where it would be too
+// high. The page's height over its width.
+double field_page_lay_out(BlockPage *map, double page_width);
 
-// Lays it out to scale on a page so many points wide, or less where it would be too high. The
-// page's height over its width.
-double field_page_lay_out(FieldPage *field, double page_width);
-
-// map: fitted; block: deformed.
-bool field_page_draw(const Page *page, const FieldPage *field, const BlockPage *map,
-                     const Block *block, Error *err);
+// map: laid out; block: deformed.
+bool field_page_draw(const Page *page, const BlockPage *map, const Block *block, Error *err);
 
 #endif

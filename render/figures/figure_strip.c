@@ -24,10 +24,8 @@ static const double SLACK = 1e-9;   // of U: a time at the border of an event be
 
 typedef struct Strip {
     Block blocks[FRAMES_MAX];   // [count] owned
-    double extent[4];   // of all
     int32_t count;
-    double scale, width, height;   // of a frame, points
-    double magnification;
+    BlockPage map;   // of each frame
 } Strip;
 
 static bool read_strip(const FigureInput *input, Strip *strip, BlockQuantity quantity, Error *err)
@@ -103,53 +101,43 @@ cleanup:
 static bool has_free_place(const Strip *strip)
 {
     return strip->count % COLUMNS == 1 &&
-           strip->height + WORDS_HEIGHT > FREE_ABOVE + LEGEND_LINES * FREE_LINE;
+           strip->map.height + WORDS_HEIGHT > FREE_ABOVE + LEGEND_LINES * FREE_LINE;
 }
 
-static bool draw_strip(const Page *page, const FigureInput *input, const Strip *strip,
-                       BlockQuantity quantity, Error *err)
+static bool draw_strip(const Page *page, const FigureInput *input, const Strip *strip, Error *err)
 {
     char words[WORDS_SIZE];
     double point = page->point;
-    SpaceCut cut;
-    if (!block_cut_read(input->view, input->field->cut, &cut, err)) return false;
-    BlockPage map = {.view = input->view,
-                     .cut = &cut,
-                     .edges = input->field->edges,
-                     .share = SHARE,
-                     .style = input->def.style};
+    const BlockPage *map = &strip->map;
     Box all = {0};
     TextStyle style = {.size = SMALL_SIZE * point, .color = INK, .up = 0.5}, above = style;
     above.up = 0;
-    if (!block_page_fit(&map, strip->blocks, strip->count, quantity, err)) return false;
     for (int32_t k = 0; k < strip->count; ++k) {
         // "(a) U / L_0 = 0.011491" above the part of the page that the frame takes.
         const Block *block = &strip->blocks[k];
         Axis U = figure_length_axis(input->view, "U", block->U, block->U);
         Axes axes = {0};
         int32_t line = k / COLUMNS;
-        block_page_ranges(strip->extent, strip->scale, SHARE, &axes);
-        axes.box.left = round((LEFT + k % COLUMNS * (strip->width + GAP)) * point);
-        axes.box.right = axes.box.left + round(strip->width * point);
-        axes.box.top = page->room.top +
-                       round((WORDS_HEIGHT + line * (strip->height + WORDS_HEIGHT)) * point);
-        axes.box.bottom = axes.box.top + round(strip->height * point);
+        double left = round((LEFT + k % COLUMNS * (map->width + GAP)) * point);
+        double top = page->room.top +
+                     round((WORDS_HEIGHT + line * (map->height + WORDS_HEIGHT)) * point);
+        block_page_place(page, map, left, top, &axes);
         snprintf(words, sizeof words, "(%c)  %s = %.6g", 'a' + k, U.label, block->U * U.factor);
         text_draw(page->text, &above, (Point){axes.box.left, axes.box.top - 1.5 * point}, words);
-        if (!block_page_draw(page, &map, &strip->blocks[k], &axes, err)) return false;
+        if (!block_page_draw(page, map, &strip->blocks[k], &axes, err)) return false;
         if (k == 0) all = axes.box;
         all.right = fmax(all.right, axes.box.right);
         all.bottom = axes.box.bottom;
     }
-    colorbar_draw(page, &map.bar, &all, GAP);
+    colorbar_draw(page, &map->bar, &all, GAP);
     bool free = has_free_place(strip);
     double line = free ? FREE_LINE : 0;
     Point place = {LEFT * point, all.bottom + 0.5 * LEGEND_HEIGHT * point};
     if (free)
-        place = (Point){all.right - (strip->width - FREE_LEFT) * point,
-                        all.bottom - (strip->height + WORDS_HEIGHT - FREE_ABOVE) * point};
+        place = (Point){all.right - (map->width - FREE_LEFT) * point,
+                        all.bottom - (map->height + WORDS_HEIGHT - FREE_ABOVE) * point};
     block_page_legend(page, place, line);
-    snprintf(words, sizeof words, "deformation \u00d7 %g", strip->magnification);
+    snprintf(words, sizeof words, "deformation \u00d7 %g", map->magnification);
     place.y += (free ? (LEGEND_LINES - 1) * line : NOTE_HEIGHT) * point;
     text_draw(page->text, &style, place, words);
     return true;
@@ -166,16 +154,20 @@ bool figure_strip(Page *page, const FigureInput *input, Error *err)
 
     // One magnification and one scale for all.
     double room = page_width(input->def.style) - LEFT - RIGHT;
-    block_page_deform(strip->blocks, strip->count, &strip->magnification, strip->extent);
-    strip->width = (room - (COLUMNS - 1) * GAP) / COLUMNS;
-    strip->scale = block_page_scale(strip->extent, strip->width, SHARE);
-    strip->height = block_page_height(strip->extent, strip->scale, SHARE);
+    strip->map = (BlockPage){.view = input->view,
+                             .edges = input->field->edges,
+                             .share = SHARE,
+                             .style = input->def.style};
+    TRY(block_cut_read(input->view, input->field->cut, &strip->map.cut, err));
+    TRY(block_page_fit(&strip->map, strip->blocks, strip->count, quantity, err));
+    block_page_size(&strip->map, (room - (COLUMNS - 1) * GAP) / COLUMNS, INFINITY);
 
     int32_t rows = (strip->count + COLUMNS - 1) / COLUMNS;
     double below = has_free_place(strip) ? 0 : LEGEND_HEIGHT + NOTE_HEIGHT;
-    def.height = (rows * (strip->height + WORDS_HEIGHT) + below + BOTTOM) / page_width(def.style);
+    def.height = (rows * (strip->map.height + WORDS_HEIGHT) + below + BOTTOM) /
+                 page_width(def.style);
     TRY(page_begin(page, &def, err));
-    TRY(draw_strip(page, input, strip, quantity, err));
+    TRY(draw_strip(page, input, strip, err));
 cleanup:
     for (int32_t k = 0; strip && k < FRAMES_MAX; ++k) block_destroy(&strip->blocks[k]);
     memory_free(strip);

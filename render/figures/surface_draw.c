@@ -47,10 +47,10 @@ int32_t surface_parts(const Block *block, const Axes *axes)
 }
 
 // Triangles with a corner that has no place or no number are left out.
-bool surface_colors(Canvas *canvas, const SurfaceDrawing *drawing, const Surface *surface,
+bool surface_colors(Canvas *canvas, const Block *block, const Axes *axes, const Surface *surface,
                     double low, double high, const DepthImage *image, Error *err)
 {
-    const Box *box = &drawing->axes->box;
+    const Box *box = &axes->box;
     int64_t count = 0;
     GlCorner *corners = NEW_ARRAY(GlCorner, 3 * (int64_t)surface->triangles.count, err);
     if (!corners) return false;
@@ -58,7 +58,7 @@ bool surface_colors(Canvas *canvas, const SurfaceDrawing *drawing, const Surface
         bool whole = true;
         for (int32_t k = 0; k < 3; ++k) {
             const SurfacePoint *point = &surface->triangles.points[3 * t + k];
-            DepthPoint seen = surface_see(drawing->block, drawing->axes, point->at);
+            DepthPoint seen = surface_see(block, axes, point->at);
             double part = (point->value - low) / (high - low);
             whole = whole && isfinite(seen.at.x + seen.at.y + part);
             corners[count + k] = (GlCorner){(float)(seen.at.x - box->left),
@@ -70,6 +70,42 @@ bool surface_colors(Canvas *canvas, const SurfaceDrawing *drawing, const Surface
     canvas_heat_triangles(canvas, box, corners, count, image ? image->depth : NULL);
     memory_free(corners);
     return true;
+}
+
+// Compares with the farthest of the pixels around: a line on an edge has the face behind it beside
+// it.
+static bool shows(const DepthImage *image, Point at, double depth)
+{
+    double farthest = 0;
+    int32_t column = (int32_t)floor(at.x - image->box.left);
+    int32_t row = (int32_t)floor(at.y - image->box.top);
+    for (int32_t j = row - 1; j <= row + 1; ++j)
+        for (int32_t i = column - 1; i <= column + 1; ++i) {
+            bool inside = i >= 0 && j >= 0 && i < image->columns && j < image->rows;
+            double there = inside ? (double)image->depth[(int64_t)j * image->columns + i] : 1;
+            farthest = fmax(farthest, there);
+        }
+    return depth <= farthest + image->slack;
+}
+
+void depth_image_line(const DepthImage *image, Canvas *canvas, const Stroke *stroke,
+                      const DepthPoint ends[2])
+{
+    Point from = ends[0].at, to = ends[1].at, begun = {NAN, NAN};
+    double length = hypot(to.x - from.x, to.y - from.y);
+    int32_t steps = length < 1 ? 1 : (int32_t)fmin(ceil(length), 1e5);
+    if (!isfinite(length)) return;
+    for (int32_t k = 0; k <= steps; ++k) {
+        double part = (double)k / steps, middle = fmin(part + 0.5 / steps, 1);
+        Point here = {from.x + part * (to.x - from.x), from.y + part * (to.y - from.y)};
+        Point seen = {from.x + middle * (to.x - from.x), from.y + middle * (to.y - from.y)};
+        double depth = ends[0].depth + middle * (ends[1].depth - ends[0].depth);
+        bool goes_on = k < steps && shows(image, seen, depth);
+        if (goes_on && !isfinite(begun.x)) begun = here;
+        if (goes_on || !isfinite(begun.x)) continue;
+        draw_segment(canvas, stroke, begun, here);
+        begun = (Point){NAN, NAN};
+    }
 }
 
 static void draw_between(Canvas *canvas, LinePen *pen, const Stroke *stroke,
@@ -84,21 +120,21 @@ static void draw_between(Canvas *canvas, LinePen *pen, const Stroke *stroke,
     pen->down = false;
 }
 
-void surface_lines(Canvas *canvas, const SurfaceDrawing *drawing, const SurfaceParts *lines,
+void surface_lines(Canvas *canvas, const Block *block, const Axes *axes, const SurfaceParts *lines,
                    const Stroke *stroke, const DepthImage *image)
 {
     LinePen pen = line_begin(canvas, stroke);
     for (int64_t k = 0; k < lines->count; ++k) {
         const SurfacePoint *two = lines->points + 2 * k;
-        const DepthPoint ends[2] = {surface_see(drawing->block, drawing->axes, two[0].at),
-                                    surface_see(drawing->block, drawing->axes, two[1].at)};
+        const DepthPoint ends[2] = {surface_see(block, axes, two[0].at),
+                                    surface_see(block, axes, two[1].at)};
         draw_between(canvas, &pen, stroke, image, ends);
     }
     line_end(&pen);
 }
 
 // Draws a line between two sides of each triangle that has the value.
-void surface_contour(Canvas *canvas, const SurfaceDrawing *drawing, const Surface *surface,
+void surface_contour(Canvas *canvas, const Block *block, const Axes *axes, const Surface *surface,
                      double level, const Stroke *stroke, const DepthImage *image)
 {
     LinePen pen = line_begin(canvas, stroke);
@@ -112,45 +148,45 @@ void surface_contour(Canvas *canvas, const SurfaceDrawing *drawing, const Surfac
             if ((a->value < level) == (b->value < level)) continue;
             double part = (level - a->value) / (b->value - a->value);
             for (int32_t d = 0; d < 3; ++d) place[d] = a->at[d] + part * (b->at[d] - a->at[d]);
-            ends[found++] = surface_see(drawing->block, drawing->axes, place);
+            ends[found++] = surface_see(block, axes, place);
         }
         if (found == 2) draw_between(canvas, &pen, stroke, image, ends);
     }
     line_end(&pen);
 }
 
-bool surface_draw(const Page *page, const SurfaceDrawing *drawing, Error *err)
+bool surface_draw(const Page *page, const BlockPage *map, const Block *block, const Axes *axes,
+                  Error *err)
 {
-    const Block *block = drawing->block;
-    const Box *box = &drawing->axes->box;
-    const Colorbar *bar = drawing->bar;
+    const Box *box = &axes->box;
+    const Colorbar *bar = &map->bar;
+    double unit = map->share * page->point;
     Canvas *canvas = page->canvas;
     Surface surface = {.outline = {0}};
     DepthImage depths = {.box = *box,
                          .columns = (int32_t)lround(box->right - box->left),
                          .rows = (int32_t)lround(box->bottom - box->top)};
     const DepthImage *image = block->moved ? &depths : NULL;
-    Stroke outline = {.color = INK, .width = OUTLINE_WIDTH * drawing->unit};
-    Stroke edge = {.color = image ? CONTOUR : EDGE_IN_PLANE, .width = EDGE_WIDTH * drawing->unit};
-    Stroke contour = {.color = CONTOUR, .width = CONTOUR_WIDTH * drawing->unit};
+    Stroke outline = {.color = INK, .width = OUTLINE_WIDTH * unit};
+    Stroke edge = {.color = image ? CONTOUR : EDGE_IN_PLANE, .width = EDGE_WIDTH * unit};
+    Stroke contour = {.color = CONTOUR, .width = CONTOUR_WIDTH * unit};
     if (image) {
         double sum = 0;
         for (int32_t d = 0; d < 3; ++d) sum += pow(block->high[d] - block->low[d], 2);
         depths.slack = SLACK * sqrt(sum) / (2 * block->camera.distance);
         TRY(depths.depth = NEW_ARRAY(float, (int64_t)depths.rows *depths.columns, err));
     }
-    TRY(surface_build(block, drawing->cut, drawing->edges, surface_parts(block, drawing->axes),
-                      &surface, err));
-    TRY(surface_colors(canvas, drawing, &surface, bar->low / bar->factor, bar->high / bar->factor,
-                       image, err));
-    surface_lines(canvas, drawing, &surface.edges, &edge, image);
+    TRY(surface_build(block, &map->cut, map->edges, surface_parts(block, axes), &surface, err));
+    TRY(surface_colors(canvas, block, axes, &surface, bar->low / bar->factor,
+                       bar->high / bar->factor, image, err));
+    surface_lines(canvas, block, axes, &surface.edges, &edge, image);
     Ticks ticks = colorbar_ticks(bar);
     for (int32_t n = 0; n < ticks.count; ++n) {
         double number = tick_value(&ticks, n);
         if (number > bar->low && number < bar->high)
-            surface_contour(canvas, drawing, &surface, number / bar->factor, &contour, image);
+            surface_contour(canvas, block, axes, &surface, number / bar->factor, &contour, image);
     }
-    surface_lines(canvas, drawing, &surface.outline, &outline, image);
+    surface_lines(canvas, block, axes, &surface.outline, &outline, image);
 cleanup:
     surface_destroy(&surface);
     memory_free(depths.depth);

@@ -25,7 +25,6 @@ bool film_block_open(FilmBlock *film, Error *err)
     const BlockSource *source = &film->source;
     bool inside = false;
     film->shown = film->pair_index[0] = film->pair_index[1] = -1;
-    film->map = (BlockPage){.view = source->view, .share = 1};
     if (!block_is_stored(source->folder)) return true;
     if (!block_source_open(&film->source, err)) return false;
     const FieldTime *times = source->times;
@@ -46,15 +45,13 @@ bool film_block_open(FilmBlock *film, Error *err)
 static bool read_stored(const FilmBlock *film, int32_t index, Block *block, Error *err)
 {
     if (!block_read(&film->source, index, block, err)) return false;
-    block_deform(block, film->magnification);
+    block_deform(block, film->map.magnification);
     return true;
 }
 
 bool film_block_place(const Page *page, const Box *cell, FilmBlock *film, Error *err)
 {
-    Block sample[SAMPLES_MAX] = {0};
-    double extent[4] = {0};
-    int32_t count = 0, frames = film->clock->frames;
+    int32_t sample[SAMPLES_MAX], count = 0, frames = film->clock->frames;
 
     // Colours and size hold for the whole film: they are those of some of its fields, evenly spaced
     // in its time.
@@ -62,32 +59,18 @@ bool film_block_place(const Page *page, const Box *cell, FilmBlock *film, Error 
         int32_t index = film->stored[(int64_t)k * (frames - 1) / (SAMPLES_MAX - 1)];
         if (k > 0 && index == film->stored[(int64_t)(k - 1) * (frames - 1) / (SAMPLES_MAX - 1)])
             continue;
-        TRY(block_read(&film->source, index, &sample[count++], err));
+        sample[count++] = index;
     }
-    block_page_deform(sample, count, &film->magnification, extent);
-    TRY(block_page_fit(&film->map, sample, count, film->source.quantity, err));
+    if (!block_page_sample(&film->map, &film->source, sample, count, err)) return false;
 
     // The block in the middle of its cell.
-    double point = page->point, words = WORDS_HEIGHT + LEGEND_HEIGHT;
-    double width = (cell->right - cell->left) / point - BAR_ROOM;
-    double height = (cell->bottom - cell->top) / point - words;
-    double scale = block_page_scale(extent, width, 1);
-    double needed = block_page_height(extent, scale, 1);
-    if (needed > height) {
-        scale *= (height - (needed - scale * (extent[3] - extent[2]))) /
-                 (scale * (extent[3] - extent[2]));
-        needed = block_page_height(extent, scale, 1);
-    }
-    block_page_ranges(extent, scale, 1, &film->axes);
-    width = scale * (film->axes.x.high - film->axes.x.low);
-    double top = cell->top + (cell->bottom - cell->top - (needed + words) * point) / 2;
-    film->axes.box.left = round(cell->left);
-    film->axes.box.right = film->axes.box.left + round(width * point);
-    film->axes.box.top = round(top + WORDS_HEIGHT * point);
-    film->axes.box.bottom = film->axes.box.top + round(needed * point);
-cleanup:
-    for (int32_t k = 0; k < SAMPLES_MAX; ++k) block_destroy(&sample[k]);
-    return error_is_clean(err);
+    double point = page->point;
+    double height = (cell->bottom - cell->top) / point - WORDS_HEIGHT - LEGEND_HEIGHT;
+    block_page_size(&film->map, (cell->right - cell->left) / point - BAR_ROOM, height);
+    double top = cell->top + (height - film->map.height) / 2 * point;
+    block_page_place(page, &film->map, round(cell->left), round(top + WORDS_HEIGHT * point),
+                     &film->axes);
+    return true;
 }
 
 // --- what is drawn -------------------------------------------------------------------------------
@@ -121,7 +104,7 @@ static bool put_block(const Page *page, const FilmBlock *film, const Block *bloc
                        : snprintf(words, sizeof words, "stored at %s = %.*f,  ", U.label,
                                   film->U_decimals, block->U * U.factor);
     snprintf(words + length, sizeof words - (size_t)length, "deformation \u00d7 %g",
-             film->magnification);
+             film->map.magnification);
     double left = line.left + LEGEND_LEFT * point;
     text_draw_within(page->text, &style, (Point){left, line.bottom - 3 * point}, line.right - left,
                      words);

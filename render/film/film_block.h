@@ -10,8 +10,7 @@
 typedef struct FilmBlock {
     const FilmClock *clock;
     BlockSource source;   // folder, view and quantity are given; owned
-    double magnification;   // 0: to be chosen
-    BlockPage map;
+    BlockPage map;   // view, share and magnification are given
     int32_t U_decimals;
     int32_t *stored;   // [clock->frames] the field nearest in time; NULL: there are none; owned
     int32_t still, still_most;   // frames for which the block has stood, and did at most
@@ -22,7 +21,7 @@ typedef struct FilmBlock {
     Axes axes;
 } FilmBlock;
 
-// The first three are given; finds the fields, `stored` NULL where there are none.
+// Finds the fields, `stored` NULL where there are none.
 bool film_block_open(FilmBlock *film, Error *err);
 void film_block_close(FilmBlock *film);   // zeroed is fine
 

@@ -530,7 +530,7 @@ FilmPage *film_page_create(const FilmPageDef *def, Error *err)
     page->block = (FilmBlock){
         .clock = def->clock,
         .source = {.folder = def->folder, .view = def->view, .depth = def->film->style.depth},
-        .magnification = def->film->magnification};
+        .map = {.view = def->view, .share = 1, .magnification = def->film->magnification}};
     page->in_space = def->view->line && result_file_has_faces(def->view->file);
 
     // The values that the film shows: of the contact the state that def->film->of names, or slip

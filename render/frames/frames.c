@@ -45,8 +45,7 @@ typedef struct Frames {
     double *y[STRIPS];   // [count * points] owned
     uint8_t *status;   // [count * nodes] owned
     Axes strip[STRIPS], force;
-    FieldPage image;   // the pictures of the block: one size, range and magnification
-    BlockPage map;
+    BlockPage map;   // the pictures of the block: one size, range and magnification
     double image_shape;   // height over width
 } Frames;
 
@@ -140,20 +139,14 @@ static bool fit_strips(Frames *frames, Error *err)
 // Fits the pictures of the block to some of the times.
 static bool fit_images(Frames *frames, Error *err)
 {
-    Block blocks[LOOKED_AT] = {0};
     const PictureStyle style = {.width = IMAGE_WIDTH, .dpi = IMAGE_DPI};
-    int32_t count = frames->count, looked = count < LOOKED_AT ? count : LOOKED_AT;
-    for (int32_t k = 0; k < looked; ++k) {
-        int32_t at = looked > 1 ? (int32_t)((int64_t)k * (count - 1) / (looked - 1)) : 0;
-        TRY(block_read(&frames->source, frames->chosen[at], &blocks[k], err));
-    }
-    block_page_deform(blocks, looked, &frames->image.magnification, frames->image.extent);
+    int32_t count = frames->count, looked = count < LOOKED_AT ? count : LOOKED_AT, at[LOOKED_AT];
+    for (int32_t k = 0; k < looked; ++k)
+        at[k] = frames->chosen[looked > 1 ? (int64_t)k * (count - 1) / (looked - 1) : 0];
     frames->map = (BlockPage){.view = &frames->view, .share = 1};
-    TRY(block_page_fit(&frames->map, blocks, looked, frames->source.quantity, err));
-    frames->image_shape = field_page_lay_out(&frames->image, page_width(&style));
-cleanup:
-    for (int32_t k = 0; k < LOOKED_AT; ++k) block_destroy(&blocks[k]);
-    return error_is_clean(err);
+    if (!block_page_sample(&frames->map, &frames->source, at, looked, err)) return false;
+    frames->image_shape = field_page_lay_out(&frames->map, page_width(&style));
+    return true;
 }
 
 // --- a frame -------------------------------------------------------------------------------------
@@ -168,9 +161,9 @@ static bool write_image(const Frames *frames, int32_t k, HtmlWriter *html, Error
     PageDef def = {.style = &style, .height = frames->image_shape};
     BlockWords words = block_words(frames->source.quantity);
     TRY(block_read(&frames->source, frames->chosen[k], &block, err));
-    block_deform(&block, frames->image.magnification);
+    block_deform(&block, frames->map.magnification);
     TRY(page_begin(&page, &def, err));
-    TRY(field_page_draw(&page, &frames->image, &frames->map, &block, err));
+    TRY(field_page_draw(&page, &frames->map, &block, err));
     TRY(canvas_finish(page.canvas, words.name, true, &picture, err));
     html_markup(html,
                 "<img class='paper' width='%d' height='%d' alt='The deformed block, %s in "

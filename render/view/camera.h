@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // How a block in space is seen: from its trailing and right side and from above, in perspective,
-// with x to the right. Called by block, mesh_picture and space_page.
+// with x to the right. Called by block, mesh_picture and block_page.
 #ifndef AMONTONS_RENDER_VIEW_CAMERA_H
 #define AMONTONS_RENDER_VIEW_CAMERA_H
 

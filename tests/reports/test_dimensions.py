@@ -31,7 +31,6 @@ REASONS = {
     "render/plot/map_cells.c": ("a picture is flat", r"d < 2; d"),
     "render/view/contact_plane.c": ("a floor is flat", r".*"),
     "render/view/surface.c": ("a face is flat", r".*"),
-    "render/figures/space_page.c": ("a picture is flat", r".*"),
     "render/view/result_view.h": ("begin and end of a stretch of time", r"\(\*rapid\)"),
     "render/view/space_time.h": ("begin and end of a stretch of time", r"\(\*events\)"),
     "render/frames/frames.c": ("two arrays", r"frames->x"),

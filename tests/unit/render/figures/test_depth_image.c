@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Lines before, on and behind a square in space that OpenGL draws: what of them is on the page.
-#include "render/figures/depth_image.h"
+#include "render/figures/surface_draw.h"
 
 #include "base/memory.h"
 #include "canvas_read.h"

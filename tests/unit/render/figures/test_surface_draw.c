@@ -79,13 +79,12 @@ static Axes square_axes(void)
     return (Axes){.box = {0, 0, SIZE, SIZE}, .x = {.high = 1}, .y = {.high = 1}};
 }
 
-// With edges; the axes last as long as the surface is drawn.
-static SurfaceDrawing surface_of(const Block *block, const Axes *axes, Surface *surface)
+// With edges.
+static void surface_of(const Block *block, const Axes *axes, Surface *surface)
 {
     static const SpaceCut whole = {0};
     Error err = {0};
     assert_true(surface_build(block, &whole, true, surface_parts(block, axes), surface, &err));
-    return (SurfaceDrawing){.block = block, .axes = axes};
 }
 
 // The place in the map of the colour that is nearest to this one.
@@ -125,8 +124,8 @@ static void draw_and_read(ElementKind kind)
     assert_non_null(canvas);
     color_map_fill(map);
     Surface surface;
-    SurfaceDrawing drawing = surface_of(&block, &axes, &surface);
-    assert_true(surface_colors(canvas, &drawing, &surface, 0, 1, NULL, &err));
+    surface_of(&block, &axes, &surface);
+    assert_true(surface_colors(canvas, &block, &axes, &surface, 0, 1, NULL, &err));
     surface_destroy(&surface);
     assert_true(canvas_read(canvas, &pixels, &err));
     for (int32_t row = 0; row < SIZE; row++)
@@ -168,8 +167,8 @@ TEST(contours_follow_the_level)
         patch.value[i] = field_at(ELEMENT_T6, patch.place[i][0], patch.place[i][1]);
     assert_true(page_begin(&page, &def, &err));
     Surface surface;
-    SurfaceDrawing drawing = surface_of(&block, &axes, &surface);
-    surface_contour(page.canvas, &drawing, &surface, 0.3, &stroke, NULL);
+    surface_of(&block, &axes, &surface);
+    surface_contour(page.canvas, &block, &axes, &surface, 0.3, &stroke, NULL);
     surface_destroy(&surface);
     assert_true(canvas_read(page.canvas, &pixels, &err));
     for (int32_t row = 0; row < SIZE; row++) {
@@ -215,13 +214,13 @@ TEST(the_outline_is_what_one_element_has)
     Error err = {0};
     assert_true(page_begin(&page, &def, &err));
     Surface surface;
-    SurfaceDrawing drawing = surface_of(&block, &axes, &surface);
-    surface_lines(page.canvas, &drawing, &surface.outline, &stroke, NULL);
+    surface_of(&block, &axes, &surface);
+    surface_lines(page.canvas, &block, &axes, &surface.outline, &stroke, NULL);
     assert_true(canvas_read(page.canvas, &pixels, &err));
     const uint8_t *middle = pixels + 3 * SIZE * (SIZE / 2);
     assert_true(middle[3 * 30] < 50 && middle[3 * 150] == 255 && middle[3 * 270] < 50);
     memory_free(pixels);
-    surface_lines(page.canvas, &drawing, &surface.edges, &stroke, NULL);
+    surface_lines(page.canvas, &block, &axes, &surface.edges, &stroke, NULL);
     surface_destroy(&surface);
     assert_true(canvas_read(page.canvas, &pixels, &err));
     assert_true(pixels[3 * (SIZE * (SIZE / 2) + 150)] < 50);
