@@ -5,12 +5,15 @@
 #include "render/plot/plot_file.h"
 
 #include "base/memory.h"
+#include "io/hdf5/array_file.h"
+#include "io/text/yaml_document.h"
 #include "render/picture_options.h"
 #include "render/plot/map_cells.h"
-#include "render/plot/plot_reader.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { UNIT_SIZE = 16 };
@@ -23,31 +26,170 @@ static const char *const LINES[] = {"none", "solid", "thin", "dashed", NULL};
 static const char *const LEGENDS[] = {"below", "none", NULL};
 static const char *const SCALES[] = {"linear", "log", NULL};
 
+typedef struct PlotReader {
+    YamlDocument *file;   // owned
+    const char *path;   // of the file: names of tables are seen from its folder
+    Error *err;
+} PlotReader;
+
+// --- values ------------------------------------------------------------------------------------
+
+// Always false, as yaml_refuse.
+static bool refuse(const PlotReader *reader, YamlNode node, const char *what, const char *allowed)
+{
+    return yaml_refuse(reader->file, node, what, allowed, reader->err);
+}
+
+// The child of `map` called `key`; YAML_NO_NODE: there is none.
+static YamlNode child(const PlotReader *reader, YamlNode map, const char *key)
+{
+    YAML_EACH (item, reader->file, map)
+        if (strcmp(yaml_key(reader->file, item), key) == 0) return item;
+    return YAML_NO_NODE;
+}
+
+// A key that is in none of the `known` names, each with a space behind it, is refused.
+static bool check_keys(const PlotReader *reader, YamlNode map, const char *what, const char *known)
+{
+    if (yaml_kind(reader->file, map) != YAML_MAP) return refuse(reader, map, what, "a map of keys");
+    YAML_EACH (item, reader->file, map) {
+        char key[40];
+        snprintf(key, sizeof key, "%.37s ", yaml_key(reader->file, item));
+        const char *at = strstr(known, key);
+        if (at && (at == known || at[-1] == ' ')) continue;
+        yaml_key_error(reader->file, item, reader->err, "%s: unknown key `%.40s`; allowed: %s",
+                       what, yaml_key(reader->file, item), known);
+        return false;
+    }
+    return true;
+}
+
+// The result keeps its value where the key is missing, as in all that follow. names: NULL at the
+// end.
+static bool read_choice(const PlotReader *reader, YamlNode map, const char *key,
+                        const char *const *names, int32_t *choice)
+{
+    char allowed[200] = "";
+    YamlNode node = child(reader, map, key);
+    if (node == YAML_NO_NODE) return true;
+    for (int32_t k = 0; names[k]; k++) {
+        size_t used = strlen(allowed);
+        snprintf(allowed + used, sizeof allowed - used, "%s%s", k ? ", " : "", names[k]);
+        if (strcmp(yaml_text(reader->file, node), names[k]) != 0) continue;
+        *choice = k;
+        return true;
+    }
+    return refuse(reader, node, key, allowed);
+}
+
+static bool read_text(const PlotReader *reader, YamlNode map, const char *key, char *text,
+                      size_t size)
+{
+    YamlNode node = child(reader, map, key);
+    if (node == YAML_NO_NODE) return true;
+    const char *given = yaml_text(reader->file, node);
+    if (yaml_kind(reader->file, node) != YAML_SCALAR || strlen(given) >= size)
+        return refuse(reader, node, key, "a text, not too long");
+    memcpy(text, given, strlen(given) + 1);
+    return true;
+}
+
+// null is NaN.
+static bool read_number(const PlotReader *reader, YamlNode node, const char *what, double *value)
+{
+    char *end = NULL;
+    const char *text = yaml_text(reader->file, node);
+    *value = NAN;
+    if (yaml_kind(reader->file, node) == YAML_NOTHING) return true;
+    *value = strtod(text, &end);
+    if (yaml_kind(reader->file, node) == YAML_SCALAR && *text && !*end && isfinite(*value))
+        return true;
+    return refuse(reader, node, what, "a number, or null");
+}
+
+// Reads a list of exactly `wanted` numbers.
+static bool read_numbers(const PlotReader *reader, YamlNode list, const char *what, int32_t wanted,
+                         double *values)
+{
+    int32_t k = 0;
+    bool good = yaml_kind(reader->file, list) == YAML_LIST &&
+                yaml_count(reader->file, list) == wanted;
+    char allowed[60];
+    snprintf(allowed, sizeof allowed, "a list of %d numbers", wanted);
+    if (!good) return refuse(reader, list, what, allowed);
+    YAML_EACH (item, reader->file, list)
+        if (!read_number(reader, item, what, &values[k++])) return false;
+    return true;
+}
+
+// The column of a table: "../sweep.h5:result/mu_M", as seen from the plot's folder.
+static bool read_column(const PlotReader *reader, const char *place, int32_t *count,
+                        double **values)
+{
+    Error *err = reader->err, closing = {0};
+    const char *slash = strrchr(reader->path, '/'), *colon = strrchr(place, ':');
+    int folder = slash && place[0] != '/' ? (int)(slash - reader->path) + 1 : 0;
+    char path[PATH_MAX];
+    int64_t rows = 0;
+    int32_t width = 0;
+    ArrayFile *file = NULL;
+    if (snprintf(path, sizeof path, "%.*s%.*s", folder, reader->path, (int)(colon - place),
+                 place) >= (int)sizeof path)
+        FAIL(err, ERROR_INPUT, "the path of a table is too long");
+    TRY(file = array_file_open(path, err));
+    TRY(array_file_read(file, colon + 1, values, &rows, &width, err));
+    if (width != 1 || rows > INT32_MAX || (*count >= 0 && rows != *count))
+        FAIL(err, ERROR_INPUT, "%s: `%s` does not hold one column of as many numbers as the others",
+             path, colon + 1);
+    *count = (int32_t)rows;
+cleanup:
+    array_file_close(file, error_is_clean(err) ? err : &closing);
+    return error_is_clean(err);
+}
+
+// A list of numbers, or FILE.h5:NAME: *values is [*count], the caller's; NULL where the key is
+// missing. *count not negative: exactly so many are wanted.
+static bool read_array(const PlotReader *reader, YamlNode map, const char *key, int32_t *count,
+                       double **values)
+{
+    YamlNode node = child(reader, map, key);
+    if (node == YAML_NO_NODE) return true;
+    const char *text = yaml_text(reader->file, node);
+    if (yaml_kind(reader->file, node) == YAML_SCALAR && strstr(text, ".h5:"))
+        return read_column(reader, text, count, values);
+    int32_t wanted = *count >= 0 ? *count : yaml_count(reader->file, node);
+    *values = NEW_ARRAY(double, wanted, reader->err);
+    *count = wanted;
+    return *values && read_numbers(reader, node, key, wanted, *values);
+}
+
+// --- parts of a plot -----------------------------------------------------------------------------
+
 // Its length is that of `x`; `y`, `low` and `high` must have the same.
 static bool read_series(const PlotReader *reader, YamlNode map, PlotSeries *series)
 {
     int32_t marker = MARKER_NONE, line = LINE_SOLID;
     double color = 0;
-    if (!plot_check_keys(reader, map, "series", "label x y low high color marker filled line "))
+    if (!check_keys(reader, map, "series", "label x y low high color marker filled line "))
         return false;
-    YamlNode x = plot_child(reader, map, "x"), node = plot_child(reader, map, "color");
-    if (x == YAML_NO_NODE || plot_child(reader, map, "y") == YAML_NO_NODE) {
+    YamlNode x = child(reader, map, "x"), node = child(reader, map, "color");
+    if (x == YAML_NO_NODE || child(reader, map, "y") == YAML_NO_NODE) {
         yaml_error(reader->file, map, reader->err, "a series needs its `x` and its `y`");
         return false;
     }
     series->count = -1;
-    if (!plot_read_text(reader, map, "label", series->label, sizeof series->label) ||
-        !plot_read_array(reader, map, "x", &series->count, &series->x) ||
-        !plot_read_array(reader, map, "y", &series->count, &series->y) ||
-        !plot_read_array(reader, map, "low", &series->count, &series->low) ||
-        !plot_read_array(reader, map, "high", &series->count, &series->high) ||
-        !plot_read_choice(reader, map, "marker", MARKERS, &marker) ||
-        !plot_read_choice(reader, map, "line", LINES, &line))
+    if (!read_text(reader, map, "label", series->label, sizeof series->label) ||
+        !read_array(reader, map, "x", &series->count, &series->x) ||
+        !read_array(reader, map, "y", &series->count, &series->y) ||
+        !read_array(reader, map, "low", &series->count, &series->low) ||
+        !read_array(reader, map, "high", &series->count, &series->high) ||
+        !read_choice(reader, map, "marker", MARKERS, &marker) ||
+        !read_choice(reader, map, "line", LINES, &line))
         return false;
-    if (node != YAML_NO_NODE && !plot_read_number(reader, node, "color", &color)) return false;
+    if (node != YAML_NO_NODE && !read_number(reader, node, "color", &color)) return false;
     if (!(color >= 0 && color < PLOT_COLORS && color == floor(color)))
-        return plot_refuse(reader, node, "color", "a whole number from 0 to 7");
-    node = plot_child(reader, map, "filled");
+        return refuse(reader, node, "color", "a whole number from 0 to 7");
+    node = child(reader, map, "filled");
     series->filled = node == YAML_NO_NODE || strcmp(yaml_text(reader->file, node), "false") != 0;
     series->color = (int32_t)color;
     series->marker = (PlotMarker)marker;
@@ -60,39 +202,39 @@ static bool read_axis(const PlotReader *reader, YamlNode panel, const char *name
                       Axis *axis)
 {
     int32_t scale = 0;
-    YamlNode map = plot_child(reader, panel, name);
+    YamlNode map = child(reader, panel, name);
     *axis = (Axis){.low = NAN, .high = NAN, .factor = 1};
     if (map == YAML_NO_NODE) return true;
-    if (!plot_check_keys(reader, map, name, known) ||
-        !plot_read_text(reader, map, "label", axis->label, sizeof axis->label) ||
-        !plot_read_choice(reader, map, "scale", SCALES, &scale))
+    if (!check_keys(reader, map, name, known) ||
+        !read_text(reader, map, "label", axis->label, sizeof axis->label) ||
+        !read_choice(reader, map, "scale", SCALES, &scale))
         return false;
     axis->is_log = scale == 1;
-    YamlNode range = plot_child(reader, map, "range");
+    YamlNode range = child(reader, map, "range");
     if (range == YAML_NO_NODE) return true;
     double ends[2];
-    if (!plot_read_numbers(reader, range, "range", 2, ends)) return false;
+    if (!read_numbers(reader, range, "range", 2, ends)) return false;
     axis->low = ends[0];
     axis->high = ends[1];
     bool good = axis->high > axis->low && (!axis->is_log || axis->low > 0);
-    return good || plot_refuse(reader, range, "range",
-                               "[low, high], rising, and above 0 on a logarithmic axis");
+    return good ||
+           refuse(reader, range, "range", "[low, high], rising, and above 0 on a logarithmic axis");
 }
 
 // Reads the data of a panel; each part may be missing.
 static bool read_data(const PlotReader *reader, YamlNode map, PlotPanel *panel)
 {
-    YamlNode list = plot_child(reader, map, "series"), colors = plot_child(reader, map, "map");
+    YamlNode list = child(reader, map, "series"), colors = child(reader, map, "map");
     if (colors != YAML_NO_NODE) {
         PlotMap *data = &panel->map;
-        if (!plot_check_keys(reader, colors, "map", "x y value contour open ")) return false;
+        if (!check_keys(reader, colors, "map", "x y value contour open ")) return false;
         panel->has_map = true;
         data->count = -1;
-        if (!plot_read_array(reader, colors, "x", &data->count, &data->x) ||
-            !plot_read_array(reader, colors, "y", &data->count, &data->y) ||
-            !plot_read_array(reader, colors, "value", &data->count, &data->value) ||
-            !plot_read_array(reader, colors, "contour", &data->count, &data->contour) ||
-            !plot_read_array(reader, colors, "open", &data->count, &data->open))
+        if (!read_array(reader, colors, "x", &data->count, &data->x) ||
+            !read_array(reader, colors, "y", &data->count, &data->y) ||
+            !read_array(reader, colors, "value", &data->count, &data->value) ||
+            !read_array(reader, colors, "contour", &data->count, &data->contour) ||
+            !read_array(reader, colors, "open", &data->count, &data->open))
             return false;
         if (!data->x || !data->y || !data->value) {
             yaml_error(reader->file, colors, reader->err, "a map needs its `x`, `y` and `value`");
@@ -102,7 +244,7 @@ static bool read_data(const PlotReader *reader, YamlNode map, PlotPanel *panel)
     if (list == YAML_NO_NODE) return true;
     if (yaml_kind(reader->file, list) != YAML_LIST ||
         yaml_count(reader->file, list) > PLOT_SERIES_MAX)
-        return plot_refuse(reader, list, "series", "a list of at most 32 maps");
+        return refuse(reader, list, "series", "a list of at most 32 maps");
     YAML_EACH (item, reader->file, list)
         if (!read_series(reader, item, &panel->series[panel->series_count++])) return false;
     return true;
@@ -114,13 +256,13 @@ static bool read_panel(const PlotReader *reader, YamlNode map, PlotPanel *panel)
     if (!read_axis(reader, map, "x", "label unit column scale range ", &panel->x) ||
         !read_axis(reader, map, "y", "label unit column scale range names ", &panel->y))
         return false;
-    YamlNode y = plot_child(reader, map, "y");
-    YamlNode names = y == YAML_NO_NODE ? y : plot_child(reader, y, "names");
+    YamlNode y = child(reader, map, "y");
+    YamlNode names = y == YAML_NO_NODE ? y : child(reader, y, "names");
     if (names != YAML_NO_NODE) {
         // They stand at y = 1, 2, ...
         int32_t count = yaml_count(reader->file, names), k = 0;
         if (yaml_kind(reader->file, names) != YAML_LIST || count == 0 || count > PLOT_NAMES_MAX)
-            return plot_refuse(reader, names, "names", "a list of at most 100 texts");
+            return refuse(reader, names, "names", "a list of at most 100 texts");
         panel->names = memory_array(count, sizeof *panel->names, reader->err);
         if (!panel->names) return false;
         YAML_EACH (item, reader->file, names)
@@ -128,9 +270,9 @@ static bool read_panel(const PlotReader *reader, YamlNode map, PlotPanel *panel)
         panel->y.names = (const char(*)[AXIS_LABEL_SIZE])panel->names;
         panel->y.name_count = count;
     }
-    bool shows = plot_child(reader, map, "series") != YAML_NO_NODE ||
-                 plot_child(reader, map, "map") != YAML_NO_NODE ||
-                 plot_child(reader, map, "panels") != YAML_NO_NODE;
+    bool shows = child(reader, map, "series") != YAML_NO_NODE ||
+                 child(reader, map, "map") != YAML_NO_NODE ||
+                 child(reader, map, "panels") != YAML_NO_NODE;
     if (!shows) {
         yaml_error(reader->file, map, reader->err, "a plot needs `series`, `map` or `panels`");
         return false;
@@ -142,13 +284,13 @@ static bool read_panels(const PlotReader *reader, YamlNode list, Plot *plot)
 {
     int32_t count = yaml_count(reader->file, list);
     if (yaml_kind(reader->file, list) != YAML_LIST || count == 0 || count > PLOT_PANELS_MAX)
-        return plot_refuse(reader, list, "panels", "a list of at most 24 maps");
+        return refuse(reader, list, "panels", "a list of at most 24 maps");
     plot->panels = NEW_ARRAY(PlotPanel, count, reader->err);
     if (!plot->panels) return false;
     YAML_EACH (item, reader->file, list) {
         PlotPanel *panel = &plot->panels[plot->panel_count++];
-        if (!plot_check_keys(reader, item, "panels", "title series map ") ||
-            !plot_read_text(reader, item, "title", panel->title, sizeof panel->title) ||
+        if (!check_keys(reader, item, "panels", "title series map ") ||
+            !read_text(reader, item, "title", panel->title, sizeof panel->title) ||
             !read_data(reader, item, panel))
             return false;
     }
@@ -158,30 +300,29 @@ static bool read_panels(const PlotReader *reader, YamlNode list, Plot *plot)
 // Keys are checked here, as an inset has a `place` more than a plot.
 static bool read_inset(const PlotReader *reader, YamlNode map, Plot *plot)
 {
-    YamlNode place = plot_child(reader, map, "place");
-    if (!plot_check_keys(reader, map, "inset", "place x y series map ")) return false;
+    YamlNode place = child(reader, map, "place");
+    if (!check_keys(reader, map, "inset", "place x y series map ")) return false;
     if (place == YAML_NO_NODE) {
         yaml_error(reader->file, map, reader->err, "an inset needs its `place`");
         return false;
     }
     plot->has_inset = true;
-    if (!plot_read_numbers(reader, place, "place", 4, plot->place)) return false;
+    if (!read_numbers(reader, place, "place", 4, plot->place)) return false;
     bool good = plot->place[0] >= 0 && plot->place[1] >= 0 && plot->place[2] <= 1 &&
                 plot->place[3] <= 1 && plot->place[2] > plot->place[0] &&
                 plot->place[3] > plot->place[1];
     if (!good)
-        return plot_refuse(reader, place, "place",
-                           "[left, top, right, bottom], parts of the frame");
+        return refuse(reader, place, "place", "[left, top, right, bottom], parts of the frame");
     return read_panel(reader, map, &plot->inset);
 }
 
 // Options as the command has them; those that it is given go before these.
 static bool read_page(const PlotReader *reader, Plot *plot)
 {
-    YamlNode map = plot_child(reader, YAML_ROOT, "page");
+    YamlNode map = child(reader, YAML_ROOT, "page");
     if (map == YAML_NO_NODE) return true;
     if (yaml_kind(reader->file, map) != YAML_MAP || yaml_count(reader->file, map) > PLOT_WORDS)
-        return plot_refuse(reader, map, "page", "a map of options, as {style: columns}");
+        return refuse(reader, map, "page", "a map of options, as {style: columns}");
     YAML_EACH (item, reader->file, map) {
         Error why = {0};
         char *word = plot->words[plot->word_count++];
@@ -206,19 +347,19 @@ static bool read_plot(const PlotReader *reader, Plot *plot)
         "title height x y color contours legend series map panels inset page ";
     static const char *const axes[2] = {"x", "y"};
     int32_t legend = 0;
-    YamlNode height = plot_child(reader, YAML_ROOT, "height");
-    YamlNode inset = plot_child(reader, YAML_ROOT, "inset");
-    YamlNode panels = plot_child(reader, YAML_ROOT, "panels");
-    if (!plot_check_keys(reader, YAML_ROOT, "plot", known) ||
-        !plot_read_text(reader, YAML_ROOT, "title", plot->title, sizeof plot->title) ||
-        !plot_read_choice(reader, YAML_ROOT, "legend", LEGENDS, &legend))
+    YamlNode height = child(reader, YAML_ROOT, "height");
+    YamlNode inset = child(reader, YAML_ROOT, "inset");
+    YamlNode panels = child(reader, YAML_ROOT, "panels");
+    if (!check_keys(reader, YAML_ROOT, "plot", known) ||
+        !read_text(reader, YAML_ROOT, "title", plot->title, sizeof plot->title) ||
+        !read_choice(reader, YAML_ROOT, "legend", LEGENDS, &legend))
         return false;
     plot->no_legend = legend == 1;
     plot->height_over_width = HEIGHT_STANDARD;
     if (height != YAML_NO_NODE) {
-        if (!plot_read_number(reader, height, "height", &plot->height_over_width)) return false;
+        if (!read_number(reader, height, "height", &plot->height_over_width)) return false;
         if (!(plot->height_over_width >= 0.3 && plot->height_over_width <= 3))
-            return plot_refuse(reader, height, "height", "a number from 0.3 to 3");
+            return refuse(reader, height, "height", "a number from 0.3 to 3");
     }
     if (!read_axis(reader, YAML_ROOT, "color", "label unit range ", &plot->color) ||
         !read_axis(reader, YAML_ROOT, "contours", "label unit ", &plot->contours) ||
@@ -228,9 +369,9 @@ static bool read_plot(const PlotReader *reader, Plot *plot)
 
     // The names of columns are asked of the plot as a whole: panels share its axes.
     for (int32_t k = 0; k < 2; ++k) {
-        YamlNode axis = plot_child(reader, YAML_ROOT, axes[k]);
+        YamlNode axis = child(reader, YAML_ROOT, axes[k]);
         if (axis != YAML_NO_NODE &&
-            !plot_read_text(reader, axis, "column", plot->column[k], PLOT_LABEL_SIZE))
+            !read_text(reader, axis, "column", plot->column[k], PLOT_LABEL_SIZE))
             return false;
     }
     return inset == YAML_NO_NODE || read_inset(reader, inset, plot);
@@ -357,9 +498,9 @@ static bool is_counted(const Plot *plot, bool along_x)
 static bool read_unit(const PlotReader *reader, YamlNode panel, const char *name, Axis *axis)
 {
     char unit[UNIT_SIZE] = "", label[AXIS_LABEL_SIZE];
-    YamlNode map = plot_child(reader, panel, name);
+    YamlNode map = child(reader, panel, name);
     if (map == YAML_NO_NODE) return true;
-    if (!plot_read_text(reader, map, "unit", unit, sizeof unit)) return false;
+    if (!read_text(reader, map, "unit", unit, sizeof unit)) return false;
     snprintf(label, sizeof label, "%s", axis->label);
     if (unit[0]) axis_set_unit(axis, label, unit);
     return true;
@@ -381,7 +522,7 @@ bool plot_file_read(const char *path, Plot *plot, Error *err)
     plot->main.y.whole = is_counted(plot, false);
 
     // Units have the prefix that suits the ends, which are known now.
-    YamlNode inset = plot_child(&reader, YAML_ROOT, "inset");
+    YamlNode inset = child(&reader, YAML_ROOT, "inset");
     TRY(read_unit(&reader, YAML_ROOT, "x", &plot->main.x) &&
         read_unit(&reader, YAML_ROOT, "y", &plot->main.y) &&
         read_unit(&reader, YAML_ROOT, "color", &plot->color) &&
