@@ -76,7 +76,7 @@ bool events_table_write(const char *path, ResultView *view, Error *err)
     bool whole = view->line || thickness > 0;
     double times = !view->line && thickness > 0 ? thickness : 1;
     double load = view->number[NUMBER_LOAD] * times;
-    CsvWriter *csv = NULL;
+    TextWriter *csv = NULL;
     friction.nodes = view->all_nodes;
     TRY(read_vectors(view, &friction, SERIES_SLIP, &friction.slip, err) &&
         read_vectors(view, &friction, SERIES_SHEAR, &friction.shear, err) &&
@@ -88,7 +88,7 @@ bool events_table_write(const char *path, ResultView *view, Error *err)
 
     // Forces and energies are those of the whole block; in the plane, where its thickness is not
     // known, they are those of a metre of it.
-    TRY(csv = csv_create(path, err));
+    TRY(csv = text_writer_create(path, false, err));
     const char *force = whole ? "N" : "N/m", *energy = whole ? "J" : "J/m";
     const char *moment = whole ? "N m" : "N";
     csv_heading(csv, "cycle", NULL);
@@ -143,9 +143,8 @@ bool events_table_write(const char *path, ResultView *view, Error *err)
         csv_end_row(csv);
         cycle += sliding;
     }
-    TRY(csv_finish(csv, err));
 cleanup:
     memory_free_all(friction.shear, friction.pressure, friction.slip, friction.weight, friction.x,
                     peak);
-    return error_is_clean(err);
+    return text_writer_finish(csv, err);
 }

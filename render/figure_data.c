@@ -69,7 +69,7 @@ static bool write_compared(const char *path, const Measured *measured, bool si, 
 static bool write_compared_probes(const char *path, const Measured *measured,
                                   const ResultView *view, Error *err)
 {
-    CsvWriter *csv = csv_create(path, err);
+    TextWriter *csv = text_writer_create(path, false, err);
     if (!csv) return false;
     const char *const names[] = {view->si ? "U (m)" : "U", "column", "value", "error", "computed"};
     for (int32_t k = 0; k < 5; ++k) csv_text(csv, names[k]);
@@ -84,7 +84,7 @@ static bool write_compared_probes(const char *path, const Measured *measured,
         csv_rounded(csv, measured->computed[k]);
         csv_end_row(csv);
     }
-    return csv_finish(csv, err);
+    return text_writer_finish(csv, err);
 }
 
 bool figure_data_write(const char *folder, const Figure *figure, ResultView *view,
@@ -114,9 +114,9 @@ bool figure_data_misfits(const char *folder, ResultView *view, const char *compa
     static const char *const units[MEASURED_KINDS] = {"", "L", "", "L", "c_R", ""};
     char path[PATH_MAX];
     Measured measured = {0};
-    CsvWriter *csv = NULL;
+    TextWriter *csv = NULL;
     TRY(data_path(folder, "misfit", "", path, err));
-    TRY(csv = csv_create(path, err));
+    TRY(csv = text_writer_create(path, false, err));
     csv_text(csv, "figure");
     csv_text(csv, "points");
     csv_text(csv, "covered");
@@ -139,13 +139,9 @@ bool figure_data_misfits(const char *folder, ResultView *view, const char *compa
         }
         measured_destroy(&measured);
     }
-    CsvWriter *whole = csv;
-    csv = NULL;
-    TRY(csv_finish(whole, err));
 cleanup:
-    csv_abandon(csv);
     measured_destroy(&measured);
-    return error_is_clean(err);
+    return text_writer_finish(csv, err);
 }
 
 bool figure_data_measured(const Figure *figure, const char *compare, ResultView *view, bool *shows,

@@ -55,14 +55,14 @@ bool amontons_render_mesh(const RenderMesh *mesh, const char *path, Error *err);
 // The figures that report.html has of a history (those with a `page_format` in figures/picture.c)
 // as SVG, each in light and in dark, with a sentence below it. cycle: the one that figures of one
 // cycle show, as `--cycle` has it; NULL: as they choose.
-typedef bool (*RenderFiguresFunction)(const char *folder, const char *cycle, HtmlWriter *html,
+typedef bool (*RenderFiguresFunction)(const char *folder, const char *cycle, TextWriter *html,
                                       Error *err);
-bool amontons_render_figures(const char *folder, const char *cycle, HtmlWriter *html, Error *err);
+bool amontons_render_figures(const char *folder, const char *cycle, TextWriter *html, Error *err);
 
 // The same of a plot that a file describes; `caption` is ours, without markup.
-typedef bool (*RenderPlotHtmlFunction)(const char *plot, const char *caption, HtmlWriter *html,
+typedef bool (*RenderPlotHtmlFunction)(const char *plot, const char *caption, TextWriter *html,
                                        Error *err);
-bool amontons_render_plot_html(const char *plot, const char *caption, HtmlWriter *html, Error *err);
+bool amontons_render_plot_html(const char *plot, const char *caption, TextWriter *html, Error *err);
 
 enum { RENDER_FRAMES_MAX = 40, RENDER_CURVES_MAX = 8 };
 
@@ -74,15 +74,15 @@ typedef struct RenderFrames {
 } RenderFrames;
 
 // A row of <figure id='frame-1'> and so on, `count` of them.
-typedef bool (*RenderFramesFunction)(const char *folder, HtmlWriter *html, RenderFrames *found,
+typedef bool (*RenderFramesFunction)(const char *folder, TextWriter *html, RenderFrames *found,
                                      Error *err);
-bool amontons_render_frames(const char *folder, HtmlWriter *html, RenderFrames *found, Error *err);
+bool amontons_render_frames(const char *folder, TextWriter *html, RenderFrames *found, Error *err);
 
 // Force curves of several histories over each other, with their names; of one that cannot be drawn
 // the page says why. *drawn false: some are in SI and some are not.
 typedef bool (*RenderCurvesFunction)(const char *const *folders, const char *const *names,
-                                     int32_t count, HtmlWriter *html, bool *drawn, Error *err);
+                                     int32_t count, TextWriter *html, bool *drawn, Error *err);
 bool amontons_render_curves(const char *const *folders, const char *const *names, int32_t count,
-                            HtmlWriter *html, bool *drawn, Error *err);
+                            TextWriter *html, bool *drawn, Error *err);
 
 #endif

@@ -20,7 +20,7 @@ typedef struct Mark {
 } Mark;
 
 // A bracket without its mark, or more of them than DEPTH_MAX in each other, is text.
-static void write_words(HtmlWriter *html, const char *words, bool svg)
+static void write_words(TextWriter *html, const char *words, bool svg)
 {
     const char *ends[DEPTH_MAX];
     int32_t depth = 0;
@@ -52,19 +52,19 @@ static void write_words(HtmlWriter *html, const char *words, bool svg)
     while (depth > 0) html_raw(html, ends[--depth]);
 }
 
-void html_words(HtmlWriter *html, const char *words)
+void html_words(TextWriter *html, const char *words)
 {
     write_words(html, words, false);
 }
 
-void svg_words(HtmlWriter *html, const char *words)
+void svg_words(TextWriter *html, const char *words)
 {
     write_words(html, words, true);
 }
 
 // --- axes ----------------------------------------------------------------------------------------
 
-static void write_text(HtmlWriter *html, const char *attributes, double x, double y,
+static void write_text(TextWriter *html, const char *attributes, double x, double y,
                        const char *words)
 {
     html_markup(html, "<text %s x='%.1f' y='%.1f'>", attributes, x, y);
@@ -73,14 +73,14 @@ static void write_text(HtmlWriter *html, const char *attributes, double x, doubl
 }
 
 // The power of ten that all numbers are to be multiplied by.
-static void write_exponent(HtmlWriter *html, const Ticks *ticks, double x, double y)
+static void write_exponent(TextWriter *html, const Ticks *ticks, double x, double y)
 {
     char words[TICK_LABEL_SIZE];
     ticks_power(ticks, words);
     if (words[0]) write_text(html, "class='number'", x, y, words);
 }
 
-void svg_axes(HtmlWriter *html, const Axes *axes, bool with_x)
+void svg_axes(TextWriter *html, const Axes *axes, bool with_x)
 {
     char label[TICK_LABEL_SIZE], turned[120];
     const Box *box = &axes->box;
@@ -123,7 +123,7 @@ void svg_axes(HtmlWriter *html, const Axes *axes, bool with_x)
 
 // --- curves --------------------------------------------------------------------------------------
 
-void svg_curve(HtmlWriter *html, const Axes *axes, const char *class, const double *x,
+void svg_curve(TextWriter *html, const Axes *axes, const char *class, const double *x,
                const double *y, int64_t count)
 {
     const Box *box = &axes->box;
@@ -144,7 +144,7 @@ void svg_curve(HtmlWriter *html, const Axes *axes, const char *class, const doub
     html_markup(html, "'/>");
 }
 
-void svg_level(HtmlWriter *html, const Axes *axes, double y, const char *name)
+void svg_level(TextWriter *html, const Axes *axes, double y, const char *name)
 {
     double at = axes_place(axes, axes->x.low, y).y;
     const Box *box = &axes->box;

@@ -8,18 +8,18 @@
 #include "render/canvas/axes.h"
 
 // Text with render/canvas/text's marks, as <i>, <sub>, <sup>; or as tspans inside of an SVG text.
-void html_words(HtmlWriter *html, const char *words);
-void svg_words(HtmlWriter *html, const char *words);
+void html_words(TextWriter *html, const char *words);
+void svg_words(TextWriter *html, const char *words);
 
 // Frame, ticks and names in the units of the drawing; without a name and numbers of x where others
 // stand below.
-void svg_axes(HtmlWriter *html, const Axes *axes, bool with_x);
+void svg_axes(TextWriter *html, const Axes *axes, bool with_x);
 
 // A curve through the points that lie in the frame's range of x; NaN is a gap. `class` is ours.
-void svg_curve(HtmlWriter *html, const Axes *axes, const char *class, const double *x,
+void svg_curve(TextWriter *html, const Axes *axes, const char *class, const double *x,
                const double *y, int64_t count);
 
 // A line across the frame at y, with a name behind it; none where y is outside.
-void svg_level(HtmlWriter *html, const Axes *axes, double y, const char *name);
+void svg_level(TextWriter *html, const Axes *axes, double y, const char *name);
 
 #endif

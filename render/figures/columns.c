@@ -8,7 +8,7 @@
 bool columns_write(const char *path, const Column *columns, int32_t count, int64_t rows, bool si,
                    Error *err)
 {
-    CsvWriter *csv = csv_create(path, err);
+    TextWriter *csv = text_writer_create(path, false, err);
     if (!csv) return false;
     for (int32_t k = 0; k < count; ++k)
         csv_heading(csv, columns[k].name, si ? columns[k].unit : NULL);
@@ -17,5 +17,5 @@ bool columns_write(const char *path, const Column *columns, int32_t count, int64
         for (int32_t k = 0; k < count; ++k) csv_rounded(csv, columns[k].values[row]);
         csv_end_row(csv);
     }
-    return csv_finish(csv, err);
+    return text_writer_finish(csv, err);
 }

@@ -154,7 +154,7 @@ bool figure_precursors(const Page *whole, ResultView *view, Error *err)
     return error_is_clean(err);
 }
 
-static void write_length(CsvWriter *csv, double mu, double part, int32_t cycle, const char *event)
+static void write_length(TextWriter *csv, double mu, double part, int32_t cycle, const char *event)
 {
     csv_rounded(csv, mu);
     csv_rounded(csv, part);
@@ -171,7 +171,7 @@ bool figure_precursors_table(const char *path, ResultView *view, const FieldChoi
     static const char *const names[] = {"F_T/F_N", "l/L", "cycle", "event"};
     int32_t asked = view->cycle, first = 0, last = 0;
     double L = view->number[NUMBER_LENGTH];
-    CsvWriter *csv = csv_create(path, err);
+    TextWriter *csv = text_writer_create(path, false, err);
     if (!csv) return false;
     for (int32_t c = 0; c < 4; ++c) csv_text(csv, names[c]);
     csv_end_row(csv);
@@ -189,13 +189,9 @@ bool figure_precursors_table(const char *path, ResultView *view, const FieldChoi
         for (int64_t i = 0; i < curve.count; ++i)
             write_length(csv, curve.at[i], curve.value[i] / L, cycle, MEASURED_FARTHEST);
     }
-    CsvWriter *whole = csv;
-    csv = NULL;
-    TRY(csv_finish(whole, err));
 cleanup:
-    csv_abandon(csv);
     computed_choose_cycle(view, asked);
-    return error_is_clean(err);
+    return text_writer_finish(csv, err);
 }
 
 // --- front-speed ---------------------------------------------------------------------------------
@@ -361,7 +357,7 @@ bool figure_front_speed_table(const char *path, ResultView *view, const FieldCho
     (void)field;
     int32_t asked = view->cycle, first = 0, last = 0;
     ViewCurve curve = {0};
-    CsvWriter *csv = csv_create(path, err);
+    TextWriter *csv = text_writer_create(path, false, err);
     if (!csv) return false;
     const char *const names[] = {"x/L", "v/c_R", "cycle", "event", view->si ? "U (m)" : "U"};
     for (int32_t c = 0; c < 5; ++c) csv_text(csv, names[c]);
@@ -386,12 +382,8 @@ bool figure_front_speed_table(const char *path, ResultView *view, const FieldCho
             curve = (ViewCurve){0};
         }
     }
-    CsvWriter *whole = csv;
-    csv = NULL;
-    TRY(csv_finish(whole, err));
 cleanup:
-    csv_abandon(csv);
     memory_free_all(curve.at, curve.value);
     computed_choose_cycle(view, asked);
-    return error_is_clean(err);
+    return text_writer_finish(csv, err);
 }

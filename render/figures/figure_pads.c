@@ -213,9 +213,9 @@ bool figure_pads_table(const char *path, ResultView *view, const FieldChoice *fi
         {"cycle", "pad", "order", "U first slip", "U let go", "F_T/F_N let go"},
         {"cycle", "pad", "order", "U first slip (m)", "U let go (m)", "F_T/F_N let go"}};
     PadCourses courses;
-    CsvWriter *csv = NULL;
+    TextWriter *csv = NULL;
     TRY(pad_courses_read(view, &courses, err));
-    TRY(csv = csv_create(path, err));
+    TRY(csv = text_writer_create(path, false, err));
     for (int32_t c = 0; c < 6; ++c) csv_text(csv, names[view->si][c]);
     csv_end_row(csv);
     for (int32_t k = 0; k < courses.count; ++k) {
@@ -235,8 +235,7 @@ bool figure_pads_table(const char *path, ResultView *view, const FieldChoice *fi
         csv_rounded(csv, course->mu_let_go);
         csv_end_row(csv);
     }
-    TRY(csv_finish(csv, err));
 cleanup:
     pad_courses_destroy(&courses);
-    return error_is_clean(err);
+    return text_writer_finish(csv, err);
 }

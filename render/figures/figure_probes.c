@@ -115,11 +115,11 @@ cleanup:
 bool figure_probes_table(const char *path, ResultView *view, const FieldChoice *field, Error *err)
 {
     (void)field;
-    CsvWriter *csv = NULL;
+    TextWriter *csv = NULL;
     double *values[PROBE_QUANTITY_COUNT] = {0};
     for (int32_t q = 0; q < PROBE_QUANTITY_COUNT; ++q)
         TRY(probe_read(view, (ProbeQuantity)q, &values[q], err));
-    TRY(csv = csv_create(path, err));
+    TRY(csv = text_writer_create(path, false, err));
     csv_text(csv, view->si ? "U (m)" : "U");
     csv_text(csv, view->si ? "t (s)" : "t");
     for (int32_t k = 0; k < view->probes; ++k)
@@ -138,8 +138,7 @@ bool figure_probes_table(const char *path, ResultView *view, const FieldChoice *
             }
         csv_end_row(csv);
     }
-    TRY(csv_finish(csv, err));
 cleanup:
     memory_free_list((void *const *)values, PROBE_QUANTITY_COUNT);
-    return error_is_clean(err);
+    return text_writer_finish(csv, err);
 }

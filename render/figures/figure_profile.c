@@ -261,9 +261,9 @@ bool figure_profile_table(const char *path, ResultView *view, const FieldChoice 
         {"U (m)", "t (s)", "F_T/F_N", "x (m)", "p (Pa)", "tau (Pa)", "tau/p", "slip (m)", "A/A_0",
          "gap (m)", "status"}};
     Profiles profiles;
-    CsvWriter *csv = NULL;
+    TextWriter *csv = NULL;
     TRY(profiles_read(view, field->at, &profiles, err));
-    TRY(csv = csv_create(path, err));
+    TRY(csv = text_writer_create(path, false, err));
     for (int32_t c = 0; c < COLUMNS; ++c) csv_text(csv, names[view->si][c]);
     csv_end_row(csv);
     for (int32_t k = 0; k < profiles.count; ++k)
@@ -278,8 +278,7 @@ bool figure_profile_table(const char *path, ResultView *view, const FieldChoice 
             csv_rounded(csv, profiles.status[at_node]);
             csv_end_row(csv);
         }
-    TRY(csv_finish(csv, err));
 cleanup:
     profiles_destroy(&profiles);
-    return error_is_clean(err);
+    return text_writer_finish(csv, err);
 }

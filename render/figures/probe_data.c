@@ -89,8 +89,8 @@ bool probe_read(ResultView *view, ProbeQuantity quantity, double **values, Error
 }
 
 // The name of a probe's column, with its unit where the result is in SI.
-void probe_column_csv(CsvWriter *csv, const ResultView *view, int32_t probe, ProbeQuantity quantity,
-                      int32_t c)
+void probe_column_csv(TextWriter *csv, const ResultView *view, int32_t probe,
+                      ProbeQuantity quantity, int32_t c)
 {
     char name[PROBE_COLUMN_SIZE];
     probe_column(view, probe, quantity, c, name);

@@ -41,8 +41,8 @@ enum { PROBE_COLUMN_SIZE = PROBE_NAME_SIZE + 24 };
 void probe_column(const ResultView *view, int32_t probe, ProbeQuantity quantity, int32_t c,
                   char name[PROBE_COLUMN_SIZE]);
 // Writes that name to a header of a csv file, with the unit where the result is in SI.
-void probe_column_csv(CsvWriter *csv, const ResultView *view, int32_t probe, ProbeQuantity quantity,
-                      int32_t c);
+void probe_column_csv(TextWriter *csv, const ResultView *view, int32_t probe,
+                      ProbeQuantity quantity, int32_t c);
 
 // *values [rows][probes][components], the caller's; `rows` may shrink. ERROR_INPUT: there are no
 // probes.

@@ -152,7 +152,7 @@ static bool fit_images(Frames *frames, Error *err)
 // --- a frame -------------------------------------------------------------------------------------
 
 // The block as an <img> with the picture in it.
-static bool write_image(const Frames *frames, int32_t k, HtmlWriter *html, Error *err)
+static bool write_image(const Frames *frames, int32_t k, TextWriter *html, Error *err)
 {
     Block block = {0};
     Page page = {0};
@@ -178,7 +178,7 @@ cleanup:
     return error_is_clean(err);
 }
 
-static void write_chart(const Frames *frames, int32_t k, HtmlWriter *html)
+static void write_chart(const Frames *frames, int32_t k, TextWriter *html)
 {
     const ResultView *view = &frames->view;
     int64_t row = frames->rows[frames->chosen[k]];
@@ -220,7 +220,7 @@ static void write_chart(const Frames *frames, int32_t k, HtmlWriter *html)
 }
 
 // A figure is whole also where its picture fails. Some frames, evenly spread, are for paper, too.
-static void write_frame(const Frames *frames, int32_t k, HtmlWriter *html, Error *err)
+static void write_frame(const Frames *frames, int32_t k, TextWriter *html, Error *err)
 {
     const ResultView *view = &frames->view;
     int64_t row = frames->rows[frames->chosen[k]];
@@ -240,7 +240,7 @@ static void write_frame(const Frames *frames, int32_t k, HtmlWriter *html, Error
 }
 
 __attribute__((visibility("default"))) bool
-amontons_render_frames(const char *folder, HtmlWriter *html, RenderFrames *found, Error *err)
+amontons_render_frames(const char *folder, TextWriter *html, RenderFrames *found, Error *err)
 {
     Frames frames = {0};
     ResultView *view = &frames.view;

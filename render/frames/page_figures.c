@@ -33,7 +33,7 @@ typedef struct Drawing {
 } Drawing;
 
 // Both are drawn before anything is written: a failure leaves no half markup.
-static bool write_figure(HtmlWriter *html, const Drawing *drawing, Error *err)
+static bool write_figure(TextWriter *html, const Drawing *drawing, Error *err)
 {
     Page pages[2] = {0};
     PictureBytes pictures[2];
@@ -71,7 +71,7 @@ static bool draw_history(void *context, const PictureStyle *style, Page *page, E
 
 // Title and warnings stand on the page already.
 __attribute__((visibility("default"))) bool
-amontons_render_figures(const char *folder, const char *cycle, HtmlWriter *html, Error *err)
+amontons_render_figures(const char *folder, const char *cycle, TextWriter *html, Error *err)
 {
     ResultView view = {0};
     TRY(result_view_open(folder, &view, err));
@@ -97,7 +97,7 @@ static bool draw_plot(void *context, const PictureStyle *style, Page *page, Erro
 }
 
 __attribute__((visibility("default"))) bool
-amontons_render_plot_html(const char *path, const char *caption, HtmlWriter *html, Error *err)
+amontons_render_plot_html(const char *path, const char *caption, TextWriter *html, Error *err)
 {
     Plot *plot = NEW_ARRAY(Plot, 1, err);
     TRY(plot);
@@ -120,7 +120,7 @@ typedef struct Curves {
 
 __attribute__((visibility("default"))) bool amontons_render_curves(const char *const *folders,
                                                                    const char *const *names,
-                                                                   int32_t count, HtmlWriter *html,
+                                                                   int32_t count, TextWriter *html,
                                                                    bool *drawn, Error *err)
 {
     Curves curves = {0};

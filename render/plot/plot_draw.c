@@ -305,7 +305,7 @@ static bool compare_write(const Plot *plot, const char *picture, Error *err)
     const PlotSeries *series = &plot->main.series[plot->main.series_count - 1];
     int length = snprintf(path, sizeof path, "%.*s-compared.csv", (int)(dot - picture), picture);
     if (length >= (int)sizeof path) return REFUSE(err, "the picture's path is too long");
-    CsvWriter *csv = csv_create(path, err);
+    TextWriter *csv = text_writer_create(path, false, err);
     if (!csv) return false;
     for (int32_t c = 0; c < 2; ++c) csv_text(csv, plot->column[c][0] ? plot->column[c] : plain[c]);
     csv_text(csv, "error");
@@ -318,7 +318,7 @@ static bool compare_write(const Plot *plot, const char *picture, Error *err)
         csv_number(csv, plot->computed[k]);
         csv_end_row(csv);
     }
-    return csv_finish(csv, err);
+    return text_writer_finish(csv, err);
 }
 
 // --- the page -----------------------------------------------------------------------------------

@@ -11,7 +11,7 @@
 
 enum { WORDS_SIZE = 700 };
 
-static bool write_curves(HtmlWriter *html, PageSource *source, Error *err)
+static bool write_curves(TextWriter *html, PageSource *source, Error *err)
 {
     const RunSource *runs = source->runs;
     int32_t count = source->count;
@@ -37,7 +37,7 @@ static bool write_curves(HtmlWriter *html, PageSource *source, Error *err)
     return error_is_clean(err);
 }
 
-static bool write_again(HtmlWriter *html, PageSource *source, Error *err)
+static bool write_again(TextWriter *html, PageSource *source, Error *err)
 {
     html_markup(html, "<p>The report of each run holds its scene: ");
     html_markup(html, "<code>amontons report FOLDER</code>, with</p>\n<ul>");
@@ -49,7 +49,7 @@ static bool write_again(HtmlWriter *html, PageSource *source, Error *err)
     return error_is_clean(err);
 }
 
-bool compare_page_write(HtmlWriter *html, const char *const *folders, int32_t count, Error *err)
+bool compare_page_write(TextWriter *html, const char *const *folders, int32_t count, Error *err)
 {
     const SheetPart parts[] = {{"numbers", "Key numbers", numbers_write},
                                {"differences", "What differs", scene_differences_write},

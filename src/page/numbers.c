@@ -65,7 +65,7 @@ static const NumberRow CHECKS[] = {
     {"timing_s.total", NUMBER_PLAIN, "time taken, s", "by the clock"},
 };
 
-void estimate_write(HtmlWriter *html, double value, double bar, double known_to)
+void estimate_write(TextWriter *html, double value, double bar, double known_to)
 {
     char text[ESTIMATE_SIZE], *between;
     if (!isfinite(value) || fabs(value) >= BIG) {
@@ -95,7 +95,7 @@ double run_known_to(const RunSource *run, const char *path, double *bar)
     return known_to;
 }
 
-static void write_rows(HtmlWriter *html, const NumberRow *rows, size_t row_count,
+static void write_rows(TextWriter *html, const NumberRow *rows, size_t row_count,
                        const RunSource *runs, int32_t count)
 {
     for (size_t r = 0; r < row_count; ++r) {
@@ -125,7 +125,7 @@ static void write_rows(HtmlWriter *html, const NumberRow *rows, size_t row_count
     }
 }
 
-static void begin_table(HtmlWriter *html, const char *caption, const RunSource *runs, int32_t count)
+static void begin_table(TextWriter *html, const char *caption, const RunSource *runs, int32_t count)
 {
     html_markup(html,
                 "<div class='wide'><table%s><caption>%s</caption><thead><tr><th scope='col'>"
@@ -138,7 +138,7 @@ static void begin_table(HtmlWriter *html, const char *caption, const RunSource *
     html_markup(html, "<th scope='col'>meaning</th></tr></thead><tbody>\n");
 }
 
-bool numbers_write(HtmlWriter *html, PageSource *source, Error *err)
+bool numbers_write(TextWriter *html, PageSource *source, Error *err)
 {
     const RunSource *runs = source->runs;
     int32_t count = source->count;

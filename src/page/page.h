@@ -57,45 +57,45 @@ typedef struct PageSource {
 typedef struct SheetPart {
     const char *id, *name;   // of a section, for the links at the top; NULL ends a list
     // NULL: it is part of sheet_end
-    bool (*write)(HtmlWriter *html, PageSource *source, Error *err);
+    bool (*write)(TextWriter *html, PageSource *source, Error *err);
 } SheetPart;
 
 extern const SheetPart SHEET_CITE;   // that part
 
 // Writes the page up to the title, below it `kind` ("A run"), and links to the parts.
-void sheet_begin(HtmlWriter *html, const char *title, const char *kind, const SheetPart *parts);
+void sheet_begin(TextWriter *html, const char *title, const char *kind, const SheetPart *parts);
 // All of them, each below its heading.
-bool sheet_parts(HtmlWriter *html, const SheetPart *parts, PageSource *source, Error *err);
+bool sheet_parts(TextWriter *html, const SheetPart *parts, PageSource *source, Error *err);
 // json: run.json of what was computed, by whichever version; NULL: not known.
-void sheet_end(HtmlWriter *html, const char *json);
+void sheet_end(TextWriter *html, const char *json);
 
 // A box that is seen at once: "warning" or "failure".
-void sheet_box(HtmlWriter *html, const char *kind, const char *words);
+void sheet_box(TextWriter *html, const char *kind, const char *words);
 
 // --- numbers and scenes -------------------------------------------------------------------------
 
 // Writes an estimate as text_estimate has it, and says so where nothing is known of its error.
-void estimate_write(HtmlWriter *html, double value, double bar, double known_to);
+void estimate_write(TextWriter *html, double value, double bar, double known_to);
 // Error within which the result at `path` in run.json is known; NaN: not known. *bar: its error
 // bar; NaN: none was asked for.
 double run_known_to(const RunSource *run, const char *path, double *bar);
 
 // Writes two tables, each with a caption: what was found, and how far the computation can be
 // trusted. For a single run they also say what a number means.
-bool numbers_write(HtmlWriter *html, PageSource *source, Error *err);
+bool numbers_write(TextWriter *html, PageSource *source, Error *err);
 
 // A table with a row a group of keys, "material | young 1, poisson 0.34, ..."; then the whole scene
 // as text, and as a file to save. What was saved can be run.
-bool scene_write(HtmlWriter *html, PageSource *source, Error *err);
+bool scene_write(TextWriter *html, PageSource *source, Error *err);
 
 // Keys whose values are not the same in all scenes, a column a run.
-bool scene_differences_write(HtmlWriter *html, PageSource *source, Error *err);
+bool scene_differences_write(TextWriter *html, PageSource *source, Error *err);
 
 // --- the three pages ----------------------------------------------------------------------------
 
 // cycle: that the figures show; NULL: as they choose.
-bool run_page_write(HtmlWriter *html, const char *folder, const char *cycle, Error *err);
-bool sweep_page_write(HtmlWriter *html, const char *folder, Error *err);
-bool compare_page_write(HtmlWriter *html, const char *const *folders, int32_t count, Error *err);
+bool run_page_write(TextWriter *html, const char *folder, const char *cycle, Error *err);
+bool sweep_page_write(TextWriter *html, const char *folder, Error *err);
+bool compare_page_write(TextWriter *html, const char *const *folders, int32_t count, Error *err);
 
 #endif

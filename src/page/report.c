@@ -23,7 +23,7 @@ typedef struct ReportRequest {
 static bool write_file(void *context, FILE *reply, Error *err)
 {
     const ReportRequest *request = context;
-    HtmlWriter *html = NULL;
+    TextWriter *html = NULL;
     int32_t count = request->count;
     (void)reply;   // the page is a file
     for (int32_t k = 0; k < count; ++k) {
@@ -36,17 +36,15 @@ static bool write_file(void *context, FILE *reply, Error *err)
     bool sweep = count == 1 && folder_holds(request->results[0], "sweep.csv", NULL);
     if (request->style.cycle && (sweep || count > 1))
         FAIL(err, ERROR_INPUT, "a cycle has a meaning for the page of one run alone");
-    TRY(html = html_create(request->file, request->style.overwrite, err));
+    TRY(html = text_writer_create(request->file, request->style.overwrite, err));
     if (count > 1)
         TRY(compare_page_write(html, request->results, count, err));
     else if (sweep)
         TRY(sweep_page_write(html, request->results[0], err));
     else
         TRY(run_page_write(html, request->results[0], request->style.cycle, err));
-    return html_finish(html, err);
 cleanup:
-    html_abandon(html);
-    return false;
+    return text_writer_finish(html, err);
 }
 
 // A stranger's history may crash HDF5, or keep it busy for ever.

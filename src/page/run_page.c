@@ -19,7 +19,7 @@ static const double SLACK = 1e-9;   // of U: a time at the border of an event be
 // --- the history --------------------------------------------------------------------------------
 
 // Nothing of the history may cost the page: a picture that cannot be drawn is told in its place.
-static bool go_on_without(HtmlWriter *html, const char *what, Error *err)
+static bool go_on_without(TextWriter *html, const char *what, Error *err)
 {
     char words[ERROR_MESSAGE_SIZE + 40];
     if (error_is_clean(err)) return true;
@@ -30,7 +30,7 @@ static bool go_on_without(HtmlWriter *html, const char *what, Error *err)
     return true;
 }
 
-static bool write_figures(HtmlWriter *html, PageSource *source, Error *err)
+static bool write_figures(TextWriter *html, PageSource *source, Error *err)
 {
     const char *folder = source->runs->folder;
     char path[PATH_MAX];
@@ -50,7 +50,7 @@ static bool write_figures(HtmlWriter *html, PageSource *source, Error *err)
 // --- frames --------------------------------------------------------------------------------------
 
 // The slider's frames; sets source->frames, to which the table of events leads.
-static bool write_frames(HtmlWriter *html, PageSource *source, Error *err)
+static bool write_frames(TextWriter *html, PageSource *source, Error *err)
 {
     RenderFrames *found = &source->frames;
     RenderFramesFunction render =
@@ -87,7 +87,7 @@ static bool write_frames(HtmlWriter *html, PageSource *source, Error *err)
 enum { KIND, U_START, U_STOP, T_START, T_STOP, REACH, RATE, SPEED };
 
 // A row an event; the last ones, where there are many: the first belong to the start.
-static bool write_events(HtmlWriter *html, PageSource *source, Error *err)
+static bool write_events(TextWriter *html, PageSource *source, Error *err)
 {
     static const ResultTable names[COLUMNS] = {
         [KIND] = EVENTS_KIND,       [U_START] = EVENTS_U_START,  [U_STOP] = EVENTS_U_STOP,
@@ -173,7 +173,7 @@ cleanup:
 // --- the page -----------------------------------------------------------------------------------
 
 // The scene's mesh is named as seen from the result folder, so the scene is to be saved there.
-static bool write_again(HtmlWriter *html, PageSource *source, Error *err)
+static bool write_again(TextWriter *html, PageSource *source, Error *err)
 {
     const RunSource *run = source->runs;
     static const char plain[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789._-";
@@ -189,7 +189,7 @@ static bool write_again(HtmlWriter *html, PageSource *source, Error *err)
     return error_is_clean(err);
 }
 
-bool run_page_write(HtmlWriter *html, const char *folder, const char *cycle, Error *err)
+bool run_page_write(TextWriter *html, const char *folder, const char *cycle, Error *err)
 {
     RunSource run = {0};
     PageSource source = {.runs = &run, .count = 1, .cycle = cycle};

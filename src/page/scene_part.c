@@ -56,7 +56,7 @@ static void walk(const char *json, const char *path, int32_t depth, KeyFunction 
 // --- differences ---------------------------------------------------------------------------------
 
 typedef struct Differences {
-    HtmlWriter *html;
+    TextWriter *html;
     const RunSource *runs;
     int32_t count, of;   // of: the run whose keys are gone through
     int32_t written;
@@ -85,7 +85,7 @@ static void write_difference(void *context, const char *path, const char *value)
     html_markup(all->html, "</tr>\n");
 }
 
-bool scene_differences_write(HtmlWriter *html, PageSource *source, Error *err)
+bool scene_differences_write(TextWriter *html, PageSource *source, Error *err)
 {
     const RunSource *runs = source->runs;
     int32_t count = source->count;
@@ -108,7 +108,7 @@ bool scene_differences_write(HtmlWriter *html, PageSource *source, Error *err)
 // --- the scene -----------------------------------------------------------------------------------
 
 typedef struct Summary {
-    HtmlWriter *html;
+    TextWriter *html;
     size_t prefix;   // of the paths, not shown
     bool begun;
 } Summary;
@@ -125,7 +125,7 @@ static void write_key(void *context, const char *path, const char *value)
 
 // The scene is shown and saved as run.json has it, less the two spaces that it is indented by
 // there.
-bool scene_write(HtmlWriter *html, PageSource *source, Error *err)
+bool scene_write(TextWriter *html, PageSource *source, Error *err)
 {
     int32_t length = 0, used = 0;
     const RunSource *run = source->runs;

@@ -17,7 +17,7 @@ static const char PAPER[] =
     "an elastic object locally obeying Amontons\u2019 law</cite>, Scientific Reports 3, 1586 "
     "(2013), <a href='https://doi.org/10.1038/srep01586'>doi:10.1038/srep01586</a>";
 
-void sheet_begin(HtmlWriter *html, const char *title, const char *kind, const SheetPart *parts)
+void sheet_begin(TextWriter *html, const char *title, const char *kind, const SheetPart *parts)
 {
     char style[HASH_TEXT], script[HASH_TEXT];
     html_base64(page_css_sha256, HASH_SIZE, style);
@@ -44,7 +44,7 @@ void sheet_begin(HtmlWriter *html, const char *title, const char *kind, const Sh
     html_markup(html, "</ul></nav>\n</header>\n<main id='main' tabindex='-1'>\n<section>\n");
 }
 
-bool sheet_parts(HtmlWriter *html, const SheetPart *parts, PageSource *source, Error *err)
+bool sheet_parts(TextWriter *html, const SheetPart *parts, PageSource *source, Error *err)
 {
     for (const SheetPart *part = parts; part->id; ++part) {
         if (!part->write) continue;
@@ -54,7 +54,7 @@ bool sheet_parts(HtmlWriter *html, const SheetPart *parts, PageSource *source, E
     return true;
 }
 
-void sheet_end(HtmlWriter *html, const char *json)
+void sheet_end(TextWriter *html, const char *json)
 {
     char made_by[40] = "";
     if (json) json_find_text(json, "version", made_by, sizeof made_by);
@@ -69,7 +69,7 @@ void sheet_end(HtmlWriter *html, const char *json)
     html_markup(html, "</script>\n</body>\n</html>\n");
 }
 
-void sheet_box(HtmlWriter *html, const char *kind, const char *words)
+void sheet_box(TextWriter *html, const char *kind, const char *words)
 {
     html_markup(html, "<p class='box %s'><strong>%s:</strong> ", kind,
                 strcmp(kind, "warning") == 0 ? "Warning" : "Not complete");

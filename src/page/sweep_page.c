@@ -99,7 +99,7 @@ cleanup:
 
 // --- what varies ---------------------------------------------------------------------------------
 
-static bool write_varied(HtmlWriter *html, PageSource *source, Error *err)
+static bool write_varied(TextWriter *html, PageSource *source, Error *err)
 {
     const SweepSource *sweep = source->sweep;
     html_markup(html, "<div class='wide'><table><caption>Keys of the scene that differ from point "
@@ -132,7 +132,7 @@ static bool write_varied(HtmlWriter *html, PageSource *source, Error *err)
 
 // --- figures -------------------------------------------------------------------------------------
 
-static bool write_figures(HtmlWriter *html, PageSource *source, Error *err)
+static bool write_figures(TextWriter *html, PageSource *source, Error *err)
 {
     const SweepSource *sweep = source->sweep;
     char path[PATH_MAX], caption[RUN_NAME_SIZE];
@@ -154,7 +154,7 @@ static bool write_figures(HtmlWriter *html, PageSource *source, Error *err)
 // --- of a search ---------------------------------------------------------------------------------
 
 // Its answer in words, and a picture of the best design's mesh.
-static bool write_answer(HtmlWriter *html, PageSource *source, Error *err)
+static bool write_answer(TextWriter *html, PageSource *source, Error *err)
 {
     const SweepSource *sweep = source->sweep;
     char path[PATH_MAX], *text = NULL, *picture = NULL;
@@ -208,7 +208,7 @@ static bool is_shown(const SweepSource *sweep, const CsvTable *table, int32_t co
 
 // Each cell is a number with its error bar, where there is one, or in the digits that are known; or
 // a text.
-static void write_table(HtmlWriter *html, const SweepSource *sweep, const CsvTable *table,
+static void write_table(TextWriter *html, const SweepSource *sweep, const CsvTable *table,
                         int32_t most, const char *caption)
 {
     html_markup(html, "<div class='wide'><table><caption>%s</caption><thead><tr>", caption);
@@ -242,7 +242,7 @@ static void write_table(HtmlWriter *html, const SweepSource *sweep, const CsvTab
     html_markup(html, "</tbody></table></div>\n");
 }
 
-static bool write_ranking(HtmlWriter *html, PageSource *source, Error *err)
+static bool write_ranking(TextWriter *html, PageSource *source, Error *err)
 {
     const SweepSource *sweep = source->sweep;
     int32_t rows = sweep->ranking.rows, shown = rows < RANKED_MAX ? rows : RANKED_MAX;
@@ -252,7 +252,7 @@ static bool write_ranking(HtmlWriter *html, PageSource *source, Error *err)
     return error_is_clean(err);
 }
 
-static bool write_points(HtmlWriter *html, PageSource *source, Error *err)
+static bool write_points(TextWriter *html, PageSource *source, Error *err)
 {
     const SweepSource *sweep = source->sweep;
     int32_t rows = sweep->table.rows, shown = rows < ROWS_MAX ? rows : ROWS_MAX;
@@ -270,7 +270,7 @@ static bool write_points(HtmlWriter *html, PageSource *source, Error *err)
 
 // --- failures and warnings -----------------------------------------------------------------------
 
-static bool write_doubts(HtmlWriter *html, PageSource *source, Error *err)
+static bool write_doubts(TextWriter *html, PageSource *source, Error *err)
 {
     const SweepSource *sweep = source->sweep;
     const CsvTable *table = &sweep->table;
@@ -321,14 +321,14 @@ cleanup:
 
 // --- the page ------------------------------------------------------------------------------------
 
-static bool write_scene(HtmlWriter *html, PageSource *source, Error *err)
+static bool write_scene(TextWriter *html, PageSource *source, Error *err)
 {
     html_markup(html, "<p>That of the first point that is done; the others differ in the keys "
                       "above.</p>\n");
     return scene_write(html, source, err);
 }
 
-static bool write_again(HtmlWriter *html, PageSource *source, Error *err)
+static bool write_again(TextWriter *html, PageSource *source, Error *err)
 {
     const char *folder = source->sweep->folder;
     const char *command = folder_holds(folder, "fit.csv", NULL)      ? "fit"
@@ -343,7 +343,7 @@ static bool write_again(HtmlWriter *html, PageSource *source, Error *err)
     return error_is_clean(err);
 }
 
-bool sweep_page_write(HtmlWriter *html, const char *folder, Error *err)
+bool sweep_page_write(TextWriter *html, const char *folder, Error *err)
 {
     SweepSource sweep = {0};
     PageSource source = {.runs = &sweep.run, .count = 1, .sweep = &sweep};

@@ -40,22 +40,19 @@ cleanup:
 // ParaView's format: one DataSet a file and time; 17 digits give the time back exactly.
 bool field_file_write_pvd(const char *path, const double *times, int32_t count, Error *err)
 {
-    TextWriter out = {0};
-    if (text_writer_open(&out, path, false, err)) {
-        fputs("<?xml version=\"1.0\"?>\n"
-              "<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
-              "  <Collection>\n",
-              out.out);
-        for (int32_t k = 0; k < count; k++)
-            fprintf(out.out,
-                    "    <DataSet timestep=\"%.17g\" part=\"0\" name=\"bulk\" "
-                    "file=\"fields/" FIELD_BULK_NAME "\"/>\n"
-                    "    <DataSet timestep=\"%.17g\" part=\"1\" name=\"interface\" "
-                    "file=\"fields/" FIELD_LINE_NAME "\"/>\n",
-                    times[k], k, times[k], k);
-        fputs("  </Collection>\n</VTKFile>\n", out.out);
-        text_writer_finish(&out, err);
-    }
-    text_writer_close(&out);
-    return error_is_clean(err);
+    TextWriter *writer = text_writer_create(path, false, err);
+    if (!writer) return false;
+    fputs("<?xml version=\"1.0\"?>\n"
+          "<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
+          "  <Collection>\n",
+          writer->out);
+    for (int32_t k = 0; k < count; k++)
+        fprintf(writer->out,
+                "    <DataSet timestep=\"%.17g\" part=\"0\" name=\"bulk\" "
+                "file=\"fields/" FIELD_BULK_NAME "\"/>\n"
+                "    <DataSet timestep=\"%.17g\" part=\"1\" name=\"interface\" "
+                "file=\"fields/" FIELD_LINE_NAME "\"/>\n",
+                times[k], k, times[k], k);
+    fputs("  </Collection>\n</VTKFile>\n", writer->out);
+    return text_writer_finish(writer, err);
 }

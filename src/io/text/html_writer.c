@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "io/text/html_writer.h"
 
-#include "base/memory.h"
 #include "base/text.h"
-#include "io/text/text_writer.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -13,32 +11,20 @@
 
 enum { CHUNK = 3 * 1000 };
 
-struct HtmlWriter {
-    TextWriter out;
-};
-
-HtmlWriter *html_create(const char *path, bool overwrite, Error *err)
-{
-    HtmlWriter *html = NEW_ARRAY(HtmlWriter, 1, err);
-    if (html && text_writer_open(&html->out, path, overwrite, err)) return html;
-    memory_free(html);
-    return NULL;
-}
-
-void html_markup(HtmlWriter *html, const char *format, ...)
+void html_markup(TextWriter *html, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
-    vfprintf(html->out.out, format, arguments);
+    vfprintf(html->out, format, arguments);
     va_end(arguments);
 }
 
-void html_raw(HtmlWriter *html, const char *markup)
+void html_raw(TextWriter *html, const char *markup)
 {
-    fputs(markup, html->out.out);
+    fputs(markup, html->out);
 }
 
-void html_text(HtmlWriter *html, const char *text)
+void html_text(TextWriter *html, const char *text)
 {
     static const char letters[] = "&<>\"'";
     static const char *const escapes[] = {"&amp;", "&lt;", "&gt;", "&quot;", "&#39;"};
@@ -50,20 +36,19 @@ void html_text(HtmlWriter *html, const char *text)
             escaped = escapes[found - letters];
         else if (length == 0 || control || *text == 127)
             escaped = "\uFFFD";
-        fwrite(escaped ? escaped : text, 1, escaped ? strlen(escaped) : (size_t)length,
-               html->out.out);
+        fwrite(escaped ? escaped : text, 1, escaped ? strlen(escaped) : (size_t)length, html->out);
         text += length ? length : 1;
     }
 }
 
-void html_around(HtmlWriter *html, const char *before, const char *text, const char *after)
+void html_around(TextWriter *html, const char *before, const char *text, const char *after)
 {
     html_raw(html, before);
     html_text(html, text);
     html_raw(html, after);
 }
 
-void html_number(HtmlWriter *html, double value, int32_t digits)
+void html_number(TextWriter *html, double value, int32_t digits)
 {
     char words[40];
     if (!isfinite(value)) {
@@ -96,7 +81,7 @@ void html_base64(const uint8_t *bytes, int64_t size, char *text)
     *text = 0;
 }
 
-void html_data(HtmlWriter *html, const char *type, const void *bytes, int64_t size)
+void html_data(TextWriter *html, const char *type, const void *bytes, int64_t size)
 {
     char text[4 * CHUNK / 3 + 1];
     html_markup(html, "data:%s;base64,", type);
@@ -105,17 +90,4 @@ void html_data(HtmlWriter *html, const char *type, const void *bytes, int64_t si
         html_base64((const uint8_t *)bytes + at, count, text);
         html_raw(html, text);
     }
-}
-
-bool html_finish(HtmlWriter *html, Error *err)
-{
-    bool good = text_writer_finish(&html->out, err);
-    html_abandon(html);
-    return good;
-}
-
-void html_abandon(HtmlWriter *html)
-{
-    if (html) text_writer_close(&html->out);
-    memory_free(html);
 }

@@ -1,32 +1,25 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Writes one HTML page into a file, atomically: the final name appears when all is on disk. Markup
-// and text are two calls, so that text of a stranger's scene can never become markup. Called by
-// page/ and by render/frames/frames.
+// Writes an HTML page. Markup and text are two calls, so that text of a stranger's scene can never
+// become markup. Called by page/ and by render/frames/frames.
 #ifndef AMONTONS_IO_TEXT_HTML_WRITER_H
 #define AMONTONS_IO_TEXT_HTML_WRITER_H
 
-#include "base/error.h"
+#include "io/text/text_writer.h"
 
 #include <stdint.h>
 
-typedef struct HtmlWriter HtmlWriter;
-
-// The first failure is kept and reported by finish. overwrite: as part_file_replace has it.
-HtmlWriter *html_create(const char *path, bool overwrite, Error *err);
 // Markup of our own. Only numbers and names of ours may be arguments.
-void html_markup(HtmlWriter *html, const char *format, ...) __attribute__((format(printf, 2, 3)));
-void html_raw(HtmlWriter *html, const char *markup);   // as it is, of any length
+void html_markup(TextWriter *html, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void html_raw(TextWriter *html, const char *markup);   // as it is, of any length
 // Text and values of attributes: & < > " ' are escaped, what is no UTF-8 or not printable becomes
 // U+FFFD.
-void html_text(HtmlWriter *html, const char *text);
+void html_text(TextWriter *html, const char *text);
 // Text between markup of our own.
-void html_around(HtmlWriter *html, const char *before, const char *text, const char *after);
+void html_around(TextWriter *html, const char *before, const char *text, const char *after);
 // A value as people read it: to `digits`, U+2212 for minus, "1.1 x 10^-4" with the power raised.
-void html_number(HtmlWriter *html, double value, int32_t digits);
+void html_number(TextWriter *html, double value, int32_t digits);
 // "data:TYPE;base64,...": a file inside of the page.
-void html_data(HtmlWriter *html, const char *type, const void *bytes, int64_t size);
-bool html_finish(HtmlWriter *html, Error *err);   // fsync, rename; frees `html` either way
-void html_abandon(HtmlWriter *html);   // frees it and leaves no file; NULL is fine
+void html_data(TextWriter *html, const char *type, const void *bytes, int64_t size);
 
 // Base64 (RFC 4648) of `size` bytes, and a zero byte: 4 * ((size + 2) / 3) + 1 of them.
 void html_base64(const uint8_t *bytes, int64_t size, char *text);

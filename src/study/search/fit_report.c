@@ -431,7 +431,7 @@ bool fit_report(const Fit *fit, const FitSummary *summary, Error *err)
                                         "error",     "found", "own_error", "off"};
     char path[POINT_PATH_SIZE];
     snprintf(path, sizeof path, "%s/fit.csv", fit->search.options->folder);
-    CsvWriter *csv = csv_create(path, err);
+    TextWriter *csv = text_writer_create(path, false, err);
     if (!csv) return false;
     for (size_t k = 0; k < sizeof names / sizeof *names; k++) csv_text(csv, names[k]);
     csv_end_row(csv);
@@ -448,7 +448,7 @@ bool fit_report(const Fit *fit, const FitSummary *summary, Error *err)
         csv_number(csv, fit_errors_off(fit, k));
         csv_end_row(csv);
     }
-    if (!csv_finish(csv, err)) return false;
+    if (!text_writer_finish(csv, err)) return false;
 
     // Figures.
     if (!draw_measured(fit, err) || !draw_fitted(fit, err)) return false;

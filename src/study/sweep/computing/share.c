@@ -30,32 +30,26 @@ bool share_write(const Sweep *sweep, int32_t share, const int32_t *points, int32
                  int32_t step, Error *err)
 {
     char path[SHARE_PATH_SIZE];
-    TextWriter text = {0};
     share_path(sweep, share, "points", path);
-    TRY(text_writer_open(&text, path, false, err));
+    TextWriter *text = text_writer_create(path, false, err);
+    if (!text) return false;
     for (int32_t k = share; k < count; k += step) {
         const SweepPoint *point = &sweep->points[points[k]];
-        fprintf(text.out, "%d %s\n", points[k], point->hash);
+        fprintf(text->out, "%d %s\n", points[k], point->hash);
     }
-    TRY(text_writer_finish(&text, err));
-cleanup:
-    text_writer_close(&text);
-    return error_is_clean(err);
+    return text_writer_finish(text, err);
 }
 
 bool share_write_designs(const Sweep *sweep, Error *err)
 {
     const Study *study = &sweep->study;
     char path[SHARE_PATH_SIZE];
-    TextWriter text = {0};
     snprintf(path, sizeof path, "%s/slurm/designs", sweep->folder);
-    TRY(text_writer_open(&text, path, false, err));
+    TextWriter *text = text_writer_create(path, false, err);
+    if (!text) return false;
     for (int32_t k = 0; k < study->design_count; k++)
-        fwrite(study->designs[k].text, strlen(study->designs[k].text) + 1, 1, text.out);
-    TRY(text_writer_finish(&text, err));
-cleanup:
-    text_writer_close(&text);
-    return error_is_clean(err);
+        fwrite(study->designs[k].text, strlen(study->designs[k].text) + 1, 1, text->out);
+    return text_writer_finish(text, err);
 }
 
 // --- in the process of the element --------------------------------------------------------------

@@ -114,7 +114,7 @@ bool slurm_write_script(const SlurmJobs *jobs, const char *path, const char *stu
 {
     static const char *const places[] = {AMONTONS_PROGRAM_FROM_LIBRARY, "amontons"};
     char program[PATH_MAX] = "", found[PATH_MAX], *here = getcwd(NULL, 0);
-    TextWriter script = {0};
+    TextWriter *script = NULL;
 
     // The program: this one, or where another (Python) calls the library, the one beside it.
     system_program_path(program, PATH_MAX);
@@ -126,8 +126,8 @@ bool slurm_write_script(const SlurmJobs *jobs, const char *path, const char *stu
              "library nor in %s of its folder",
              AMONTONS_PROGRAM_FROM_LIBRARY);
     if (!here) FAIL(err, ERROR_FILE, "cannot find the path of this folder: %s", strerror(errno));
-    TRY(text_writer_open(&script, path, false, err));
-    FILE *out = script.out;
+    TRY(script = text_writer_create(path, false, err));
+    FILE *out = script->out;
     print_quoted(out, "#!/bin/sh\n#SBATCH --ntasks=1\n#SBATCH --cpus-per-task=1\ncd ", here);
     print_quoted(out, " && exec ", program);
     print_quoted(out, " sweep --element -o ", jobs->folder);
@@ -136,11 +136,9 @@ bool slurm_write_script(const SlurmJobs *jobs, const char *path, const char *stu
     if (options->trust) fprintf(out, " --trust");
     print_quoted(out, " -- ", study);
     fprintf(out, "\n");
-    TRY(text_writer_finish(&script, err));
 cleanup:
     free(here);
-    text_writer_close(&script);
-    return error_is_clean(err);
+    return text_writer_finish(script, err);
 }
 
 // The user's words may set anything but the array and its name, which follow them.

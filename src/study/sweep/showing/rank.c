@@ -183,11 +183,11 @@ static bool write_ranking(const Sweep *sweep, const SweepTable *table, const Ran
     const char *name = ranked_by(study)->name;
     char path[POINT_PATH_SIZE], cell[SCENE_TEXT_SIZE], note[RANK_NOTE_SIZE];
     char error[STUDY_NAME_SIZE + 16], known_to[STUDY_NAME_SIZE + 16];
-    CsvWriter *csv = NULL;
+    TextWriter *csv = NULL;
     snprintf(path, sizeof path, "%s/ranking.csv", sweep->folder);
     snprintf(error, sizeof error, "%s_error", name);
     snprintf(known_to, sizeof known_to, "%s_known_to", name);
-    TRY((csv = csv_create(path, err)));
+    TRY((csv = text_writer_create(path, false, err)));
     csv_text(csv, "rank");
     csv_text(csv, "rank_from");
     csv_text(csv, "rank_to");
@@ -226,9 +226,7 @@ static bool write_ranking(const Sweep *sweep, const SweepTable *table, const Ran
         csv_end_row(csv);
     }
 cleanup:
-    if (error_is_clean(err)) return csv_finish(csv, err);
-    csv_abandon(csv);
-    return false;
+    return text_writer_finish(csv, err);
 }
 
 // --- on the terminal ----------------------------------------------------------------------------

@@ -24,7 +24,7 @@ enum { CELL_SIZE = 2 * ERROR_MESSAGE_SIZE };
 typedef struct TableWriter {
     const Sweep *sweep;
     SweepTable *table;   // filled row by row
-    CsvWriter *csv;   // owned, like the next
+    TextWriter *csv;   // owned, like the next
     char *cell;   // [CELL_SIZE] work
 } TableWriter;
 
@@ -179,7 +179,7 @@ static bool write_row(TableWriter *writer, int32_t point, Error *err)
     const Study *study = &sweep->study;
     const SweepPoint *at = &sweep->points[point];
     SweepTable *table = writer->table;
-    CsvWriter *csv = writer->csv;
+    TextWriter *csv = writer->csv;
     char run[HASH_TEXT_SIZE + 8], path[40], sentence[RUN_WARNING_SIZE], *report = NULL;
     char *cell = writer->cell;
     const Scene *scene = point_scene(sweep, point, err);
@@ -296,7 +296,7 @@ bool table_write(const Sweep *sweep, SweepTable *table, Error *err)
     TRY(make_columns(sweep, table, err));
     TRY((writer.cell = NEW_ARRAY(char, CELL_SIZE, err)));
     snprintf(path, sizeof path, "%s/sweep.csv", sweep->folder);
-    TRY((writer.csv = csv_create(path, err)));
+    TRY((writer.csv = text_writer_create(path, false, err)));
 
     // Names as the study has them: `record` may rename a path.
     csv_text(writer.csv, "point");
@@ -313,9 +313,7 @@ bool table_write(const Sweep *sweep, SweepTable *table, Error *err)
         table->doubtful->values[k] = table->warned.of[k] != 0;
 cleanup:
     memory_free(writer.cell);
-    if (error_is_clean(err)) return csv_finish(writer.csv, err) && write_h5(sweep, table, err);
-    csv_abandon(writer.csv);
-    return false;
+    return text_writer_finish(writer.csv, err) && write_h5(sweep, table, err);
 }
 
 void table_destroy(SweepTable *table)

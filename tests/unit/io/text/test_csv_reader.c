@@ -29,13 +29,13 @@ TEST(what_was_written_is_read)
     enum { COUNT = sizeof words / sizeof *words };
     Error err = {0};
     CsvTable table;
-    CsvWriter *csv = csv_create(PATH, &err);
+    TextWriter *csv = text_writer_create(PATH, false, &err);
     for (int32_t row = 0; row < 2; ++row) {
         for (int32_t k = 0; k < COUNT; ++k) csv_text(csv, words[k]);
         csv_number(csv, 0.1 + 0.2);
         csv_end_row(csv);
     }
-    assert_true(csv_finish(csv, &err));
+    assert_true(text_writer_finish(csv, &err));
     assert_true(csv_read(PATH, &table, &err));
     unlink(PATH);
     assert_int_equal(table.rows, 1);

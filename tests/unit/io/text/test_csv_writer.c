@@ -26,7 +26,7 @@ TEST(cells_are_quoted_where_they_must_be)
     Error err = {0};
     char text[400];
     unlink(path);
-    CsvWriter *csv = csv_create(path, &err);
+    TextWriter *csv = text_writer_create(path, false, &err);
     assert_non_null(csv);
     csv_text(csv, "plain");
     csv_text(csv, "a,b");
@@ -37,7 +37,7 @@ TEST(cells_are_quoted_where_they_must_be)
     csv_number(csv, 0.1);
     csv_text(csv, "two\nlines");
     csv_end_row(csv);
-    assert_true(csv_finish(csv, &err));
+    assert_true(text_writer_finish(csv, &err));
     read_back(text, sizeof text);
     assert_string_equal(text, "plain,\"a,b\",\"say \"\"no\"\"\"\n,,0.1,\"two\nlines\"\n");
 }
@@ -48,10 +48,10 @@ TEST(numbers_keep_their_bits)
     Error err = {0};
     char text[400], *at = text;
     unlink(path);
-    CsvWriter *csv = csv_create(path, &err);
+    TextWriter *csv = text_writer_create(path, false, &err);
     for (int32_t k = 0; k < 6; k++) csv_number(csv, values[k]);
     csv_end_row(csv);
-    assert_true(csv_finish(csv, &err));
+    assert_true(text_writer_finish(csv, &err));
     read_back(text, sizeof text);
     for (int32_t k = 0; k < 6; k++, at++) assert_true(strtod(at, &at) == values[k]);
     assert_string_equal(at, "");
@@ -67,11 +67,11 @@ TEST(rounded_numbers_have_nine_digits)
     Error err = {0};
     char text[400], *at = text;
     unlink(path);
-    CsvWriter *csv = csv_create(path, &err);
+    TextWriter *csv = text_writer_create(path, false, &err);
     for (int32_t k = 0; k < COUNT; k++) csv_rounded(csv, values[k]);
     csv_rounded(csv, NAN);
     csv_end_row(csv);
-    assert_true(csv_finish(csv, &err));
+    assert_true(text_writer_finish(csv, &err));
     read_back(text, sizeof text);
     assert_null(strstr(text, "inf"));
     assert_int_equal(strncmp(text, "0,1,-0.38,0.333333333,", 22), 0);
@@ -88,13 +88,13 @@ TEST(long_files_are_whole)
     enum { ROWS = 30000 };
     static char text[20 * ROWS];
     unlink(path);
-    CsvWriter *csv = csv_create(path, &err);
+    TextWriter *csv = text_writer_create(path, false, &err);
     for (int32_t k = 0; k < ROWS; k++) {
         csv_number(csv, k);
         csv_text(csv, "a cell");
         csv_end_row(csv);
     }
-    assert_true(csv_finish(csv, &err));
+    assert_true(text_writer_finish(csv, &err));
     read_back(text, sizeof text);
     const char *at = text;
     for (int32_t k = 0; k < ROWS; k++) {
@@ -106,18 +106,21 @@ TEST(long_files_are_whole)
     assert_string_equal(at, "");
 }
 
-TEST(nothing_is_left_of_an_abandoned_one)
+TEST(nothing_is_left_after_an_error)
 {
     Error err = {0};
     unlink(path);
     int64_t live = memory_counters().live;
     unlink(path);
-    CsvWriter *csv = csv_create(path, &err);
+    TextWriter *csv = text_writer_create(path, false, &err);
     csv_text(csv, "half");
-    csv_abandon(csv);
-    csv_abandon(NULL);
+    error_set(&err, ERROR_INPUT, __FILE__, __LINE__, "no second half");
+    assert_false(text_writer_finish(csv, &err));
+    assert_int_equal(err.code, ERROR_INPUT);
+    assert_false(text_writer_finish(NULL, &err));
+    err = (Error){0};
     assert_int_not_equal(access(path, F_OK), 0);
-    assert_null(csv_create("/proc/none/at/all.csv", &err));
+    assert_null(text_writer_create("/proc/none/at/all.csv", false, &err));
     assert_int_equal(err.code, ERROR_FILE);
     assert_int_equal(memory_counters().live, live);
 }

@@ -15,29 +15,29 @@
 static const char PATH[] = "html_writer_test.html";
 
 // The text that `write` writes.
-static char *written(void (*write)(HtmlWriter *html))
+static char *written(void (*write)(TextWriter *html))
 {
     Error err = {0};
     char *text = NULL;
     int32_t size = 0;
-    HtmlWriter *html = html_create(PATH, false, &err);
+    TextWriter *html = text_writer_create(PATH, false, &err);
     assert_non_null(html);
     write(html);
     assert_int_not_equal(access(PATH, F_OK), 0);   // no half file under the final name
-    assert_true(html_finish(html, &err));
+    assert_true(text_writer_finish(html, &err));
     assert_true(text_file_read(PATH, 1 << 24, &text, &size, &err));
     unlink(PATH);
     return text;
 }
 
-static void check(void (*write)(HtmlWriter *html), const char *expected)
+static void check(void (*write)(TextWriter *html), const char *expected)
 {
     char *text = written(write);
     assert_string_equal(text, expected);
     memory_free(text);
 }
 
-static void write_texts(HtmlWriter *html)
+static void write_texts(TextWriter *html)
 {
     html_markup(html, "<b a='%d'>", 3);
     html_text(html, "</b> & \"x\" 'y' \u00b5");
@@ -51,7 +51,7 @@ TEST(text_never_becomes_markup)
                        "\uFFFD\uFFFD\uFFFD(\uFFFD\t\n</b>");
 }
 
-static void write_numbers(HtmlWriter *html)
+static void write_numbers(TextWriter *html)
 {
     html_number(html, 0.32746, 3);
     html_raw(html, " ");
@@ -88,7 +88,7 @@ TEST(base64_is_that_of_rfc_4648)
 // Longer than any buffer of the writer.
 enum { LONG = 200000 };
 
-static void write_data(HtmlWriter *html)
+static void write_data(TextWriter *html)
 {
     Error err = {0};
     uint8_t *bytes = NEW_ARRAY(uint8_t, LONG, &err);
@@ -106,7 +106,7 @@ TEST(long_data_is_whole)
     memory_free(text);
 }
 
-static void write_too_much(HtmlWriter *html)
+static void write_too_much(TextWriter *html)
 {
     char words[3000];
     memset(words, 'x', sizeof words - 1);
@@ -118,17 +118,16 @@ TEST(a_failure_leaves_no_file)
 {
     Error err = {0};
     struct rlimit before, small = {.rlim_cur = 1000};
-    HtmlWriter *html = html_create(PATH, false, &err);
+    TextWriter *html = text_writer_create(PATH, false, &err);
     assert_non_null(html);
     signal(SIGXFSZ, SIG_IGN);
     getrlimit(RLIMIT_FSIZE, &before);
     small.rlim_max = before.rlim_max;
     setrlimit(RLIMIT_FSIZE, &small);
     write_too_much(html);
-    assert_false(html_finish(html, &err));
+    assert_false(text_writer_finish(html, &err));
     setrlimit(RLIMIT_FSIZE, &before);
     assert_int_equal(err.code, ERROR_FILE);
     assert_non_null(strstr(err.message, "File too large"));
     assert_int_not_equal(access(PATH, F_OK), 0);
-    html_abandon(NULL);
 }
