@@ -4,7 +4,7 @@
 #include "base/module.h"
 
 #include "base/memory.h"
-#include "base/place.h"
+#include "base/system.h"
 
 #include <dlfcn.h>
 #include <limits.h>
@@ -47,8 +47,8 @@ static bool module_find(const char *name, char path[MODULE_PATH_SIZE], Error *er
     const char *const places[] = {installed};
     bool named = given && given[0];
     snprintf(installed, sizeof installed, "amontons/amontons_%s.so", name);
-    if (!named && place_find(places, 1, path, MODULE_PATH_SIZE)) return true;
-    if (!named && !place_folder(folder, sizeof folder, err)) return false;
+    if (!named && system_find(places, 1, path, MODULE_PATH_SIZE)) return true;
+    if (!named && !system_folder(folder, sizeof folder, err)) return false;
     snprintf(path, MODULE_PATH_SIZE, "%s/amontons_%s.so", named ? given : folder, name);
     if (access(path, F_OK) == 0) return true;
     return FAULT(err, ERROR_LIBRARY,

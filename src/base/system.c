@@ -2,6 +2,8 @@
 #include "base/system.h"
 
 #include <dlfcn.h>
+#include <libgen.h>
+#include <limits.h>
 #include <link.h>
 #include <linux/magic.h>
 #include <sched.h>
@@ -25,7 +27,7 @@ bool system_program_path(char *path, size_t size)
 }
 
 // glibc knows the path of every shared object but the program's own, which has an empty name.
-bool system_object_path(const void *address, char *path, size_t size)
+static bool find_object_path(const void *address, char *path, size_t size)
 {
     Dl_info info;
     void *map = NULL;
@@ -33,6 +35,30 @@ bool system_object_path(const void *address, char *path, size_t size)
     const char *name = ((const struct link_map *)map)->l_name;
     snprintf(path, size, "%s", name);
     return name[0] != 0;
+}
+
+bool system_folder(char *folder, size_t size, Error *err)
+{
+    static const char here = 0;   // an address in this object
+    char path[PATH_MAX] = {0};
+    if (!find_object_path(&here, path, sizeof path) && !system_program_path(path, sizeof path))
+        return FAULT(err, ERROR_LIBRARY, "cannot tell where the program stands (/proc/self/exe)");
+    snprintf(folder, size, "%s", dirname(path));
+    return true;
+}
+
+bool system_find(const char *const *names, int32_t count, char *path, size_t size)
+{
+    Error unseen = {0};   // no folder: nothing is found in it
+    char folder[PATH_MAX] = {0};
+    path[0] = 0;
+    if (!system_folder(folder, sizeof folder, &unseen)) return false;
+    for (int32_t k = 0; k < count; k++) {
+        int length = snprintf(path, size, "%s/%s", folder, names[k]);
+        if (length > 0 && (size_t)length < size && access(path, F_OK) == 0) return true;
+    }
+    path[0] = 0;
+    return false;
 }
 
 int64_t system_address_space(void)

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Facts that Linux tells about this process, the program and its memory.
+// Facts that Linux tells about this process, the program, the library's folder and memory.
 #ifndef AMONTONS_BASE_SYSTEM_H
 #define AMONTONS_BASE_SYSTEM_H
+
+#include "base/error.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -12,8 +14,12 @@ int32_t system_processors(void);   // that this process may use
 
 // The path of the running program; false: not known. path: empty then.
 bool system_program_path(char *path, size_t size);
-// The path of the shared object that `address` lies in; false: it is in the program itself.
-bool system_object_path(const void *address, char *path, size_t size);
+// The folder of the shared library, or of the program or module, that this code is linked into. It
+// is found from that file, so that an installed tree may be moved.
+bool system_folder(char *folder, size_t size, Error *err);
+// The first of `names` ([count], "../share/amontons") below that folder that is there, with the
+// folder before it. false: none is; `path` is then empty.
+bool system_find(const char *const *names, int32_t count, char *path, size_t size);
 
 int64_t system_address_space(void);   // bytes that this process has mapped; 0: not known
 // True if so many more bytes could be mapped (ulimit -v, vm.overcommit_memory).

@@ -5,7 +5,7 @@
 #include "cli/commands.h"
 #include "cli/point_table.h"
 #include "cli/say.h"
-#include "cli/scene_words.h"
+#include "cli/options.h"
 
 #include <math.h>
 #include <stdio.h>

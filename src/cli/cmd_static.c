@@ -2,7 +2,7 @@
 // `amontons static`: one equilibrium, with the sums by which a user can judge it.
 #include "cli/commands.h"
 #include "cli/say.h"
-#include "cli/scene_words.h"
+#include "cli/options.h"
 
 #include <math.h>
 

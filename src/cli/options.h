@@ -56,6 +56,24 @@ void default_folder(const char *file, const char *ending, char *folder, size_t s
 // The value `word` of an option called `name`, a whole number from low to high. Status 0 or 2.
 int option_count(const char *name, const char *word, int32_t low, int32_t high, int32_t *count);
 
+// --- the words of every command on a scene: SCENE, -o, --set, --overwrite, --quiet, --trust ------
+
+typedef struct SceneWords {
+    const char *scene;
+    const char *folder;   // of -o; NULL: not given
+    OptionWords settings;   // "load.pressure=0.006"
+    bool overwrite, quiet, trust;
+} SceneWords;
+
+// Reads them, and the command's own options (a table that ends with {0}). The exit status, 0 or 2.
+int scene_words_read(const Command *command, const Option *own, int argc, char **argv,
+                     SceneWords *words);
+
+// Reads the scene with its settings; on failure it says why, and *scene is NULL. The exit status.
+int scene_words_open(const SceneWords *words, Scene **scene);
+
+// --- single options -----------------------------------------------------------------------------
+
 // `--overwrite`, of every command that writes one file; and the refusal of a file that is there and
 // was named by -o, as `named`: it may be anybody's. Status 0 or 2.
 Option option_overwrite(bool *overwrite);

@@ -4,7 +4,6 @@
 #include "base/memory.h"
 #include "fem/mesh_pieces.h"
 #include "model/place_formula.h"
-#include "scene/contact_laws.h"
 #include "scene/friction_law.h"
 
 #include <math.h>

@@ -9,7 +9,7 @@
 #include "io/files/open_file.h"
 #include "run/result/pictures.h"
 #include "run/warnings.h"
-#include "scene/window.h"
+#include "scene/programs.h"
 
 #include <math.h>
 #include <stdio.h>

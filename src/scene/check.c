@@ -7,7 +7,6 @@
 #include "friction/friction_make.h"
 #include "scene/materials.h"
 #include "scene/programs.h"
-#include "scene/window.h"
 
 #include <math.h>
 #include <stdarg.h>

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The friction law from the keys of a scene. Called by scene/scene_read and scene/contact_laws.
+// Friction laws from the keys of a scene: its own, and those of the items of friction.contacts.
+// Called by scene/scene_read and model/node_laws.
 #ifndef AMONTONS_SCENE_FRICTION_LAW_H
 #define AMONTONS_SCENE_FRICTION_LAW_H
 
-#include "scene/scene.h"
+#include "scene/value.h"
 
 // Completes a law that has its kind, mu_S, mu_K and v_c: the scene's, or that of an item of
 // contacts with its own formula. *key: of the map `friction`, which is wrong (ERROR_INPUT, with the
@@ -25,5 +26,16 @@ bool scene_law_at(const Scene *scene, double pressure, FrictionLaw *law, const c
 // Number of the quantity of the map `friction` that a formula calls by this name or symbol; -1:
 // none.
 int32_t scene_friction_number(const char *name);
+
+// Fills scene->contact_laws from the list `value`, when scene->friction is complete. ERROR_INPUT
+// shows the place.
+bool scene_contact_laws(const SceneValue *value, Scene *scene, Error *err);
+
+// The item has a law of its own; else it is that of the scene.
+bool scene_has_contact_law(const SceneContactLaw *item);
+
+// The law of an item: the scene's, with what the item says otherwise. pressure: nominal, stress.
+bool scene_contact_law(const Scene *scene, const SceneContactLaw *item, double pressure,
+                       FrictionLaw *law, Error *err);
 
 #endif

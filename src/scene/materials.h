@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The map `materials`: what differs from `material` in regions of the mesh. Read by
-// scene/scene_read, shown by scene/json and scene/key_reference, made into materials by
+// scene/scene_read, shown by scene/json and scene/key_words, made into materials by
 // model/regions.
 #ifndef AMONTONS_SCENE_MATERIALS_H
 #define AMONTONS_SCENE_MATERIALS_H

@@ -14,7 +14,6 @@
 
 #include "base/memory.h"
 #include "scene/check.h"
-#include "scene/contact_laws.h"
 #include "scene/formulas.h"
 #include "scene/friction_law.h"
 #include "scene/items.h"

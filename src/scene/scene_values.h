@@ -133,7 +133,7 @@ typedef struct SceneFrictionKeys {
 } SceneFrictionKeys;
 
 // Law of one contact curve that differs from the scene's: an item of friction.contacts
-// (scene/contact_laws).
+// (scene/friction_law).
 typedef struct SceneContactLaw {
     char group[GROUP_NAME_SIZE];
     bool has_law, has_static, has_kinetic, has_critical;   // what the item gives

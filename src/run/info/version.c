@@ -3,7 +3,7 @@
 #include "amontons.h"
 #include "base/child_process.h"
 #include "base/kernels.h"
-#include "base/place.h"
+#include "base/system.h"
 #include "build_record.h"
 
 #include <libgen.h>
@@ -45,7 +45,7 @@ bool amontons_data_folder(char folder[AMONTONS_PATH_SIZE])
     static const char *const places[] = {AMONTONS_DATA_FROM_LIBRARY "/meshes/block.geo",
                                          "../../meshes/block.geo"};
     char found[AMONTONS_PATH_SIZE], whole[PATH_MAX];
-    if (!place_find(places, 2, found, sizeof found) || !realpath(found, whole)) return false;
+    if (!system_find(places, 2, found, sizeof found) || !realpath(found, whole)) return false;
     int length = snprintf(folder, AMONTONS_PATH_SIZE, "%s", dirname(dirname(whole)));
     return length < AMONTONS_PATH_SIZE;
 }

@@ -3,7 +3,6 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
-#include "base/place.h"
 #include "base/process.h"
 #include "base/system.h"
 #include "io/text/text_writer.h"
@@ -120,7 +119,7 @@ bool slurm_write_script(const SlurmJobs *jobs, const char *path, const char *stu
     system_program_path(program, PATH_MAX);
     const char *name = strrchr(program, '/');
     bool is_ours = name && strncmp(name + 1, "amontons", 8) == 0;
-    if (!is_ours && !(place_find(places, 2, found, sizeof found) && realpath(found, program)))
+    if (!is_ours && !(system_find(places, 2, found, sizeof found) && realpath(found, program)))
         FAIL(err, ERROR_FILE,
              "cannot find the program `amontons`, which Slurm is to run: it is neither beside the "
              "library nor in %s of its folder",
