@@ -7,7 +7,6 @@
 // at least. Nothing allocates, so that the loop of steps may call all of it.
 #include "algebra/dense.h"
 
-#include "algebra/room.h"
 #include "base/system.h"
 
 #include <cblas.h>
@@ -82,7 +81,6 @@ bool dense_begin(Error *err)
 bool dense_cholesky(double *a, int32_t n)
 {
     int info = 0;
-    CHECK_ROOM(a, (int64_t)n * n);
     if (n > 0) dpotrf_("L", &n, a, &n, &info, 1);
     if (info != 0) return false;
     for (int64_t k = 0; k < n; k++) {   // LAPACK lets NaN pass
@@ -96,8 +94,6 @@ bool dense_cholesky(double *a, int32_t n)
 bool dense_lu(double *a, int32_t n, int32_t *pivots)
 {
     int info = 0;
-    CHECK_ROOM(a, (int64_t)n * n);
-    CHECK_ROOM(pivots, n);
     if (n > 0) dgetrf_(&n, &n, a, &n, pivots, &info);
     return info == 0;
 }
@@ -120,17 +116,12 @@ int dense_lu_sign(const double *lu, int32_t n, const int32_t *pivots)
 void dense_lu_solve(const double *lu, int32_t n, const int32_t *pivots, double *b)
 {
     int info = 0, one = 1;
-    CHECK_ROOM(lu, (int64_t)n * n);
-    CHECK_ROOM(pivots, n);
-    CHECK_ROOM(b, n);
     if (n > 0) dgetrs_("N", &n, &one, lu, &n, pivots, b, &n, &info, 1);
 }
 
 bool dense_lu_single(float *a, int32_t n, int32_t *pivots)
 {
     int info = 0;
-    CHECK_ROOM(a, (int64_t)n * n);
-    CHECK_ROOM(pivots, n);
     if (n > 0) sgetrf_(&n, &n, a, &n, pivots, &info);
     return info == 0;
 }
@@ -140,8 +131,6 @@ void dense_lu_single_solve(const float *lu, int32_t n, const int32_t *pivots, do
                            float *work)
 {
     int info = 0, one = 1;
-    CHECK_ROOM(lu, (int64_t)n * n);
-    CHECK_ROOM(pivots, n);
     double largest = dense_max_abs(b, n);
     if (largest == 0) return;
     for (int32_t k = 0; k < n; k++) work[k] = (float)(b[k] / largest);
@@ -159,7 +148,6 @@ void dense_symmetric_apply(const double *a, int32_t n, const double *x, double *
 bool dense_invert_factored(double *a, int32_t n)
 {
     int info = 0;
-    CHECK_ROOM(a, (int64_t)n * n);
     if (n > 0) dtrtri_("L", "N", &n, a, &n, &info, 1, 1);
     if (n > 0 && info == 0) dlauum_("L", &n, a, &n, &info, 1);
     dense_mirror(a, n);
@@ -180,9 +168,6 @@ bool dense_eigen_above(double *a, int32_t n, double least, double *values, doubl
     double *vectors = beside + size, *rest = vectors + size * size;
     int info = 0, wanted = 0, room = 1 + 4 * n + n * n, whole = 3 + 5 * n;
     if (n == 0) return true;
-    CHECK_ROOM(a, (int64_t)n * n);
-    CHECK_ROOM(values, n);
-    CHECK_ROOM(work, DENSE_EIGEN_WORK(n));
     dsytrd_("L", &n, a, &n, diagonal, beside, reflectors, rest, &room, &info, 1);
     memcpy(values, diagonal, (size_t)n * sizeof *values);
     memcpy(rest, beside, (size_t)n * sizeof *rest);
@@ -206,10 +191,6 @@ bool dense_eigen(double *a, int32_t n, double *values, double *work)
 bool dense_eigen_pair(double *a, double *b, int32_t n, double *values, double *work)
 {
     int info = 0, size = 1 + 6 * n + 2 * n * n, whole = 3 + 5 * n, kind = 1;
-    CHECK_ROOM(a, (int64_t)n * n);
-    CHECK_ROOM(b, (int64_t)n * n);
-    CHECK_ROOM(values, n);
-    if (n > 0) CHECK_ROOM(work, DENSE_EIGEN_WORK(n));
     if (n > 0)
         dsygvd_(&kind, "V", "L", &n, a, &n, b, &n, values, work, &size,
                 (int *)(void *)(work + size), &whole, &info, 1, 1);
@@ -221,11 +202,6 @@ bool dense_eigen_general(double *a, int32_t n, double *re, double *im, double *v
                          double *work)
 {
     int info = 0, size = (int)DENSE_EIGEN_WORK(n), one = 1;
-    CHECK_ROOM(a, (int64_t)n * n);
-    CHECK_ROOM(vectors, (int64_t)n * n);
-    CHECK_ROOM(re, n);
-    CHECK_ROOM(im, n);
-    if (n > 0) CHECK_ROOM(work, DENSE_EIGEN_WORK(n));
     if (n > 0)
         dgeev_("N", "V", &n, a, &n, re, im, NULL, &one, vectors, &n, work, &size, &info, 1, 1);
     return info == 0;
