@@ -203,22 +203,6 @@ void archive_new_octets(Archive *archive, uint8_t **octets, int64_t count, uint8
         archive_require(archive, (*octets)[k] < high);
 }
 
-void archive_lend_numbers(Archive *archive, double **numbers, int64_t count)
-{
-    char zeros[ARCHIVE_LINE] = {0};
-    pass_length(archive, count);
-    pass(archive, zeros, -archive->at & (ARCHIVE_LINE - 1), 1);
-    if (!archive_reads(archive)) {
-        pass(archive, *numbers, count, sizeof **numbers);
-        return;
-    }
-    int64_t left = (archive->size - archive->at) / (int64_t)sizeof **numbers;
-    archive_require(archive, count >= 0 && count <= left);
-    if (archive->failed) return;
-    *numbers = (double *)(void *)(archive->bytes + archive->at);
-    archive->at += count * (int64_t)sizeof **numbers;
-}
-
 bool archive_list(Archive *archive, void **list, int32_t *count, int32_t *room, size_t size,
                   Error *err)
 {

@@ -27,7 +27,7 @@ typedef enum ArchiveMode {
     ARCHIVE_READS
 } ArchiveMode;
 
-enum { ARCHIVE_NAME_SIZE = 24, ARCHIVE_LINE = 64 };
+enum { ARCHIVE_NAME_SIZE = 24 };
 
 // Takes the next bytes of an archive that is not in memory; false: it cannot.
 typedef bool (*ArchiveSend)(void *context, const void *bytes, int64_t size);
@@ -82,9 +82,6 @@ void archive_new_counts(Archive *archive, int64_t **counts, int64_t count);
 void archive_new_indices(Archive *archive, int32_t **indices, int64_t count, int32_t low,
                          int32_t high);
 void archive_new_octets(Archive *archive, uint8_t **octets, int64_t count, uint8_t high);
-// Numbers at a multiple of ARCHIVE_LINE bytes, which reading leaves where they are: *numbers points
-// into the archive's bytes.
-void archive_lend_numbers(Archive *archive, double **numbers, int64_t count);
 
 // A list that grows: its length and room, as memory_grow has them. Reading makes *list anew with
 // that room (owned by the caller, zeroed), for the caller to go through its `*count` items.

@@ -2,8 +2,9 @@
 // Each thread has counters of its own, so that simulations in several threads count what is theirs;
 // a module counts in those of the library that opened it (amontons_module_tally).
 // Every array begins at a multiple of 64 bytes, a cache line and the widest vector, and its size is
-// rounded up to whole lines, so that loops over it may be vectorised to its end. An array does
-// not know its length: its owner keeps it.
+// rounded up to whole lines, so that loops over it may be vectorised to its end. Some kernels of
+// OpenBLAS (Prescott's) round by where a vector lies in a line: an answer must not depend on where
+// an array was made. An array does not know its length: its owner keeps it.
 #include "base/memory.h"
 
 #include "base/system.h"

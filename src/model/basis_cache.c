@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A file is read in one piece and its matrices are used where they lie: the reduced bulk takes the
-// bytes over. Modes are several times as large and seldom wanted, so they have a file of their own.
+// Modes are several times as large as the rest and seldom wanted, so they have a file of their own.
 #include "model/basis_cache.h"
 
 #include <math.h>
@@ -43,7 +42,7 @@ static void archive_basis(void *self, Archive *archive)
     archive_index(archive, &reduced->part_count, 1, REDUCED_PARTS_MAX + 1);
     int32_t m = reduced->interface_count, n = reduced->mirrored, left = reduced->count - m - n;
     int32_t border = m + n, dofs = 0;
-    archive_lend_numbers(archive, &reduced->load, reduced->count);
+    archive_new_numbers(archive, &reduced->load, reduced->count);
     archive_new_numbers(archive, &reduced->rigid, (int64_t)rigid_count(reduced->dim) * (m + n));
     archive_require(archive, left >= 0);
     for (int p = 0; p < reduced->part_count; p++) {
@@ -58,15 +57,15 @@ static void archive_basis(void *self, Archive *archive)
         archive_index(archive, &errors->count, 0, REDUCTION_LEVELS_MAX + 1);
         archive_numbers(archive, errors->inertia, errors->count);
         archive_numbers(archive, errors->error, errors->count);
-        archive_lend_numbers(archive, &part->load, all);
-        archive_lend_numbers(archive, &part->mass, own * own);
-        archive_lend_numbers(archive, &part->coupling, (all - own) * own);
-        archive_lend_numbers(archive, &part->masses, all - own);
-        archive_lend_numbers(archive, &part->damping, all * all);
-        archive_lend_numbers(archive, &part->stiffness, own * own);
+        archive_new_numbers(archive, &part->load, all);
+        archive_new_numbers(archive, &part->mass, own * own);
+        archive_new_numbers(archive, &part->coupling, (all - own) * own);
+        archive_new_numbers(archive, &part->masses, all - own);
+        archive_new_numbers(archive, &part->damping, all * all);
+        archive_new_numbers(archive, &part->stiffness, own * own);
         archive_index(archive, &part->shape_count, 0, SPECTRUM_SHAPES_MAX + 1);
         for (int32_t j = 0; j < part->shape_count; j++)
-            archive_lend_numbers(archive, &part->shape[j], all * all);
+            archive_new_numbers(archive, &part->shape[j], all * all);
         archive_images(&part->border, part->border_count, m + n, archive);
         border -= part->border_count;
         left -= part->interior_count;
@@ -93,8 +92,8 @@ bool basis_cache_load(const char *name, bool with_modes, ReducedBulk *reduced, b
     const CacheItem basis = {CACHE_BASIS, name, archive_basis, reduced};
     const CacheItem modes = {CACHE_MODES, name, archive_modes, reduced};
     *reduced = (ReducedBulk){0};
-    TRY(cache_load(&basis, &reduced->storage, found, note, err));
-    if (*found && with_modes) TRY(cache_load(&modes, NULL, found, note, err));
+    TRY(cache_load(&basis, found, note, err));
+    if (*found && with_modes) TRY(cache_load(&modes, found, note, err));
 cleanup:
     if (!*found || !error_is_clean(err)) reduced_bulk_destroy(reduced);
     return error_is_clean(err);

@@ -33,16 +33,8 @@ void reduced_part_destroy(ReducedPart *part)
 
 void reduced_bulk_destroy(ReducedBulk *reduced)
 {
-    for (int p = 0; p < REDUCED_PARTS_MAX; p++) {
-        ReducedPart *part = &reduced->part[p];
-        for (int32_t j = 0; reduced->storage && j < part->shape_count; j++) part->shape[j] = NULL;
-        if (reduced->storage)
-            part->stiffness = part->mass = part->coupling = part->masses = part->damping =
-                part->load = NULL;
-        reduced_part_destroy(part);
-    }
-    if (!reduced->storage) memory_free(reduced->load);
-    memory_free_all(reduced->rigid, reduced->storage);
+    for (int p = 0; p < REDUCED_PARTS_MAX; p++) reduced_part_destroy(&reduced->part[p]);
+    memory_free_all(reduced->load, reduced->rigid);
     *reduced = (ReducedBulk){0};
 }
 

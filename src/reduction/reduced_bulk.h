@@ -75,7 +75,6 @@ typedef struct ReducedBulk {
     double
         *rigid;   // [rigid_count(dim)][interface + mirrored] lengths over L, from the trailing end
     // on; all interior stays at 0; owned; NULL: none are asked for
-    double *storage;   // the array that loads and the parts' matrices lie in (a file's); NULL: none
     BulkScales scales;
     Spectrum spectrum;   // of the materials' branches, times in the scene's unit; share * S_j of a
         // part is a stiffness of the scene

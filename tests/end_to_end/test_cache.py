@@ -379,7 +379,7 @@ class NotTrusted(Cached):
         self.run_scene(*PLAIN)
         half = lambda data: data[:len(data) // 2]
         flip = lambda data: data[:5000] + bytes([data[5000] ^ 1]) + data[5001:]
-        older = lambda data: data.replace(b"amontons-cache 5", b"amontons-cache 4", 1)
+        older = lambda data: data.replace(b"amontons-cache 6", b"amontons-cache 5", 1)
         for change, reason in ((half, "cut off"), (flip, "checksum"), (older, "version"),
                                (lambda data: b"", "version"),
                                (lambda data: data + b"x", "checksum")):

@@ -18,7 +18,7 @@ static void put(const char *ending, char *bytes, int64_t size)
     char path[sizeof folder + 48], digest[HASH_TEXT_SIZE];
     Hash hash = hash_start();
     memset(bytes, 0, HEAD);
-    memcpy(bytes, "amontons-cache 5", 16);
+    memcpy(bytes, "amontons-cache 6", 16);
     memcpy(bytes + 16, KEY, KEY_SIZE);
     memcpy(bytes + 16 + KEY_SIZE, ending, strlen(ending));
     memcpy(bytes + HEAD - sizeof size, &size, sizeof size);

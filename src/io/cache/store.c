@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Bytes go into the file, and into its checksum, by blocks. They begin at a multiple of
-// ARCHIVE_LINE, as arrays of base/memory do, and so do those that are lent: some kernels of
-// OpenBLAS (Prescott's) round by where a vector lies in a line, and an answer must not depend on
-// whether a basis was read or made.
+// Bytes go into the file, and into its checksum, by blocks.
 #include "io/cache/store.h"
 
 #include "base/hash.h"
@@ -34,12 +31,11 @@ typedef struct Head {
     char magic[16], key[KEY_SIZE], ending[8];
     int64_t size;   // bytes between head and checksum
 } Head;
-_Static_assert(sizeof(Head) == ARCHIVE_LINE, "what follows would not begin with a line");
 
 static Head make_head(const CacheItem *item, int64_t size)
 {
     Head head = {.size = size};
-    memcpy(head.magic, "amontons-cache 5", sizeof head.magic);   // without its NUL
+    memcpy(head.magic, "amontons-cache 6", sizeof head.magic);   // without its NUL
     memcpy(head.key, item->key, strnlen(item->key, KEY_SIZE));
     memcpy(head.ending, endings[item->kind], strlen(endings[item->kind]));
     return head;
@@ -82,7 +78,7 @@ static const char *find_fault(const CacheItem *item, const char *bytes, int64_t 
     return NULL;
 }
 
-bool cache_load(const CacheItem *item, double **lent, bool *found, char *note, Error *err)
+bool cache_load(const CacheItem *item, bool *found, char *note, Error *err)
 {
     char path[PATH_SIZE];
     void *bytes = NULL;
@@ -116,10 +112,7 @@ bool cache_load(const CacheItem *item, double **lent, bool *found, char *note, E
     if (fault && note)
         snprintf(note, CACHE_NOTE_SIZE, "a cached %s is not used: %s", names[item->kind], fault);
 cleanup:
-    if (lent)
-        *lent = bytes;
-    else
-        memory_free(bytes);
+    memory_free(bytes);
     return error_is_clean(err);
 }
 

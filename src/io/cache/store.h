@@ -30,9 +30,7 @@ typedef struct CacheItem {
 
 // *found: it is there, whole, and all was as `list` wants it; else the caller destroys what was
 // made of it, and `note` (NULL: nobody asks) says what is wrong with a file that is there.
-// *lent: what arrays that were lent (archive_lend_numbers) lie in, whatever was found: the caller's
-// to free. NULL: none is lent.
-bool cache_load(const CacheItem *item, double **lent, bool *found, char *note, Error *err);
+bool cache_load(const CacheItem *item, bool *found, char *note, Error *err);
 
 // Written beside and renamed. Where another process is writing the same nothing is done. Where the
 // cache is then above its limit, files unused for the longest time go. false: it is not kept, and

@@ -135,8 +135,7 @@ void mesh_archive(void *self, Archive *archive)
 bool mesh_cache_load(const char *key, MeshFile *mesh, bool *found, Error *err)
 {
     *mesh = (MeshFile){0};
-    bool done =
-        cache_load(&(CacheItem){CACHE_MESH, key, mesh_archive, mesh}, NULL, found, NULL, err);
+    bool done = cache_load(&(CacheItem){CACHE_MESH, key, mesh_archive, mesh}, found, NULL, err);
     if (!*found) mesh_file_destroy(mesh);
     return done;
 }

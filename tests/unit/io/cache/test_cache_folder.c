@@ -85,7 +85,7 @@ static void read_cache(char letter)
     bool found = false;
     memset(key, letter, 32);
     const CacheItem item = {CACHE_MESH, key, archive_values, values};
-    assert_true(cache_load(&item, NULL, &found, NULL, &err));
+    assert_true(cache_load(&item, &found, NULL, &err));
     assert_true(found);
 }
 

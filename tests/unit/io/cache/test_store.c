@@ -30,15 +30,21 @@ static int32_t count_files(const char *ending)
 // The entry of these tests.
 typedef struct Thing {
     int32_t count;
-    double *numbers, *odd;   // [count], lent; [6], made
+    double *numbers, *odd;   // [count]; [6]
 } Thing;
 
 static void thing_archive(void *self, Archive *archive)
 {
     Thing *thing = self;
     archive_length(archive, &thing->count);
-    archive_lend_numbers(archive, &thing->numbers, thing->count);
+    archive_new_numbers(archive, &thing->numbers, thing->count);
     archive_new_numbers(archive, &thing->odd, 6);
+}
+
+static void thing_destroy(Thing *thing)
+{
+    memory_free_all(thing->numbers, thing->odd);
+    *thing = (Thing){0};
 }
 
 static void less_archive(void *self, Archive *archive)
@@ -71,29 +77,26 @@ static void write_thing(int32_t count)
     if (!cache_store(&item, note)) fail_msg("%s", note);
 }
 
-// *note is empty where it is good or missing. lent, thing->odd: the caller's to free.
-static bool read_thing(const char *key, Thing *thing, double **lent, char note[CACHE_NOTE_SIZE])
+// *note is empty where it is good or missing. thing->numbers and thing->odd: the caller's to free.
+static bool read_thing(const char *key, Thing *thing, char note[CACHE_NOTE_SIZE])
 {
     Error err = {0};
     bool found = true;
     const CacheItem item = item_of(key, thing);
     *thing = (Thing){0};
-    *lent = NULL;
     note[0] = 0;
-    if (!cache_load(&item, lent, &found, note, &err)) fail_msg("%s", err.message);
+    if (!cache_load(&item, &found, note, &err)) fail_msg("%s", err.message);
     return found;
 }
 
 static void assert_refused(const char *what)
 {
     Thing thing;
-    double *lent;
     char note[CACHE_NOTE_SIZE];
     int64_t live = memory_counters().live;
-    if (read_thing(KEY, &thing, &lent, note)) fail_msg("%s is trusted", what);
+    if (read_thing(KEY, &thing, note)) fail_msg("%s is trusted", what);
     if (!strstr(note, "a cached basis is not used: it")) fail_msg("%s: %s", what, note);
-    memory_free(lent);
-    assert_null(thing.odd);
+    assert_true(!thing.numbers && !thing.odd);
     assert_int_equal(memory_counters().live, live);
 }
 
@@ -105,23 +108,21 @@ static void path_of(const char *key, char path[2 * PLACE_SIZE])
 TEST_BETWEEN(test_round_trip, cache_begin, cache_end)
 {
     Thing thing;
-    double *lent;
     char note[CACHE_NOTE_SIZE];
     static const int32_t counts[] = {0, 1, SHORT_ARRAY, LONG_ARRAY, LONG_ARRAY, 8192 - 24};
     int64_t live = memory_counters().live;
-    assert_false(read_thing(KEY, &thing, &lent, note));   // missing is no fault
+    assert_false(read_thing(KEY, &thing, note));   // missing is no fault
     assert_string_equal(note, "");
     for (size_t round = 0; round < sizeof counts / sizeof *counts; round++) {   // over itself, too
         write_thing(counts[round]);
-        assert_true(read_thing(KEY, &thing, &lent, note));
+        assert_true(read_thing(KEY, &thing, note));
         assert_string_equal(note, "");
         assert_int_equal(thing.count, counts[round]);
         assert_int_equal((uintptr_t)thing.numbers % 64, 0);   // as a basis that was just made
         assert_memory_equal(thing.odd, odd, sizeof odd);
         if (thing.count > 0)
             assert_memory_equal(thing.numbers, numbers, (size_t)thing.count * sizeof(double));
-        memory_free(thing.odd);
-        memory_free(lent);
+        thing_destroy(&thing);
     }
     assert_int_equal(count_files(".part"), 0);
     assert_int_equal(memory_counters().live, live);
@@ -151,7 +152,7 @@ TEST_BETWEEN(test_every_cut, cache_begin, cache_end)
     path_of(KEY, path);
     write_thing(SHORT_ARRAY);
     char *bytes = slurp(path, &size);
-    assert_int_equal(size, 64 + (64 + SHORT_ARRAY * 8) + (8 + 6 * 8) + 32);
+    assert_int_equal(size, 64 + (4 + 8 + SHORT_ARRAY * 8) + (8 + 6 * 8) + 32);
     for (size_t length = 0; length < size; length++) {
         spill(path, bytes, length);
         assert_refused("a cut file");
@@ -168,7 +169,6 @@ TEST_BETWEEN(test_every_cut, cache_begin, cache_end)
 TEST_BETWEEN(test_every_byte, cache_begin, cache_end)
 {
     Thing thing;
-    double *lent;
     char path[2 * PLACE_SIZE], note[CACHE_NOTE_SIZE];
     size_t size;
     path_of(KEY, path);
@@ -189,9 +189,8 @@ TEST_BETWEEN(test_every_byte, cache_begin, cache_end)
         bytes[at] = kept;
     }
     spill(path, bytes, size);
-    assert_true(read_thing(KEY, &thing, &lent, note));   // it was the byte, not the test
-    memory_free(thing.odd);
-    memory_free(lent);
+    assert_true(read_thing(KEY, &thing, note));   // it was the byte, not the test
+    thing_destroy(&thing);
     // Sizes that would reach beyond the file, or wrap around.
     const int64_t sizes[] = {41, 1000, INT64_MAX, INT64_MAX / 8 + 1, INT64_MIN, -2, 1LL << 61};
     for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
@@ -207,48 +206,42 @@ TEST_BETWEEN(test_other_contents, cache_begin, cache_end)
 {
     char path[2 * PLACE_SIZE], other[2 * PLACE_SIZE], note[CACHE_NOTE_SIZE] = "";
     Thing thing = {SHORT_ARRAY, numbers, odd};
-    double *lent;
     CacheItem item = item_of(KEY, &thing);
     item.kind = CACHE_MODES;
     assert_true(cache_store(&item, note));
     path_of(KEY, path);
     snprintf(other, sizeof other, "%s/%s.modes", cache, KEY);
     assert_int_equal(rename(other, path), 0);
-    assert_false(read_thing(KEY, &thing, &lent, note));
+    assert_false(read_thing(KEY, &thing, note));
     assert_string_equal(note, "a cached basis is not used: it belongs to another shape");
-    memory_free(lent);
     item.kind = CACHE_BASIS;
     for (int k = 0; k < 2; k++) {
         thing = (Thing){SHORT_ARRAY, numbers, odd};
         item.list = k == 0 ? less_archive : more_archive;
         assert_true(cache_store(&item, note));
-        assert_false(read_thing(KEY, &thing, &lent, note));
+        assert_false(read_thing(KEY, &thing, note));
         assert_string_equal(note, "a cached basis is not used: an array is missing or wrong");
-        memory_free(lent);
-        memory_free(thing.odd);
+        thing_destroy(&thing);
     }
 }
 
 TEST_BETWEEN(test_foreign_files, cache_begin, cache_end)
 {
     Thing thing;
-    double *lent;
     char path[2 * PLACE_SIZE], other[2 * PLACE_SIZE], note[CACHE_NOTE_SIZE];
     path_of(KEY, path);
     path_of(OTHER, other);
     write_thing(SHORT_ARRAY);
     assert_int_equal(rename(path, other), 0);
-    assert_false(read_thing(OTHER, &thing, &lent, note));
+    assert_false(read_thing(OTHER, &thing, note));
     assert_string_equal(note, "a cached basis is not used: it belongs to another shape");
-    memory_free(lent);
     write_thing(SHORT_ARRAY);
     size_t size;
     char *bytes = slurp(path, &size);
     bytes[15]++;   // the version's digit
     spill(path, bytes, size);
-    assert_false(read_thing(KEY, &thing, &lent, note));
+    assert_false(read_thing(KEY, &thing, note));
     assert_string_equal(note, "a cached basis is not used: it is not a cache file of this version");
-    memory_free(lent);
     bytes[15]--;
     char *junk = malloc(1 << 16);
     Random random = {.state = 32};
@@ -263,7 +256,7 @@ TEST_BETWEEN(test_foreign_files, cache_begin, cache_end)
     free(bytes);
     assert_int_equal(unlink(path), 0);
     assert_int_equal(mkdir(path, 0777), 0);   // as good as missing
-    assert_false(read_thing(KEY, &thing, &lent, note));
+    assert_false(read_thing(KEY, &thing, note));
     assert_string_equal(note, "");
 }
 
@@ -272,7 +265,6 @@ TEST_BETWEEN(test_many_writers, cache_begin, cache_end)
 {
     enum { WRITERS = 4, ROUNDS = 25 };
     Thing thing;
-    double *lent;
     char note[CACHE_NOTE_SIZE];
     pid_t child[WRITERS];
     write_thing(LONG_ARRAY);
@@ -290,23 +282,21 @@ TEST_BETWEEN(test_many_writers, cache_begin, cache_end)
     // On a busy machine all may have ended before the first look: then that is the last, too.
     for (int32_t left = WRITERS; left > 0 || seen == 0;) {
         int status;
-        if (read_thing(KEY, &thing, &lent, note)) {
+        if (read_thing(KEY, &thing, note)) {
             seen++;
             assert_true(thing.numbers[0] < WRITERS);
             assert_memory_equal(thing.numbers + 1, numbers + 1, (LONG_ARRAY - 1) * sizeof(double));
         }
         assert_string_equal(note, "");
-        memory_free(thing.odd);
-        memory_free(lent);
+        thing_destroy(&thing);
         pid_t ended = waitpid(-1, &status, WNOHANG);
         if (ended <= 0) continue;
         failed += !(WIFEXITED(status) && WEXITSTATUS(status) == 0);
         left--;
     }
     assert_int_equal(failed, 0);   // who comes second gives way, without an error
-    assert_true(read_thing(KEY, &thing, &lent, note));
-    memory_free(thing.odd);
-    memory_free(lent);
+    assert_true(read_thing(KEY, &thing, note));
+    thing_destroy(&thing);
     assert_int_equal(count_files(".part"), 0);
 }
 
@@ -362,17 +352,15 @@ TEST_BETWEEN(test_memory_faults, cache_begin, cache_end)
     for (int32_t k = 0; !done; k++) {
         Error err = {0};
         Thing thing = {0};
-        double *lent = NULL;
         const CacheItem item = item_of(KEY, &thing);
         memory_fail_after(k);
-        done = cache_load(&item, &lent, &found, note, &err);
+        done = cache_load(&item, &found, note, &err);
         memory_fail_after(-1);
         assert_int_equal(err.code, done ? ERROR_NONE : ERROR_MEMORY);
         assert_int_equal(found, done);
-        memory_free(thing.odd);
-        memory_free(lent);
+        thing_destroy(&thing);
         assert_int_equal(memory_counters().live, live);
-        assert_true(k < 5);
+        assert_true(k < 6);
     }
     Thing thing = {SHORT_ARRAY, numbers, odd};
     const CacheItem item = item_of(KEY, &thing);
