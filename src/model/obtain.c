@@ -9,7 +9,7 @@
 #include "fem/floor.h"
 #include "fem/mesh_locate.h"
 #include "reduction/mirror.h"
-#include "reduction/symmetry_reduction.h"
+#include "reduction/reduction.h"
 #include "reduction/reduction_block.h"
 #include "io/cache/cache_folder.h"
 #include "model/assemble.h"
@@ -96,8 +96,8 @@ static bool build_basis(Model *model, const ReductionBlock *block, const char *n
     FileLock lock = {0};
     if (cache_lock(name, &lock)) TRY(load_basis(model, block, name, err));
     if (model->from_cache) goto cleanup;
-    model->is_reduced = symmetry_reduction_build(&block->bulk, interface->dofs, interface->count,
-                                                 &def, &model->reduced, err);
+    model->is_reduced = reduction_build(&block->bulk, interface->dofs, interface->count, &def,
+                                        &model->reduced, err);
     malloc_trim(0);   // what a reduction needs at once nothing needs afterwards
     if (model->is_reduced) {
         basis_cache_store(name, &model->reduced, model->cache_note);

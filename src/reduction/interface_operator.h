@@ -5,10 +5,10 @@
 //     M u'' + C u' + K u = f + G' r
 //
 // (with the forces of its materials' branches, fem/spectrum) and asks for A = m M + c C + k K, with
-// what branches add to it (reduction/operator_terms), condensed on the interface, S v_b = g + r_b,
-// and for v from v_b. There are two kinds. Full: the unknowns of the mesh, A factored by CHOLMOD
-// with the interface last. Reduced (reduction/reduction): the interface first, then a small
-// interior basis, dense.
+// what branches add to it (OperatorTerms in reduction/reduced_operator), condensed on the
+// interface, S v_b = g + r_b, and for v from v_b. There are two kinds. Full: the unknowns of the
+// mesh, A factored by CHOLMOD with the interface last. Reduced (reduction/reduction): the interface
+// first, then a small interior basis, dense.
 #ifndef AMONTONS_REDUCTION_INTERFACE_OPERATOR_H
 #define AMONTONS_REDUCTION_INTERFACE_OPERATOR_H
 

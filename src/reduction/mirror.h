@@ -4,7 +4,7 @@
 // that are opposite; one that is its own image along two axes of the floor is four of a quarter.
 // Sparse factors, products and eigenvalues of all together take a quarter to a half of what the
 // whole does. Forces need not be alike on both sides.
-// Called by model/obtain; reduced by reduction/symmetry_reduction.
+// Called by model/obtain, reduction/reduction and reduction/reduction_block.
 #ifndef AMONTONS_REDUCTION_MIRROR_H
 #define AMONTONS_REDUCTION_MIRROR_H
 
@@ -26,7 +26,14 @@ typedef struct Mirror {
     MirrorPart part[REDUCED_PARTS_MAX];
 } Mirror;
 
-// node_image: [DIM_MAX - 1], NULL or [nodes] (reduction/mirror_nodes). interface_dofs: [m] unknowns
+// position: [nodes * dim]. Nodes and images across `axis` that differ by 3e-9 of the length along
+// it at most (three steps of reduction/reduction_block's grid; a mesher's two sides differ by less
+// than one) are put in the middle, so that images are exact. *image: [nodes], of nodes in the
+// middle their own; the caller's; NULL: some have none, and nothing is moved.
+bool mirror_nodes_find(int32_t dim, int32_t axis, double *position, int32_t nodes, int32_t **image,
+                       Error *err);
+
+// node_image: [DIM_MAX - 1], NULL or [nodes] (mirror_nodes_find). interface_dofs: [m] unknowns
 // of `bulk`. No error if it is none.
 bool mirror_find(const Bulk *bulk, int32_t *const *node_image, const int32_t *interface_dofs,
                  int32_t m, Mirror *mirror, Error *err);

@@ -12,9 +12,9 @@
 // border, so that forces are split and joined as motions are.
 //
 // All matrices are normalised: K/E, C/eta, M/(rho L^2) with lengths over L, as those of the shapes
-// of materials' branches are (fem/spectrum); so one serves every
-// size and stiffness of a shape. Built by reduction/reduction and reduction/symmetry_reduction,
-// stored by model/basis_cache, used through reduction/interface_operator.
+// of materials' branches are (fem/spectrum); so one serves every size and stiffness of a shape.
+// Built by reduction/reduction, stored by model/basis_cache, used through
+// reduction/interface_operator.
 #ifndef AMONTONS_REDUCTION_REDUCED_BULK_H
 #define AMONTONS_REDUCTION_REDUCED_BULK_H
 

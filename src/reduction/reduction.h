@@ -20,7 +20,7 @@
 //
 // get their responses added (reduction/reduction.c). The first term: an energy goes with the square
 // of what is left out. The second: where inertia acts within an element the mesh itself is no
-// better. Called by reduction/symmetry_reduction; used through reduction/interface_operator; stored
+// better. Called by model/obtain; used through reduction/interface_operator; stored
 // by model/basis_cache.
 #ifndef AMONTONS_REDUCTION_REDUCTION_H
 #define AMONTONS_REDUCTION_REDUCTION_H
@@ -45,8 +45,10 @@ typedef struct ReductionDef {
     void *self;   // of goes_on; not owned
 } ReductionDef;
 
-// interface_dofs: [interface_count] unknowns of `bulk` that stay: the border of a part by itself.
-bool reduction_build(const Bulk *bulk, const int32_t *interface_dofs, int32_t interface_count,
-                     const ReductionDef *def, ReducedPart *part, Error *err);
+// Reduces the block as it is or, where it is its own mirror image, as two or four parts
+// (reduction/mirror), each for itself. What is taken out of the border afterwards makes no error
+// larger: it is below the largest of the parts'. interface_dofs: [m] unknowns of `bulk`.
+bool reduction_build(const Bulk *bulk, const int32_t *interface_dofs, int32_t m,
+                     const ReductionDef *def, ReducedBulk *reduced, Error *err);
 
 #endif

@@ -2,7 +2,7 @@
 #include "reduction/reduction_block.h"
 
 #include "base/memory.h"
-#include "reduction/mirror_nodes.h"
+#include "reduction/mirror.h"
 
 #include <math.h>
 

@@ -4,7 +4,6 @@
 #include "base/memory.h"
 #include "fem/mesh.h"
 #include "reduction/mirror.h"
-#include "reduction/mirror_nodes.h"
 
 #include <string.h>
 

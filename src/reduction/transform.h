@@ -2,7 +2,7 @@
 // Other unknowns y for those of a bulk, x = T y: images at a mirror line, few modes in place of
 // what is far from the interface. T is sparse, its columns in blocks of the same rows; each row is
 // in one block, or in none: that unknown stays 0. Called by reduction/mirror, reduction/far_field
-// and those of reduction/symmetry_reduction.
+// and reduction/reduction.
 #ifndef AMONTONS_REDUCTION_TRANSFORM_H
 #define AMONTONS_REDUCTION_TRANSFORM_H
 

@@ -4,9 +4,9 @@
 //
 //     e_k = (e_k* + h v)/(1 + h/tau_k),   e_k* = e_k,n + dt sum_j<i a_ij (v_j - e_k,j/tau_k),
 //
-// so that what is left of them in A v = rhs is h/(1 + h/tau_k) K_k, as operator_terms has it. K_k v
-// is a sum of the few S_j v, so that branches cost no products of their own. Called by
-// stepping/sdirk and stepping/explicit_reference.
+// so that what is left of them in A v = rhs is h/(1 + h/tau_k) K_k, as reduction/reduced_operator
+// has it. K_k v is a sum of the few S_j v, so that branches cost no products of their own. Called
+// by stepping/sdirk and stepping/explicit_reference.
 #ifndef AMONTONS_STEPPING_BRANCHES_H
 #define AMONTONS_STEPPING_BRANCHES_H
 

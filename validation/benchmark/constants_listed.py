@@ -213,13 +213,13 @@ NOT_A_CHOICE = {
     "reduction/training_points.h": {"TRAINING_VISCOSITIES_MAX": SIZE, "TRAINING_POINTS_MAX": SIZE},
     "reduction/transform.h": {"NO_BLOCK": "none"},
     "reduction/mirror.c": {"AXES_MAX": "of the floor", "ALIKE": "rounding", "NONE": "none",
-                      "MIRRORED_MAX": "far above a rod's nodes, far below a contact on one side"},
+                      "MIRRORED_MAX": "far above a rod's nodes, far below a contact on one side",
+                      "APART": "rounding of two nodes to the grid", "SLANT": "any that is no ratio of small numbers"},
     "reduction/symmetric_part.c": {"ACROSS": "It is the axis across the mirror, y."},
     "reduction/reduction_block.c": {
         "BASE_APART": "It keeps nodes of the block and of the base apart that stand at one place; as a number of the grid "
                       "it adds no rounding."},
-    "reduction/mirror_nodes.c": {"APART": "rounding of two nodes to the grid", "SLANT": "any that is no ratio of small numbers"},
-    "reduction/operator_terms.h": {"BULK_TERMS": "K, C, M",
+    "reduction/reduced_operator.h": {"BULK_TERMS": "K, C, M",
                                     "BULK_TERMS_MAX": "It counts K, C, M and all shape matrices that there is room for."},
     "reduction/responses.h": {"RESPONSE_BLOCKS_MAX": SIZE,
                        "RESPONSES_TOGETHER": "columns whose image stays in the cache"},
@@ -258,7 +258,7 @@ NOT_A_CHOICE = {
         "SPECTRUM_TIMES_MAX": "It is room of an array; a scene with more relaxation times is refused."},
     "fem/assembly.c": {"ROUNDING": "rounding of an integral that is 0"},
     "reduction/responses.c": {"FAR": "condition of two equations"},
-    "reduction/symmetry_reduction.c": {"TOGETHER": "parts in memory at once"},
+    "reduction/reduction.c": {"TOGETHER": "parts in memory at once"},
     "reduction/factored_points.c": {"SLOTS_MAX": "factors in memory at once"},
     "record/observation.c": {"CREEP": "of V: what counts as at rest where nothing ever sticks; no scene of the table has such a law"},
     "record/events.c": {

@@ -6,7 +6,7 @@
 #include "algebra/dense.h"
 #include "block_mesh.h"
 #include "reduction/interface_operator.h"
-#include "reduction/symmetry_reduction.h"
+#include "reduction/reduction.h"
 #include "dense_by_hand.h"
 #include "energy_differences.h"
 #include "marked_layer.h"
@@ -59,9 +59,8 @@ static inline void reduced_block_build_of(const BlockDef *shape, Materials mater
                                 .modes = true,
                                 .position = block->mesh.position,
                                 .scales = block_scales(&block->mesh, &materials.mean, largest)};
-    if (tolerance > 0 &&
-        !symmetry_reduction_build(&block->bulk, block->dofs, block->interface_count, &block->def,
-                                  &block->reduced, &err))
+    if (tolerance > 0 && !reduction_build(&block->bulk, block->dofs, block->interface_count,
+                                          &block->def, &block->reduced, &err))
         fail_msg("%s", err.message);
 }
 

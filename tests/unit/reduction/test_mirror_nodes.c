@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Nodes and their images, by hand: those a little apart are put in the middle, one without an image
 // leaves all as it was.
-#include "reduction/mirror_nodes.h"
+#include "reduction/mirror.h"
 
 #include "base/memory.h"
 

@@ -200,8 +200,8 @@ TEST(test_ended_between_points)
         Error err = {0};
         int32_t left = points;
         block.def.self = &left;
-        assert_false(symmetry_reduction_build(&block.bulk, block.dofs, block.interface_count,
-                                              &block.def, &block.reduced, &err));
+        assert_false(reduction_build(&block.bulk, block.dofs, block.interface_count, &block.def,
+                                     &block.reduced, &err));
         assert_int_equal(err.code, ERROR_INTERRUPT);
         assert_int_equal(left, -1);   // asked once more, and no more
         reduced_bulk_destroy(&block.reduced);
@@ -222,8 +222,8 @@ TEST(test_memory_faults)
         BulkOperator system = {0};
         memory_fail_after(k);
         InterfaceOperator *level = NULL;
-        done = symmetry_reduction_build(&block.bulk, block.dofs, block.interface_count, &block.def,
-                                        &block.reduced, &err) &&
+        done = reduction_build(&block.bulk, block.dofs, block.interface_count, &block.def,
+                               &block.reduced, &err) &&
                bulk_operator_reduce(&block.reduced, 1, 1, &system, &err) &&
                (level = interface_operator_create(
                     &system, (OperatorTerms){.mass = 1, .damping = 1, .stiffness = 1}, &err));

@@ -2,7 +2,7 @@
 // Blocks of elements in space, reduced in their four parts, in two and as they are, against their
 // full matrices, dense and by hand: S within what the reduction allows, products and solves to
 // rounding, rigid motions that nothing resists.
-#include "reduction/mirror_nodes.h"
+#include "reduction/mirror.h"
 #include "reduction/symmetric_part.h"
 #include "space_mesh.h"
 #include "unit/reduction/reduced_checks.h"
@@ -75,8 +75,8 @@ static void build(const SpaceCase *one, ReducedBlock *block)
                        .scales = {MATERIAL.young * length, (MATERIAL.eta1 + MATERIAL.eta2) * length,
                                   MATERIAL.density * length * length * length,
                                   dense_max_abs(block->bulk.load, block->bulk.dof_count)}};
-    if (!symmetry_reduction_build(&block->bulk, block->dofs, block->interface_count, &block->def,
-                                  &block->reduced, &err))
+    if (!reduction_build(&block->bulk, block->dofs, block->interface_count, &block->def,
+                         &block->reduced, &err))
         fail_msg("%s", err.message);
     assert_int_equal(block->reduced.part_count, one->parts);
     for (int32_t axis = 0; axis < 2; axis++) memory_free(image[axis]);

@@ -5,7 +5,7 @@
 
 #include "algebra/dense.h"
 #include "block_mesh.h"
-#include "reduction/symmetry_reduction.h"
+#include "reduction/reduction.h"
 #include "dense_by_hand.h"
 #include "own_laws.h"
 
@@ -284,8 +284,8 @@ static int32_t check_block(FrictionLaw law, double length, double pressure, bool
         ReductionDef how = {.tolerance = 1e-3,
                             .scales = {1, 2, length * length, 1},
                             .materials = materials_of(material)};
-        assert_true(symmetry_reduction_build(&test.bulk, test.interface.dofs, test.interface.count,
-                                             &how, &test.reduced, &err));
+        assert_true(reduction_build(&test.bulk, test.interface.dofs, test.interface.count, &how,
+                                    &test.reduced, &err));
         assert_true(bulk_operator_reduce(&test.reduced, 1, 1, &test.system, &err));
     }
     test.stiffness = machine;

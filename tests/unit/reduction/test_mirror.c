@@ -5,8 +5,7 @@
 // is its own mirror image.
 #include "base/memory.h"
 #include "reduction/mirror.h"
-#include "reduction/mirror_nodes.h"
-#include "reduction/symmetry_reduction.h"
+#include "reduction/reduction.h"
 #include "unit/reduction/reduced_checks.h"
 
 static const Material MATERIAL = {
@@ -47,8 +46,8 @@ static void find_mirror(const ReducedBlock *block, Mirror *mirror)
 static bool reduce(ReducedBlock *block, int32_t *image, Error *err)
 {
     block->def.node_image = &image;
-    return symmetry_reduction_build(&block->bulk, block->dofs, block->interface_count, &block->def,
-                                    &block->reduced, err);
+    return reduction_build(&block->bulk, block->dofs, block->interface_count, &block->def,
+                           &block->reduced, err);
 }
 
 // `block` with its reduced bulk in two parts.
@@ -335,8 +334,8 @@ TEST(test_two_mirrors)
         assert_true(mirror_count_parts(&lattice.bulk, found, block.dofs, FLOOR + 1, &parts, &err));
         assert_int_equal(parts, whole ? 2 : 4);
         lattice.def.node_image = found;
-        if (!symmetry_reduction_build(&lattice.bulk, block.dofs, FLOOR + 1, &lattice.def,
-                                      &block.reduced, &err))
+        if (!reduction_build(&lattice.bulk, block.dofs, FLOOR + 1, &lattice.def, &block.reduced,
+                             &err))
             fail_msg("%s", err.message);
         assert_int_equal(block.reduced.full_dofs, DOFS);
         expect_rigid_motions(&lattice, &block.reduced);
