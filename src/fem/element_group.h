@@ -10,8 +10,8 @@
 // A the group's area; C likewise. The mean over a pair is a function of its four corners alone, the
 // same as of the Q4 in its place: there are as many conditions as nodes, on twice as many unknowns.
 // In space likewise the change of volume, k = (D_xx + 2 D_xy)/3, over one HEX8 or WEDGE6; a TET4
-// has one change of volume as it is, and locks. Called by model/regions (finds them), fem/assembly,
-// fem/recovery and run/static/static_solve.
+// has one change of volume as it is, and locks. Called by model/assemble (finds them),
+// fem/assembly, fem/recovery and run/static/static_solve.
 #ifndef AMONTONS_FEM_ELEMENT_GROUP_H
 #define AMONTONS_FEM_ELEMENT_GROUP_H
 

@@ -56,7 +56,7 @@ typedef struct Mesh {
     int32_t *first_node;   // [element_count + 1] offsets into element_nodes; owned
     int32_t *element_nodes;   // [first_node[element_count]] corners, mid-sides, centre; owned
     uint8_t
-        *region;   // [element_count] which of the materials it is made of (model/regions); NULL:
+        *region;   // [element_count] which of the materials it is made of (model/assemble); NULL:
     // there is one; owned
     int32_t *mean_next;   // [element_count] elements that share one areal strain, as rings: the
         // next of them, itself where it is alone; -1: it has its own at each point; NULL: all have

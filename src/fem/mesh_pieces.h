@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The connected pieces of a named boundary: a contact that is drawn as one group may be several
-// pads. Called by fem/mesh_contact, and by model/node_laws for their names.
+// pads. Called by fem/mesh_contact, and by model/contact_nodes for their names.
 #ifndef AMONTONS_FEM_MESH_PIECES_H
 #define AMONTONS_FEM_MESH_PIECES_H
 

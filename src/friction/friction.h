@@ -8,7 +8,7 @@
 // A number such as v_c comes from the map `friction` of a scene (scene/keys). scene/friction_law
 // hands it to friction_make, which completes the law by its table of operations;
 // model/model takes it for the whole contact (friction_everywhere); where laws differ from place
-// to place or remember, model/node_laws gives each node its own. run/start hands the model's
+// to place or remember, model/contact_nodes gives each node its own. run/start hands the model's
 // Friction to the stepper (stepping/sdirk), which hands it to each contact problem
 // (contact/contact_problem). contact/ and stepping/ ask a node
 // (friction_at) for mu and its slope, which the table answers (friction/laws).

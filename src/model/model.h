@@ -29,11 +29,11 @@ typedef struct Model {
     int32_t floor_region;   // of which of them the base's floor is; 0 where it is rigid
     bool on_contact[MATERIALS_MAX];   // which of them have a side in the contact
     // Branches that relax within this are a viscosity, as not even waves within an element are so
-    // fast (model/regions); 0: there are none, time.
+    // fast (model/assemble); 0: there are none, time.
     double folded_time;
     Friction friction;
     FrictionNode *friction_nodes;   // [contact_count] where they differ, or laws remember
-        // (model/node_laws); owned
+        // (model/contact_nodes); owned
     FrictionLaw *laws;   // [contacts of the scene + 1] laws that nodes point to; owned
     Mesh mesh;   // owned, like all that follows
     Bulk bulk;   // its loads; M, C and K where the full mesh is stepped

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The map `materials`: what differs from `material` in regions of the mesh. Read by
 // scene/scene_read, shown by scene/json and scene/key_words, made into materials by
-// model/regions.
+// model/assemble.
 #ifndef AMONTONS_SCENE_MATERIALS_H
 #define AMONTONS_SCENE_MATERIALS_H
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // contact.profile: a measured shape of the substrate in a text file, a table of x and gap, or of x,
 // y and gap: a height map. Read with the scene, so that what is wrong is said before anything is
-// meshed, and by model/gaps.
+// meshed, and by model/contact_nodes.
 #ifndef AMONTONS_SCENE_PROFILE_H
 #define AMONTONS_SCENE_PROFILE_H
 

@@ -114,7 +114,7 @@ CONSTANTS = [
         ("LOWEST", "quantile that stands for the least mu without a period", HERE)),
     *of("model/step_rule.c",
         ("STEP_MAX_SLIP", "longest step: what the rod moves in it, of friction's slip", HERE)),
-    *of("model/regions.c",
+    *of("model/assemble.c",
         ("FOLDED", "relaxation time over that of waves in an element, below which a branch is a viscosity; its "
                    "modulus is off by this part", NO_BRANCHES)),
     *of("fem/relaxation_fit.c",
@@ -304,7 +304,6 @@ NOT_A_CHOICE = {
     "record/pads.h": {"PADS_ORDER_SIZE": "It is room of a text; names for which there is none are counted."},
     "record/probes.c": {"READINGS_MAX": "It counts displacements and strains of the largest dimension."},
     "record/observation.h": {"RECORDERS_MAX": SIZE},
-    "model/gaps.c": {"ROUNDING": "digits of a file, far below a cell"},
     "model/assemble.c": {
         "MOTIONS_MAX": "It counts the rigid motions in space.",
         "FREE": "It is the rounding of a singular value that is 0, with room."},
@@ -340,7 +339,9 @@ NOT_A_CHOICE = {
         "SPACE_FACTORS": "counted",
         "SPACE_MODES": "reduced unknowns of 24 x 24 x 24, 40 x 40 x 20 and 40 x 80 x 19 cells: 1.5 to 1.6",
         "PLANE_MODES": "Figure 1 on 40 x 40 to 320 x 320 cells: 3.1"},
-    "model/node_laws.c": {"SAMPLES": "a jump of `friction.along` to a part in 32 of a cell; exact where it is straight"},
+    "model/contact_nodes.c": {
+        "ROUNDING": "digits of a file, far below a cell",
+        "SAMPLES": "a jump of `friction.along` to a part in 32 of a cell; exact where it is straight"},
     "study/stability/stability.c": {"MEMORY_PART": "of a rate; slower ones matter to no answer", "POINTS_BEYOND": "shown"},
     "study/stability/loss.c": {"NEXT_PART": "of the contact; from one point of a path in space to the next 1 to 3 % begin to slip"},
     "study/stability/why.c": {"TAKES_PART": "words", "EARLIER": "words"},

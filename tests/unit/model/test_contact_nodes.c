@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Friction along the contact: wherever nodes lie, together they hold what the formula says.
-#include "model/node_laws.h"
+#include "model/contact_nodes.h"
 #include "run/simulation_state.h"
 
 #include "near.h"

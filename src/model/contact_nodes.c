@@ -1,14 +1,38 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "model/node_laws.h"
+#include "model/contact_nodes.h"
 
+#include "base/formula.h"
 #include "base/memory.h"
 #include "fem/mesh_pieces.h"
-#include "model/place_formula.h"
 #include "scene/friction_law.h"
+#include "scene/profile.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+
+static bool look_up(const void *context, const char *name, double *value)
+{
+    const double *y = context;
+    if (!y || strcmp(name, "y") != 0) return false;
+    *value = *y;
+    return true;
+}
+
+// Reads a formula of a place in the contact, such as friction.along and contact.gap: it has one
+// variable, x; y is a number in it, and it is read anew at each y. y: NULL in the plane, where
+// there is no such name.
+static bool read_place_formula(const char *text, const double *y, Formula *formula, Error *err)
+{
+    FormulaNames names = {.look_up = look_up,
+                          .context = y,
+                          .variable = "x",
+                          .unknown = y ? "is no number here: x and y alone"
+                                       : "is no number here: x alone"};
+    return formula_read(text, &names, formula, err);
+}
+
+// --- friction laws ------------------------------------------------------------------------------
 
 enum { SAMPLES = 32 };   // of a formula over the part of a node; exact where it is straight
 
@@ -30,7 +54,7 @@ static bool take_mean(Part part, bool plane, const char *text, double *factor, E
     if (!*text) return true;
     for (int32_t j = 0; j < rows; j++) {
         double y = part.y[0] + (j + 0.5) / rows * (part.y[1] - part.y[0]);
-        if (!place_formula_read(text, plane ? NULL : &y, &formula, err)) return false;
+        if (!read_place_formula(text, plane ? NULL : &y, &formula, err)) return false;
         for (int32_t k = 0; k < SAMPLES; k++) {
             double x = part.from + (k + 0.5) / SAMPLES * (part.to - part.from);
             double value = formula_at(&formula, x, &ignored);
@@ -145,4 +169,77 @@ bool model_lay_laws(Model *model, Error *err)
     }
     model->friction = friction_of_nodes(model->friction_nodes, count);
     return error_is_clean(err);
+}
+
+// --- gaps ---------------------------------------------------------------------------------------
+
+// Measured no farther than the contact nodes reach: what lies beyond is not guessed.
+static bool reaches_over(const char *path, const char *axis, const double measured[2],
+                         const double contact[2], Error *err)
+{
+    // Rounding of positions, over the contact's length: a file may hold five digits, and this is
+    // far less than a cell.
+    static const double ROUNDING = 1e-4;
+    double slack = ROUNDING * (contact[1] - contact[0]);
+    if (measured[0] > contact[0] + slack || measured[1] < contact[1] - slack)
+        return REFUSE(
+            err,
+            "%s goes from %s = %g to %g, the contact from %g to %g: it must reach over all of it",
+            path, axis, measured[0], measured[1], contact[0], contact[1]);
+    return true;
+}
+
+static bool add_profile(const Scene *scene, Interface *interface, Error *err)
+{
+    SceneProfile profile = {0};
+    const char *path = scene->contact.profile;
+    const double *y = interface->y;
+    int32_t count = interface->contact_count;
+    TRY(scene_profile_read(scene, &profile, err));
+    if (profile.y && !y)
+        FAIL(err, ERROR_INPUT, "%s has x, y and gap, but the mesh is in the plane: there is no y",
+             path);
+    TRY(reaches_over(path, "x", (double[]){profile.x[0], profile.x[profile.count - 1]},
+                     (double[]){interface->x[0], interface->x[count - 1]}, err));
+    if (profile.y) {
+        double reach[2] = {y[0], y[0]};
+        for (int32_t i = 0; i < count; i++) {
+            reach[0] = fmin(reach[0], y[i]);
+            reach[1] = fmax(reach[1], y[i]);
+        }
+        TRY(reaches_over(path, "y", (double[]){profile.y[0], profile.y[profile.rows - 1]}, reach,
+                         err));
+    }
+    for (int32_t i = 0; i < count; i++)
+        interface->gap[i] += scene_profile_at(&profile, interface->x[i], y ? y[i] : 0);
+cleanup:
+    scene_profile_destroy(&profile);
+    return error_is_clean(err);
+}
+
+bool model_lay_gaps(Model *model, Error *err)
+{
+    const Scene *scene = model->scene;
+    Interface *interface = &model->interface;
+    Formula formula;
+    bool profile = *scene->contact.profile;
+    if (!*scene->contact.gap && !profile) return true;
+    if (!interface->gap && !(interface->gap = NEW_ARRAY(double, interface->contact_count, err)))
+        return false;
+
+    // The formula: in the plane it is read once, in space anew for the y of each node.
+    for (int32_t i = 0; *scene->contact.gap && i < interface->contact_count; i++) {
+        const double *y = interface->y ? &interface->y[i] : NULL;
+        double ignored, gap = 0;
+        bool done = true;
+        if (i == 0 || y) done = read_place_formula(scene->contact.gap, y, &formula, err);
+        if (done) gap = formula_at(&formula, interface->x[i], &ignored);
+        if (done && !(gap >= 0 && isfinite(gap)))
+            done = REFUSE(err, "at x = %g the gap is %g; a number >= 0 is needed", interface->x[i],
+                          gap);
+        if (!scene_blame(scene, "contact.gap", done, err)) return false;
+        interface->gap[i] += gap;
+    }
+    return !profile ||
+           scene_blame(scene, "contact.profile", add_profile(scene, interface, err), err);
 }
