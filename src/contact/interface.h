@@ -26,7 +26,7 @@ typedef struct Interface {
         // everywhere; owned
     int32_t *pad;   // [contact_count] which connected piece of the contact, from 0; owned
     int32_t pad_count;
-    char (*pad_name)[GROUP_NAME_SIZE];   // [pad_count] of its boundary (fem/mesh_pieces); owned
+    char (*pad_name)[GROUP_NAME_SIZE];   // [pad_count] of its boundary (fem/mesh_contact); owned
     int32_t line_count;
     int32_t *line;   // [line_count] contact nodes one behind the other along the drive, in space
         // along the middle: fronts and how far slip reaches are read off it; NULL: all of them;

@@ -150,7 +150,7 @@ typedef struct MeshBoundary {
 // to that named first.
 typedef struct MeshContact {
     int32_t group_count;
-    struct MeshPieces *groups;   // [group_count] their connected pieces (fem/mesh_pieces); owned
+    struct MeshPieces *groups;   // [group_count] their connected pieces (fem/mesh_contact); owned
     int32_t pad_count;
     MeshBoundary *pads;   // [pad_count] these, in the order of the names; owned
     int32_t node_count;
@@ -184,6 +184,8 @@ bool mesh_contact(const Mesh *mesh, const char (*names)[GROUP_NAME_SIZE], int32_
                   MeshContact *contact, Error *err);
 // A name that is taken for the contact's where a scene gives none.
 bool mesh_is_contact_name(const char *name);
+// True if `name` is `group` or a piece of it: of several "NAME/1", "NAME/2", ...
+bool mesh_piece_is_of(const char *name, const char *group);
 
 // Puts a mesh that stands as its file has it where it is wanted.
 void mesh_move(double scale, const MeshPlace shift, Mesh *mesh);

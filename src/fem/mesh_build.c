@@ -5,7 +5,7 @@
 #include "base/memory.h"
 #include "fem/floor.h"
 #include "fem/mesh_faces.h"
-#include "fem/mesh_inside.h"
+#include "fem/mesh_locate.h"
 #include "fem/mesh_parts.h"
 #include "io/mesh/shape_functions.h"
 

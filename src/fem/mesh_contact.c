@@ -7,10 +7,11 @@
 
 #include "base/memory.h"
 #include "fem/mesh_faces.h"
-#include "fem/mesh_pieces.h"
+#include "fem/mesh_parts.h"
 #include "io/mesh/shape_functions.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -70,11 +71,92 @@ bool mesh_boundary(const Mesh *mesh, const char *name, MeshBoundary *boundary, E
     return error_is_clean(err);
 }
 
+// --- connected pieces of a boundary -------------------------------------------------------------
+
+typedef struct MeshPieces {
+    int32_t count;
+    MeshBoundary
+        *piece;   // [count] by their first nodes; of several "NAME/1", "NAME/2", ...; owned,
+    // and what they borrow:
+    char (*name)[GROUP_NAME_SIZE];   // [count]
+    int32_t *nodes, *face_nodes;
+} MeshPieces;
+
+// Finds the connected pieces of a named boundary: faces that share a node are of one piece.
+static bool find_pieces(const Mesh *mesh, const MeshBoundary *whole, MeshPieces *pieces, Error *err)
+{
+    int32_t width = whole->nodes_per_face;
+    *pieces = (MeshPieces){0};
+
+    // Number of the piece that each node of the mesh is on, -1: not on the boundary.
+    int32_t *number = NULL, *parent = NEW_ARRAY(int32_t, mesh->node_count, err);
+    if (!parent || !(number = NEW_ARRAY(int32_t, mesh->node_count, err))) goto cleanup;
+    for (int32_t i = 0; i < mesh->node_count; i++) parent[i] = i, number[i] = -1;
+    for (int32_t f = 0; f < whole->face_count; f++) {
+        FaceNodes face = mesh_boundary_face(whole, f);
+        for (int32_t a = 1; a < element_node_count(face.kind); a++)
+            parent[mesh_part_root(parent, face.node[a])] = mesh_part_root(parent, face.node[0]);
+    }
+    for (int32_t k = 0; k < whole->node_count; k++) {
+        int32_t node = whole->nodes[k], root = mesh_part_root(parent, node);
+        if (number[root] < 0) number[root] = pieces->count++;
+        number[node] = number[root];
+    }
+
+    // Nodes and faces of each piece.
+    pieces->piece = memory_array(pieces->count, sizeof *pieces->piece, err);
+    pieces->name = memory_array(pieces->count, sizeof *pieces->name, err);
+    int32_t *nodes = pieces->nodes = NEW_ARRAY(int32_t, whole->node_count, err);
+    int32_t *faces = pieces->face_nodes =
+        NEW_ARRAY(int32_t, (int64_t)whole->face_count * width, err);
+    if (!error_is_clean(err)) goto cleanup;
+    for (int32_t p = 0; p < pieces->count; p++) {
+        MeshBoundary *piece = &pieces->piece[p];
+        *piece = (MeshBoundary){.name = pieces->name[p],
+                                .dim = whole->dim,
+                                .nodes_per_face = width,
+                                .face_nodes = faces,
+                                .nodes = nodes};
+        if (pieces->count == 1)
+            snprintf(pieces->name[p], GROUP_NAME_SIZE, "%s", whole->name);
+        else
+            snprintf(pieces->name[p], GROUP_NAME_SIZE, "%.51s/%d", whole->name, p + 1);
+        for (int32_t k = 0; k < whole->node_count; k++)
+            if (number[whole->nodes[k]] == p) nodes[piece->node_count++] = whole->nodes[k];
+        for (int32_t f = 0; f < whole->face_count; f++) {
+            const int32_t *face = whole->face_nodes + (int64_t)f * width;
+            if (number[face[0]] != p) continue;
+            memcpy(faces + (int64_t)width * piece->face_count++, face,
+                   (size_t)width * sizeof *face);
+        }
+        nodes += piece->node_count;
+        faces += (int64_t)width * piece->face_count;
+    }
+cleanup:
+    memory_free_all(number, parent);
+    return error_is_clean(err);
+}
+
+static void pieces_destroy(MeshPieces *pieces)
+{
+    memory_free_all(pieces->piece, pieces->name, pieces->nodes, pieces->face_nodes);
+    *pieces = (MeshPieces){0};
+}
+
+bool mesh_piece_is_of(const char *name, const char *group)
+{
+    size_t length = strlen(group);
+    if (strcmp(name, group) == 0) return true;
+    if (strncmp(name, group, length) != 0 || name[length] != '/') return false;
+    const char *number = name + length + 1;
+    return *number && strspn(number, "0123456789") == strlen(number);
+}
+
 // --- contact ------------------------------------------------------------------------------------
 
 void mesh_contact_destroy(MeshContact *contact)
 {
-    for (int32_t g = 0; g < contact->group_count; g++) mesh_pieces_destroy(&contact->groups[g]);
+    for (int32_t g = 0; g < contact->group_count; g++) pieces_destroy(&contact->groups[g]);
     memory_free_all(contact->groups, contact->pads, contact->nodes, contact->pad_of);
     *contact = (MeshContact){0};
 }
@@ -96,7 +178,7 @@ static bool add_group(const Mesh *mesh, const char *name, MeshContact *contact, 
 {
     MeshBoundary whole;
     return mesh_boundary(mesh, name, &whole, err) &&
-           mesh_pieces_find(mesh, &whole, &contact->groups[contact->group_count++], err);
+           find_pieces(mesh, &whole, &contact->groups[contact->group_count++], err);
 }
 
 // Fills contact->pads from the names, or from every boundary that is called a contact.

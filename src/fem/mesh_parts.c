@@ -7,8 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-// The node that stands for i's part (union-find with path halving).
-static int32_t root_of(int32_t *parent, int32_t i)
+int32_t mesh_part_root(int32_t *parent, int32_t i)
 {
     while (parent[i] != i) i = parent[i] = parent[parent[i]];
     return i;
@@ -23,11 +22,11 @@ bool mesh_parts_find(const Mesh *mesh, MeshParts *parts, Error *err)
     for (int32_t i = 0; i < mesh->node_count; i++) parent[i] = i, parts->part[i] = -1;
     for (int32_t e = 0; e < mesh->element_count; e++)
         for (int32_t k = mesh->first_node[e] + 1; k < mesh->first_node[e + 1]; k++) {
-            int32_t one = root_of(parent, mesh->element_nodes[k - 1]);
-            parent[root_of(parent, mesh->element_nodes[k])] = one;
+            int32_t one = mesh_part_root(parent, mesh->element_nodes[k - 1]);
+            parent[mesh_part_root(parent, mesh->element_nodes[k])] = one;
         }
     for (int32_t i = 0; i < mesh->node_count; i++) {
-        int32_t root = root_of(parent, i);
+        int32_t root = mesh_part_root(parent, i);
         if (parts->part[root] < 0) parts->part[root] = parts->count++;
         parts->part[i] = parts->part[root];
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Parts of a mesh that share no node: a block and its base, or what no scene can be. Used by
-// fem/mesh_build and run/info.
+// fem/mesh_build, fem/mesh_contact and run/info.
 #ifndef AMONTONS_FEM_MESH_PARTS_H
 #define AMONTONS_FEM_MESH_PARTS_H
 
@@ -12,6 +12,10 @@ typedef struct MeshParts {
     int32_t count;
     int32_t *part;   // [node_count] which part a node is of, from 0 in the order of nodes; owned
 } MeshParts;
+
+// The node that stands for all that are joined with node i (union-find with path halving).
+// parent: [nodes], of each itself or another of those joined with it.
+int32_t mesh_part_root(int32_t *parent, int32_t i);
 
 bool mesh_parts_find(const Mesh *mesh, MeshParts *parts, Error *err);
 void mesh_parts_destroy(MeshParts *parts);

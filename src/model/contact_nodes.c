@@ -3,7 +3,7 @@
 
 #include "base/formula.h"
 #include "base/memory.h"
-#include "fem/mesh_pieces.h"
+#include "fem/mesh.h"
 #include "scene/friction_law.h"
 #include "scene/profile.h"
 

@@ -233,10 +233,9 @@ NOT_A_CHOICE = {
         "GAUSS_POINTS": "The rule is exact for a product of two shape functions, both of degree 4 at most, on a piece of a "
                         "parallelogram.",
         "GAUSS_PLACE": "These are the places of Gauss's rule.", "GAUSS_WEIGHT": "These are the weights of Gauss's rule."},
-    "fem/mesh_inside.c": {
-        "OUTSIDE": "It is more than the rounding of coordinates; a slit that is so wide open is no fault.",
-        "triangle": MIDDLE, "square": MIDDLE},
     "fem/mesh_locate.c": {
+        "OUTSIDE": "It is more than the rounding of coordinates; a slit that is so wide open is no fault.",
+        "triangle": MIDDLE, "square": MIDDLE,
         "REFERENCE_TOLERANCE": "It is the rounding of reference coordinates, which are of order 1.",
         "BENT_BOX": "A side of three nodes leaves their box by 1/8 of it at most; a larger box costs time alone.",
         "BOX_ROUNDING": "It is the rounding of coordinates, over the size of an element."},

@@ -2,7 +2,7 @@
 // meshes/pads.geo and meshes/grooves.geo: areas, lengths and groups against what geometry says, and
 // what they refuse.
 #include "base/memory.h"
-#include "fem/mesh_pieces.h"
+#include "fem/mesh.h"
 
 #include "near.h"
 
