@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A factor by points: straight lines between them, level beyond the last; two points at one place
-// make a jump. Used by contact/rod_course and stepping/load_course.
+// make a jump. Used by contact/rod_course and stepping/state.
 #ifndef AMONTONS_BASE_SCHEDULE_H
 #define AMONTONS_BASE_SCHEDULE_H
 

@@ -8,7 +8,7 @@
 #include "friction/friction.h"
 #include "model/step_rule.h"
 #include "scene/programs.h"
-#include "stepping/relaxation.h"
+#include "stepping/step_control.h"
 #include "stepping/stable_step.h"
 
 #include <math.h>

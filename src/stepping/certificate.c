@@ -7,7 +7,7 @@
 #include "base/clock.h"
 #include "algebra/dense.h"
 #include "base/memory.h"
-#include "stepping/weakening_ratio.h"
+#include "stepping/moving_set.h"
 
 #include <math.h>
 

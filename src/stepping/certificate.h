@@ -99,7 +99,7 @@ bool certificate_excludes_runaway(Certificate *certificate, const State *state, 
                                   LevelRange range);
 
 // Weakening over what the block withstands at s = 1/reach of `level`, the pressure that follows
-// slip included (stepping/weakening_ratio); INFINITY where S is singular.
+// slip included (stepping/moving_set); INFINITY where S is singular.
 double certificate_ratio(Certificate *certificate, const State *state, ContactMatrix *level,
                          double reach);
 

@@ -35,7 +35,7 @@
 #include "fem/assembly.h"
 #include "contact/rod.h"
 #include "stepping/energy.h"
-#include "stepping/load_course.h"
+#include "stepping/state.h"
 
 typedef struct ExplicitDef {
     const Bulk *bulk;   // of displacements of nodes

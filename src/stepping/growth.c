@@ -21,7 +21,7 @@
 #include "algebra/dense.h"
 #include "base/memory.h"
 #include "friction/friction_response.h"
-#include "stepping/weakening_ratio.h"
+#include "stepping/moving_set.h"
 
 #include <math.h>
 #include <string.h>

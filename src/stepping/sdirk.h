@@ -19,7 +19,7 @@
 #include "stepping/friction_states.h"
 #include "stepping/half_step.h"
 #include "stepping/dt_levels.h"
-#include "stepping/load_course.h"
+#include "stepping/state.h"
 #include "stepping/tableau.h"
 
 typedef struct Sdirk {

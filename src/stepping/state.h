@@ -4,9 +4,11 @@
 #define AMONTONS_STEPPING_STATE_H
 
 #include "base/archive.h"
-#include "reduction/interface_operator.h"
+#include "base/schedule.h"
 #include "contact/contact_problem.h"
+#include "contact/rod.h"
 #include "friction/friction.h"
+#include "reduction/interface_operator.h"
 
 // The system that is stepped: the bulk, where it meets the world, and by which laws. Nothing is
 // owned.
@@ -53,5 +55,18 @@ void state_friction(const State *state, const Interface *interface, const Fricti
                     int32_t i, FrictionRates *rates);
 
 void state_archive(State *state, Archive *archive);
+
+// The load while the rod moves: that at t = 0 times a factor, by a table of time or of the rod's
+// displacement.
+typedef struct LoadCourse {
+    Schedule schedule;   // count 0: the load stays
+    bool by_way;   // of U; else of time
+    const Rod *rod;   // whose U it follows; not owned
+} LoadCourse;
+
+// Load at `time` over that at t = 0. NULL: 1.
+double load_factor(const LoadCourse *course, double time);
+// Time of its next point after `time`; INFINITY: none does.
+double load_next(const LoadCourse *course, double time);
 
 #endif

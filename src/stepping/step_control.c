@@ -7,6 +7,7 @@
 // and accepting swaps the two.
 #include "stepping/step_control.h"
 
+#include "algebra/dense.h"
 #include "contact/slip.h"
 
 #include <math.h>
@@ -422,6 +423,36 @@ bool step_control_advance_explicit(StepControl *control, ExplicitReference *sche
         control->certified =
             certificate_holds(&control->certificate, &control->now, scheme->def.step);
 cleanup:
+    return error_is_clean(err);
+}
+
+// The largest velocity on the interface, or the root mean square over the block if that is larger.
+// v'M v over the block's mass is the mean square of |v|, twice the kinetic energy over the mass.
+static double fastest(const StepControl *control)
+{
+    const State *state = &control->now;
+    double mean_square = dense_dot(state->velocity, state->momentum, state->dof_count) /
+                         control->scheme.system->mass_total;
+    return fmax(sqrt(mean_square), dense_max_abs(state->slip_rate, state->interface_count));
+}
+
+bool relax(StepControl *control, const RelaxationDef *def, int64_t *steps, Error *err)
+{
+    double speed = INFINITY;
+    step_control_settle(control);
+    for (*steps = 0; speed > def->speed_max; (*steps)++) {
+        if (control->now.time > def->duration_max)
+            FAIL(err, ERROR_COMPUTE,
+                 "the block has not settled under its load after t = %g: the fastest point moves "
+                 "at %g, start.tolerance asks for %g (does it tip over, or is start.duration_max "
+                 "too short?)",
+                 control->now.time, speed, def->speed_max);
+        TRY(step_control_advance(control, INFINITY, err));
+        if (def->may_go_on) TRY(def->may_go_on(def->self, err));
+        speed = fastest(control);
+    }
+cleanup:
+    if (!error_is_clean(err)) error_context(err, "while relaxing before the rod moves");
     return error_is_clean(err);
 }
 

@@ -10,7 +10,7 @@
 //         1/(gamma dt);
 //      c. what oscillates stays small, as certified or as seen before
 //         (stepping/oscillation_record), and nothing grows without oscillating.
-// Otherwise it goes back to the old state with a shorter one. Used by stepping/relaxation,
+// Otherwise it goes back to the old state with a shorter one. Used by run/start,
 // run/simulation and the studies of stability and of the 1D model.
 #ifndef AMONTONS_STEPPING_STEP_CONTROL_H
 #define AMONTONS_STEPPING_STEP_CONTROL_H
@@ -103,6 +103,19 @@ void step_control_disturb(StepControl *control);
 
 // Starts counting anew at `now`: time 0, ledger opened, coarse steps to be earned again.
 void step_control_restart(StepControl *control);
+
+// Before the rod moves the block settles under its load until nothing moves any more, by the steps
+// that the run takes later; then t = 0.
+typedef struct RelaxationDef {
+    double speed_max;   // settled when every speed is below this, velocity
+    double duration_max;   // ERROR_COMPUTE beyond it, time
+    bool (*may_go_on)(const void *self, Error *err);   // asked after each step; NULL: it may
+    const void *self;
+} RelaxationDef;
+
+// Steps `control` with the rod as it stands until it has settled; step_control_restart after it
+// forbids again steps longer than step_max. steps: how many it took.
+bool relax(StepControl *control, const RelaxationDef *def, int64_t *steps, Error *err);
 
 // Everything on which the next step depends but what drives the block. `next` is work.
 bool step_control_archive(StepControl *control, Archive *archive, Error *err);

@@ -15,7 +15,7 @@
 #include "scene/profile.h"
 #include "stepping/branches.h"
 #include "stepping/energy.h"
-#include "stepping/load_course.h"
+#include "stepping/state.h"
 #include "stepping/moving_set.h"
 
 #include <math.h>

@@ -4,7 +4,7 @@
 #define AMONTONS_TESTS_PUSHED_BLOCK_H
 
 #include "block_rig.h"
-#include "stepping/relaxation.h"
+#include "stepping/step_control.h"
 
 static const double PUSHED_PRESSURE = 0.003;
 

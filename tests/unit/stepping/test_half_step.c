@@ -2,7 +2,7 @@
 // A block in space stepped on one side and as a whole: the same steps; what is certified of the
 // whole is what is certified of both halves; and who pushes it aside gets the whole.
 #include "space_rig.h"
-#include "stepping/relaxation.h"
+#include "stepping/step_control.h"
 
 typedef struct Pushed {
     BlockRig rig;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Where relaxation ends: the exact static state without friction, a static equilibrium within the
 // cone with it, an error when it takes too long.
-#include "stepping/relaxation.h"
+#include "stepping/step_control.h"
 
 #include "block_rig.h"
 #include "plane.h"

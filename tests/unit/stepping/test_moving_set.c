@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The largest eigenvalue of A^-1 W against the roots of its characteristic equation, and the top of
 // a parabola against the parabola itself.
-#include "stepping/weakening_ratio.h"
+#include "stepping/moving_set.h"
 
 #include "algebra/dense.h"
 #include "dense_by_hand.h"
