@@ -7,6 +7,7 @@
 // at least. Nothing allocates, so that the loop of steps may call all of it.
 #include "algebra/dense.h"
 
+#include "base/parallel.h"
 #include "base/system.h"
 
 #include <cblas.h>
@@ -28,6 +29,8 @@ void sgetrs_(const char *trans, const int *n, const int *nrhs, const float *a, c
              const int *pivots, float *b, const int *ldb, int *info, size_t trans_size);
 void dtrtri_(const char *uplo, const char *diag, const int *n, double *a, const int *lda, int *info,
              size_t uplo_size, size_t diag_size);
+void dsygst_(const int *itype, const char *uplo, const int *n, double *a, const int *lda,
+             const double *b, const int *ldb, int *info, size_t uplo_size);
 void dlauum_(const char *uplo, const int *n, double *a, const int *lda, int *info,
              size_t uplo_size);
 void dsygvd_(const int *itype, const char *jobz, const char *uplo, const int *n, double *a,
@@ -299,4 +302,139 @@ void dense_mirror(double *a, int64_t n)
             for (int64_t i = top; i < tile_end(top, n); i++)
                 for (int64_t j = left; j < tile_end(left, n) && j < i; j++)
                     a[i * n + j] = a[j * n + i];
+}
+
+// --- triangular matrices ------------------------------------------------------------------------
+
+enum { SQUARE_WIDE = 128 };   // columns of L L' at once
+
+// The strictly upper triangle of `lower` is not looked at, here and in what follows but for its
+// square.
+void dense_lower_apply(const double *lower, int32_t n, double *x)
+{
+    if (n > 0)
+        cblas_dtrmv(CblasColMajor, CblasLower, CblasNoTrans, CblasNonUnit, n, lower, n, x, 1);
+}
+
+void dense_lower_apply_transposed(const double *lower, int32_t n, double *x)
+{
+    if (n > 0) cblas_dtrmv(CblasColMajor, CblasLower, CblasTrans, CblasNonUnit, n, lower, n, x, 1);
+}
+
+void dense_lower_solve_transposed(const double *lower, int32_t n, double *x)
+{
+    if (n > 0) cblas_dtrsv(CblasColMajor, CblasLower, CblasTrans, CblasNonUnit, n, lower, n, x, 1);
+}
+
+void dense_lower_solve(const double *lower, int32_t n, double *x)
+{
+    if (n > 0)
+        cblas_dtrsv(CblasColMajor, CblasLower, CblasNoTrans, CblasNonUnit, n, lower, n, x, 1);
+}
+
+// Column by column no further than L goes, and from the diagonal down: a sixth of a general
+// product.
+void dense_lower_square(const double *lower, int32_t n, double *c)
+{
+    for (int32_t from = 0; from < n; from += SQUARE_WIDE) {
+        int32_t columns = n - from < SQUARE_WIDE ? n - from : SQUARE_WIDE;
+        const double *rows = lower + from;
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, n - from, columns, from + columns, 1,
+                    rows, n, rows, n, 0, c + (int64_t)from * (n + 1), n);
+    }
+    dense_mirror(c, n);
+}
+
+void dense_lower_divide(const double *lower, int32_t n, int32_t columns, double *b)
+{
+    if (n > 0 && columns > 0)
+        cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, n, columns,
+                    1.0, lower, n, b, n);
+}
+
+void dense_lower_divide_transposed(const double *lower, int32_t n, int32_t columns, double *b)
+{
+    if (n > 0 && columns > 0)
+        cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasTrans, CblasNonUnit, n, columns, 1.0,
+                    lower, n, b, n);
+}
+
+void dense_lower_multiply(const double *lower, int32_t n, int32_t columns, double *b)
+{
+    if (n > 0 && columns > 0)
+        cblas_dtrmm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, n, columns,
+                    1.0, lower, n, b, n);
+}
+
+// dsygst: half the operations of two triangular solves, as it keeps to one triangle. Turns a x =
+// lambda L L' x into a symmetric problem of its own.
+void dense_divide_both_sides(const double *lower, int32_t n, double *a)
+{
+    int info = 0, from_both_sides = 1;
+    if (n > 0) dsygst_(&from_both_sides, "L", &n, a, &n, lower, &n, &info, 1);
+}
+
+// --- products of matrices, by columns in pieces where they are large ----------------------------
+
+enum { PIECES_MAX = 8, PIECE_COLUMNS = 32 };   // at least: narrower ones read `a` for little
+
+// c = factor op(a) b + keep c, op(a) = a or a'.
+typedef struct Product {
+    bool turned;
+    DenseView a, b;
+    int64_t b_stride;
+    double factor, keep;
+    double *c;
+    int64_t c_stride;
+    int32_t pieces;
+} Product;
+
+static void multiply_piece(void *context, int32_t k, int32_t worker)
+{
+    const Product *all = context;
+    const DenseView *a = &all->a, *b = &all->b;
+    int64_t from = (int64_t)b->columns * k / all->pieces;
+    int64_t end = (int64_t)b->columns * (k + 1) / all->pieces;
+    (void)worker;
+    cblas_dgemm(CblasColMajor, all->turned ? CblasTrans : CblasNoTrans, CblasNoTrans,
+                all->turned ? a->columns : a->rows, (int)(end - from),
+                all->turned ? a->rows : a->columns, all->factor, a->values, a->rows,
+                b->values + from * all->b_stride, (int)all->b_stride, all->keep,
+                all->c + from * all->c_stride, (int)all->c_stride);
+}
+
+static void multiply(Product all)
+{
+    double operations = 2.0 * all.a.rows * all.a.columns * all.b.columns;
+    int64_t pieces = operations < PARALLEL_OPERATIONS ? 1 : all.b.columns / PIECE_COLUMNS;
+    if (!(operations > 0)) return;
+    all.pieces = (int32_t)(pieces < 1 ? 1 : pieces < PIECES_MAX ? pieces : PIECES_MAX);
+    parallel_for(all.pieces, multiply_piece, &all);
+}
+
+void dense_multiply_transposed_rows(DenseView a, DenseView b, double factor, double keep, double *c,
+                                    int64_t stride)
+{
+    multiply((Product){true, a, b, b.rows, factor, keep, c, stride, 0});
+}
+
+void dense_multiply_transposed(DenseView a, DenseView b, double factor, double keep, double *c)
+{
+    if (a.rows == 0)   // BLAS takes no matrix without rows
+        for (int64_t k = 0; k < (int64_t)a.columns * b.columns; k++)
+            c[k] = keep == 0 ? 0 : keep * c[k];
+    dense_multiply_transposed_rows(a, b, factor, keep, c, a.columns);
+}
+
+// Where there is nothing to sum over (a.columns 0) `c` is left as it is, not even scaled.
+void dense_multiply(DenseView a, DenseView b, double factor, double keep, double *c)
+{
+    multiply((Product){false, a, b, b.rows, factor, keep, c, a.rows, 0});
+}
+
+void dense_multiply_rows(DenseView a, const double *b, int64_t stride, int64_t columns,
+                         double factor, double *c)
+{
+    multiply(
+        (Product){false, a, dense_view(b, a.columns, columns), stride, factor, 1, c, a.rows, 0});
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A fill-reducing order by nested dissection of what is known to lie in space. Used by
-// algebra/sparse_analysis.
+// algebra/sparse_factor.
 #ifndef AMONTONS_ALGEBRA_SPARSE_ORDER_H
 #define AMONTONS_ALGEBRA_SPARSE_ORDER_H
 
