@@ -306,8 +306,6 @@ void dense_mirror(double *a, int64_t n)
 
 // --- triangular matrices ------------------------------------------------------------------------
 
-enum { SQUARE_WIDE = 128 };   // columns of L L' at once
-
 // The strictly upper triangle of `lower` is not looked at, here and in what follows but for its
 // square.
 void dense_lower_apply(const double *lower, int32_t n, double *x)
@@ -332,16 +330,9 @@ void dense_lower_solve(const double *lower, int32_t n, double *x)
         cblas_dtrsv(CblasColMajor, CblasLower, CblasNoTrans, CblasNonUnit, n, lower, n, x, 1);
 }
 
-// Column by column no further than L goes, and from the diagonal down: a sixth of a general
-// product.
 void dense_lower_square(const double *lower, int32_t n, double *c)
 {
-    for (int32_t from = 0; from < n; from += SQUARE_WIDE) {
-        int32_t columns = n - from < SQUARE_WIDE ? n - from : SQUARE_WIDE;
-        const double *rows = lower + from;
-        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, n - from, columns, from + columns, 1,
-                    rows, n, rows, n, 0, c + (int64_t)from * (n + 1), n);
-    }
+    if (n > 0) cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, n, n, 1, lower, n, 0, c, n);
     dense_mirror(c, n);
 }
 

@@ -68,35 +68,12 @@ static cholmod_sparse pattern_view(const SparsePattern *pattern)
                             .packed = 1};
 }
 
-// True if the analysis left the border last, in the caller's order.
-static bool border_is_last(const SparseAnalysis *analysis, const int32_t *border)
-{
-    int64_t count = analysis->border_count, first = analysis->size - count;
-    const int32_t *permutation = analysis->symbolic->Perm;
-    return memcmp(permutation + first, border, (size_t)count * sizeof *border) == 0;
-}
-
 static ErrorCode error_code_of(const cholmod_common *common)
 {
     return common->status == CHOLMOD_OUT_OF_MEMORY ? ERROR_MEMORY : ERROR_LIBRARY;
 }
 
-// Symbolic factorisation in the given `order` [n]; an earlier one is dropped.
-static bool analyse_in_order(SparseAnalysis *analysis, int32_t *order, bool postorder, Error *err)
-{
-    cholmod_common *common = &analysis->common;
-    cholmod_free_factor(&analysis->symbolic, common);
-    common->postorder = postorder;
-    analysis->symbolic = cholmod_analyze_p(&analysis->pattern, order, NULL, 0, common);
-    if (!analysis->symbolic)
-        return FAULT(err, error_code_of(common), "CHOLMOD: the analysis failed (status %d)",
-                     common->status);
-    return true;
-}
-
-// The order that keeps the border last, checked. Postordering makes larger supernodes and keeps the
-// border where it is when the interior is connected, as in a mesh; where it is not, the order is
-// taken as it is.
+// Without a postorder of the elimination tree the given order is kept, so that the border is last.
 static bool analyse_with_border(SparseAnalysis *analysis, const SparsePattern *pattern,
                                 const double *place, const int32_t *border, Error *err)
 {
@@ -122,9 +99,13 @@ static bool analyse_with_border(SparseAnalysis *analysis, const SparsePattern *p
     common->method[0].ordering = CHOLMOD_GIVEN;
     common->supernodal = CHOLMOD_SUPERNODAL;
     common->final_ll = 1;
-    TRY(analyse_in_order(analysis, order, true, err));
-    if (!border_is_last(analysis, border)) TRY(analyse_in_order(analysis, order, false, err));
-    if (!border_is_last(analysis, border))
+    common->postorder = false;
+    analysis->symbolic = cholmod_analyze_p(&analysis->pattern, order, NULL, 0, common);
+    if (!analysis->symbolic)
+        FAIL(err, error_code_of(common), "CHOLMOD: the analysis failed (status %d)",
+             common->status);
+    if (memcmp((int32_t *)analysis->symbolic->Perm + size - count, border,
+               (size_t)count * sizeof *border) != 0)
         FAIL(err, ERROR_LIBRARY, "CHOLMOD did not keep the interface last in its order");
 cleanup:
     memory_free_all(member, order);

@@ -31,12 +31,11 @@ double element_strain_matrix(ElementKind kind, const MeshPlace *position, const 
     return determinant;
 }
 
-// out += weight * B' D B, B: [strains][dofs]. Inlined where the number of strains is known: twice
-// as fast in the plane.
-static inline __attribute__((always_inline)) void
-add_form(int32_t strains, int32_t dofs, const double b[STRAINS_MAX][ELEMENT_DOFS_MAX],
-         const double d[STRAINS_MAX][STRAINS_MAX], double weight,
-         double out[ELEMENT_DOFS_MAX][ELEMENT_DOFS_MAX])
+// out += weight * B' D B, B: [strains][dofs].
+static void add_quadratic_form(int32_t strains, int32_t dofs,
+                               const double b[STRAINS_MAX][ELEMENT_DOFS_MAX],
+                               const double d[STRAINS_MAX][STRAINS_MAX], double weight,
+                               double out[ELEMENT_DOFS_MAX][ELEMENT_DOFS_MAX])
 {
     for (int32_t j = 0; j < dofs; j++) {
         double stress[STRAINS_MAX];
@@ -51,17 +50,6 @@ add_form(int32_t strains, int32_t dofs, const double b[STRAINS_MAX][ELEMENT_DOFS
             out[i][j] += sum;
         }
     }
-}
-
-static void add_quadratic_form(int32_t dim, int32_t dofs,
-                               const double b[STRAINS_MAX][ELEMENT_DOFS_MAX],
-                               const double d[STRAINS_MAX][STRAINS_MAX], double weight,
-                               double out[ELEMENT_DOFS_MAX][ELEMENT_DOFS_MAX])
-{
-    if (dim == 2)
-        add_form(strain_count(2), dofs, b, d, weight, out);
-    else
-        add_form(strain_count(3), dofs, b, d, weight, out);
 }
 
 // Row sums would give corners of a T6 no mass, and those of a Q8 a negative one; this rule of
@@ -99,47 +87,25 @@ void element_matrices_clear(int32_t dof_count, ElementMatrices *out)
 }
 
 // Integrates with the element's own quadrature; in the plane per unit width.
-static void integrate(ElementKind kind, const MeshPlace *position,
-                      const double elastic[STRAINS_MAX][STRAINS_MAX],
-                      const double viscous[STRAINS_MAX][STRAINS_MAX], ElementMatrices *out)
+void element_matrices(ElementKind kind, const MeshPlace *position, const Material *material,
+                      bool with_areal, ElementMatrices *out)
 {
+    double elastic[STRAINS_MAX][STRAINS_MAX], viscous[STRAINS_MAX][STRAINS_MAX];
     double b[STRAINS_MAX][ELEMENT_DOFS_MAX];
-    int32_t dim = element_dim(kind);
+    int32_t dim = element_dim(kind), strains = strain_count(dim);
+    Moduli moduli[2] = {material_elastic(material), material_viscous(material)};
+    for (int32_t k = 0; k < 2 && !with_areal; k++) moduli[k].trace = -moduli[k].deviator / dim;
+    moduli_matrix(moduli[0], dim, elastic);
+    moduli_matrix(moduli[1], dim, viscous);
     element_matrices_clear(dim * element_node_count(kind), out);
     Quadrature quadrature = shape_quadrature(kind);
     for (int32_t q = 0; q < quadrature.count; q++) {
         const double *point = quadrature.point[q];
         double weight = quadrature.weight[q] * element_strain_matrix(kind, position, point, b);
-        add_quadratic_form(dim, out->dof_count, b, elastic, weight, out->stiffness);
-        add_quadratic_form(dim, out->dof_count, b, viscous, weight, out->damping);
+        add_quadratic_form(strains, out->dof_count, b, elastic, weight, out->stiffness);
+        add_quadratic_form(strains, out->dof_count, b, viscous, weight, out->damping);
         for (int32_t j = 0; j < out->dof_count; j++) out->areal[j] += weight * b[j % dim][j];
         out->area += weight;
     }
-}
-
-void element_matrices(ElementKind kind, const MeshPlace *position, const Material *material,
-                      ElementMatrices *out)
-{
-    double elastic[STRAINS_MAX][STRAINS_MAX], viscous[STRAINS_MAX][STRAINS_MAX];
-    moduli_matrix(material_elastic(material), element_dim(kind), elastic);
-    moduli_matrix(material_viscous(material), element_dim(kind), viscous);
-    integrate(kind, position, elastic, viscous, out);
-    lump_mass(kind, position, material->density, out);
-}
-
-// Moduli without the one against a change of area, or in space of volume.
-static Moduli without_areal_part(Moduli moduli, int32_t dim)
-{
-    return (Moduli){.deviator = moduli.deviator, .trace = -moduli.deviator / dim};
-}
-
-void element_shape_matrices(ElementKind kind, const MeshPlace *position, const Material *material,
-                            ElementMatrices *out)
-{
-    double elastic[STRAINS_MAX][STRAINS_MAX], viscous[STRAINS_MAX][STRAINS_MAX];
-    int32_t dim = element_dim(kind);
-    moduli_matrix(without_areal_part(material_elastic(material), dim), dim, elastic);
-    moduli_matrix(without_areal_part(material_viscous(material), dim), dim, viscous);
-    integrate(kind, position, elastic, viscous, out);
     lump_mass(kind, position, material->density, out);
 }

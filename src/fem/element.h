@@ -21,17 +21,13 @@ typedef struct ElementMatrices {
 } ElementMatrices;
 
 // position: [nodes]. Mass is lumped in proportion to int N_a^2, keeping the total: on T3 and on
-// parallelograms Q4 this is the row sum.
+// parallelograms Q4 this is the row sum. with_areal false: K and C are of the strain less its areal
+// part (in space that of volume), which fem/element_group adds as a mean.
 void element_matrices(ElementKind kind, const MeshPlace *position, const Material *material,
-                      ElementMatrices *out);
+                      bool with_areal, ElementMatrices *out);
 
 // All zero, for as many unknowns.
 void element_matrices_clear(int32_t dof_count, ElementMatrices *out);
-
-// The same matrices without what a change of area meets: K and C of the strain less its areal part,
-// which fem/element_group adds as a mean.
-void element_shape_matrices(ElementKind kind, const MeshPlace *position, const Material *material,
-                            ElementMatrices *out);
 
 // B at one point: strain = B [strains][dofs] u; returns det J.
 double element_strain_matrix(ElementKind kind, const MeshPlace *position, const double *point,

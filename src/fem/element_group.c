@@ -178,7 +178,7 @@ void element_group_matrices(const Mesh *mesh, const Material *materials, const E
     if (!group->is_mean) {
         find_offsets(mesh, group->element[0], offset);
         element_matrices((ElementKind)mesh->kind[group->element[0]], (const MeshPlace *)offset,
-                         material, out);
+                         material, true, out);
         return;
     }
     ElementGroup known = *group;
@@ -188,8 +188,8 @@ void element_group_matrices(const Mesh *mesh, const Material *materials, const E
         int32_t e = group->element[m], place[ELEMENT_NODES_MAX], first = mesh->first_node[e];
         ElementMatrices member;
         find_offsets(mesh, e, offset);
-        element_shape_matrices((ElementKind)mesh->kind[e], (const MeshPlace *)offset, material,
-                               &member);
+        element_matrices((ElementKind)mesh->kind[e], (const MeshPlace *)offset, material, false,
+                         &member);
         for (int32_t a = 0; dim * a < member.dof_count; a++)
             place[a] = place_of(&known, mesh->element_nodes[first + a]);
 

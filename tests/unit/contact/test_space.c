@@ -142,7 +142,7 @@ static void check_element(ElementKind kind, const MeshPlace *position)
     double shear = young / (2 * (1 + nu)), lambda = young * nu / ((1 + nu) * (1 - 2 * nu));
     int32_t nodes = element_node_count(kind), dofs = 3 * nodes;
     ElementMatrices *matrices = malloc(sizeof *matrices);
-    element_matrices(kind, position, &MATERIAL, matrices);
+    element_matrices(kind, position, &MATERIAL, true, matrices);
     assert_int_equal(matrices->dof_count, dofs);
     linear_motion(nodes, position, turn, u);
     for (int32_t i = 0; i < dofs; i++) {

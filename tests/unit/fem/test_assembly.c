@@ -93,7 +93,7 @@ TEST(test_dense_assembly)
             for (int32_t a = 0; a < count; a++)
                 memcpy(position[a], mesh_place(&mesh, nodes[a]), 2 * sizeof(double));
             ElementMatrices matrices;
-            element_matrices(def.kind, (const MeshPlace *)position, &material, &matrices);
+            element_matrices(def.kind, (const MeshPlace *)position, &material, true, &matrices);
             for (int32_t i = 0; i < 2 * count; i++) {
                 int32_t row = 2 * nodes[i / 2] + i % 2;
                 mass[row] += matrices.mass[i / 2];

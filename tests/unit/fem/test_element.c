@@ -30,7 +30,7 @@ static void for_all_elements(const Material *material, ElementCheck check)
             mesh_places(&mesh, mesh.element_nodes + mesh.first_node[e],
                         element_node_count(def.kind), position);
             ElementMatrices matrices;
-            element_matrices(def.kind, (const MeshPlace *)position, material, &matrices);
+            element_matrices(def.kind, (const MeshPlace *)position, material, true, &matrices);
             check(def.kind, (const MeshPlace *)position, &matrices, material);
         }
         mesh_destroy(&mesh);
@@ -178,7 +178,8 @@ TEST(test_masses)
             position[a][1] = 2 * eta;
         }
         ElementMatrices matrices;
-        element_matrices((ElementKind)kind, (const MeshPlace *)position, &material, &matrices);
+        element_matrices((ElementKind)kind, (const MeshPlace *)position, &material, true,
+                         &matrices);
         double total = 2.5 * matrices.area;
         for (int32_t a = 0; a < nodes; a++)
             assert_near("fraction", matrices.mass[a] / total,
@@ -229,7 +230,7 @@ TEST(test_quadratic_motions)
             mesh_places(&mesh, mesh.element_nodes + mesh.first_node[e], nodes, position);
             for (int32_t a = 0; a < nodes; a++) u[2 * a] = position[a][0] * position[a][0];
             ElementMatrices matrices;
-            element_matrices(def.kind, (const MeshPlace *)position, &material, &matrices);
+            element_matrices(def.kind, (const MeshPlace *)position, &material, true, &matrices);
             energy += quadratic_form(matrices.stiffness, u, u, 2 * nodes);
         }
         assert_near(ELEMENTS[def.kind].name, energy, axial * 4 * 1.5 * 1.5 * 1.5 * 0.6 / 3, 1e-13);
