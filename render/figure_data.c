@@ -43,45 +43,35 @@ static bool data_path(const char *folder, const char *name, const char *end, cha
     return true;
 }
 
-// Each point with what was computed there, in the result's own units.
-static bool write_compared(const char *path, const Measured *measured, bool si, Error *err)
+// Each point with what was computed there, in the result's own units; of probes with the name of
+// the column that it stands in.
+static bool write_compared(const char *path, const Measured *measured, const ResultView *view,
+                           Error *err)
 {
-    static const struct {
-        const char *at, *at_unit, *value, *unit;
-    } kinds[MEASURED_KINDS] = {{"U", "m", "F_T/F_N", NULL},
-                               {"U", "m", "x", "m"},
-                               {"U", "m", "A/A_0", NULL},
-                               {"F_T/F_N", NULL, "l", "m"},
-                               {"x", "m", "v", "m/s"}};
-    Column columns[COLUMNS_MAX];
-    int32_t count = 0, kind = (int32_t)measured->kind;
-    const char *unit = kinds[kind].unit;
-    columns[count++] = (Column){kinds[kind].at, kinds[kind].at_unit, measured->at};
-    if (kind == MEASURED_AREA) columns[count++] = (Column){"x", "m", measured->x};
-    columns[count++] = (Column){kinds[kind].value, unit, measured->value};
-    columns[count++] = (Column){"error", unit, measured->error};
-    columns[count++] = (Column){"computed", unit, measured->computed};
+    const MeasuredWords *words = &MEASURED_WORDS[measured->kind];
+    bool probes = measured->kind == MEASURED_PROBE;
+    Column columns[COLUMNS_MAX] = {{words->at, words->at_unit, measured->at}};
+    int32_t count = 1;
+    if (measured->kind == MEASURED_AREA) columns[count++] = (Column){"x", "m", measured->x};
+    columns[count++] = (Column){words->value, words->unit, measured->value};
+    columns[count++] = (Column){"error", words->unit, measured->error};
+    columns[count++] = (Column){"computed", words->unit, measured->computed};
     if (measured->matched) columns[count++] = (Column){"computed F_T/F_N", NULL, measured->x};
-    return columns_write(path, columns, count, measured->count, si, err);
-}
-
-// The same of probes, with the name of the column that each point stands in.
-static bool write_compared_probes(const char *path, const Measured *measured,
-                                  const ResultView *view, Error *err)
-{
     TextWriter *csv = text_writer_create(path, false, err);
     if (!csv) return false;
-    const char *const names[] = {view->si ? "U (m)" : "U", "column", "value", "error", "computed"};
-    for (int32_t k = 0; k < 5; ++k) csv_text(csv, names[k]);
+    for (int32_t k = 0; k < count; ++k) {
+        csv_heading(csv, columns[k].name, view->si ? columns[k].unit : NULL);
+        if (probes && k == 0) csv_text(csv, "column");
+    }
     csv_end_row(csv);
-    for (int32_t k = 0; k < measured->count; ++k) {
-        int32_t id = (int32_t)measured->x[k];
-        csv_rounded(csv, measured->at[k]);
-        probe_column_csv(csv, view, id / PROBE_COMPONENTS_MAX, measured->quantity,
-                         id % PROBE_COMPONENTS_MAX);
-        csv_rounded(csv, measured->value[k]);
-        csv_rounded(csv, measured->error[k]);
-        csv_rounded(csv, measured->computed[k]);
+    for (int32_t row = 0; row < measured->count; ++row) {
+        int32_t id = probes ? (int32_t)measured->x[row] : 0;
+        for (int32_t k = 0; k < count; ++k) {
+            csv_rounded(csv, columns[k].values[row]);
+            if (probes && k == 0)
+                probe_column_csv(csv, view, id / PROBE_COMPONENTS_MAX, measured->quantity,
+                                 id % PROBE_COMPONENTS_MAX);
+        }
         csv_end_row(csv);
     }
     return text_writer_finish(csv, err);
@@ -101,8 +91,7 @@ bool figure_data_write(const char *folder, const Figure *figure, ResultView *vie
     TRY(measured_read(compare, kind, view, &measured, err));
     if (measured.count > 0) {
         TRY(data_path(folder, figure->name, "-compared", path, err));
-        TRY(kind == MEASURED_PROBE ? write_compared_probes(path, &measured, view, err)
-                                   : write_compared(path, &measured, view->si, err));
+        TRY(write_compared(path, &measured, view, err));
     }
 cleanup:
     measured_destroy(&measured);
@@ -111,7 +100,6 @@ cleanup:
 
 bool figure_data_misfits(const char *folder, ResultView *view, const char *compare, Error *err)
 {
-    static const char *const units[MEASURED_KINDS] = {"", "L", "", "L", "c_R", ""};
     char path[PATH_MAX];
     Measured measured = {0};
     TextWriter *csv = NULL;
@@ -127,13 +115,13 @@ bool figure_data_misfits(const char *folder, ResultView *view, const char *compa
     for (int32_t kind = 0; kind < MEASURED_KINDS; ++kind) {
         TRY(measured_read(compare, (MeasuredKind)kind, view, &measured, err));
         if (measured.count > 0) {
-            const char *unit = kind == MEASURED_PROBE ? probe_words(measured.quantity).si
-                                                      : units[kind];
+            const char *over = MEASURED_WORDS[kind].over;
+            if (kind == MEASURED_PROBE && view->si) over = probe_words(measured.quantity).si;
             csv_text(csv, figure_get(figure_of((MeasuredKind)kind, view))->name);
             csv_number(csv, measured.count);
             csv_number(csv, measured.compared);
             csv_number(csv, measured.compared > 0 ? measured.misfit : NAN);
-            csv_text(csv, kind == MEASURED_PROBE && !view->si ? "" : unit);
+            csv_text(csv, over);
             csv_number(csv, measured.compared > 0 ? measured.in_errors : NAN);
             csv_end_row(csv);
         }

@@ -147,7 +147,7 @@ bool figure_precursors(const Page *whole, ResultView *view, Error *err)
                              axes_place(&axes, measured.x[k], measured.computed[k]));
         canvas_clip(page.canvas, NULL);
 
-        measured_draw(&page, &measured, &axes);
+        measured_draw(&page, &measured, -1, &axes);
         axes_draw(&page, &axes);
     }
     measured_destroy(&measured);
@@ -342,7 +342,7 @@ bool figure_front_speed(const Page *whole, ResultView *view, Error *err)
         draw_segment(page.canvas, &upright, axes_place(&axes, x, axes.y.low),
                      axes_place(&axes, x, axes.y.high));
     }
-    measured_draw(&page, &measured, &axes);
+    measured_draw(&page, &measured, -1, &axes);
     axes_draw(&page, &axes);
 cleanup:
     measured_destroy(&measured);

@@ -257,7 +257,7 @@ bool figure_force(const Page *whole, ResultView *view, Error *err)
     curve_draw(&page, view, &axes);
     peaks_draw(&page, view, &axes);
     slidings_draw(&page, view, &axes);
-    measured_draw(&page, &measured, &axes);
+    measured_draw(&page, &measured, -1, &axes);
     if (enlarged) {
         // A frame around the part that the inset shows, with lines from it to below the inset's
         // numbers: all in one colour.
@@ -272,7 +272,7 @@ bool figure_force(const Page *whole, ResultView *view, Error *err)
         draw_segment(page.canvas, &stroke, (Point){to.x, from.y}, (Point){inset.box.right, foot});
 
         curve_draw(&page, view, &inset);
-        measured_draw(&page, &measured, &inset);
+        measured_draw(&page, &measured, -1, &inset);
         axes_draw(&page, &inset);
     }
     axes_draw(&page, &axes);

@@ -258,7 +258,7 @@ bool figure_slip_map(const Page *whole, ResultView *view, Error *err)
                    "~{l}_{c}");
     }
 
-    measured_draw(&page, &measured, &map.axes);
+    measured_draw(&page, &measured, -1, &map.axes);
     frame_draw(&page, view, &map);
 cleanup:
     measured_destroy(&measured);

@@ -102,7 +102,7 @@ bool figure_probes(Page *page, const FigureInput *input, Error *err)
             line_end(&pen);
         }
         canvas_clip(whole.canvas, NULL);
-        measured_draw_probes(&whole, &measured, c, &axes[c]);
+        measured_draw(&whole, &measured, c, &axes[c]);
         axes_draw(&whole, &axes[c]);
     }
 cleanup:

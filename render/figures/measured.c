@@ -19,6 +19,14 @@ static const double WHOLE_CONTACT = 0.995;   // of L: a length of slip that is a
 
 static const Color MEASURED_COLOR = {0.80f, 0.36f, 0.00f, 1};
 
+const MeasuredWords MEASURED_WORDS[MEASURED_KINDS] = {
+    [MEASURED_MU] = {"U", "m", "F_T/F_N", NULL, "", "", 0},
+    [MEASURED_FRONT] = {"U", "m", "x", "m", "L", " ~{L}", NUMBER_LENGTH},
+    [MEASURED_AREA] = {"U", "m", "A/A_0", NULL, "", "", 0},
+    [MEASURED_LENGTH] = {"F_T/F_N", NULL, "l", "m", "L", " ~{L}", NUMBER_LENGTH},
+    [MEASURED_SPEED] = {"x", "m", "v", "m/s", "c_R", " ~{c}_{R}", NUMBER_C_RAYLEIGH},
+    [MEASURED_PROBE] = {"U", "m", "value", NULL, "", "", 0}};
+
 // Quantities by which a column may be divided, in the place of a unit.
 static const struct {
     const char *name, *dimension;
@@ -220,69 +228,57 @@ static bool make_lists(Measured *measured, int64_t room, Error *err)
     return true;
 }
 
-// All columns of probes of one quantity.
-static bool take_probes(const CsvTable *table, const Columns *found, const ResultView *view,
-                        Measured *measured, Error *err)
+// Adds the rows of two columns that have both numbers. id: of a probe's column; -1: the column x is
+// read instead. A column `event` says what a row belongs to, as in figures/precursors.csv and
+// front-speed.csv. Speeds of precursors stand beside no sliding; the farthest slip so far stands
+// beside no event, where the table has events.
+static bool take_points(const CsvTable *table, const Columns *found, const Column *at,
+                        const Column *value, int32_t id, const ResultView *view, Measured *measured,
+                        Error *err)
 {
     const ViewCurve way = {view->rows, view->t, view->U};
-    const Column *at = found->U.index >= 0 ? &found->U : &found->t;
-    int32_t components = probe_components(view, found->quantity);
-    measured->quantity = found->quantity;
-    if (!make_lists(measured, (int64_t)table->rows * table->columns, err)) return false;
-    for (int32_t id = 0; id < view->probes * components; ++id) {
-        Column value, error;
-        int32_t probe = id / components, c = id % components;
-        if (!find_probe(table, view, found->quantity, probe, c, &value, err)) return false;
-        if (value.index < 0) continue;
-        if (!csv_check(table, value.index, false, err)) return false;
-        if (!find_error(table, &value, &error, err)) return false;
-        for (int32_t row = 0; row < table->rows; ++row) {
-            int32_t k = measured->count;
-            double moment = read_cell(table, row, at);
-            measured->at[k] = at == &found->U ? moment : curve_value(&way, moment);
-            measured->x[k] = PROBE_COMPONENTS_MAX * probe + c;
-            measured->value[k] = read_cell(table, row, &value);
-            measured->error[k] = read_cell(table, row, &error);
-            measured->computed[k] = NAN;
-            if (isfinite(measured->at[k] + measured->value[k])) ++measured->count;
-        }
-    }
-    return true;
-}
-
-// A column `event` says what a row belongs to, as in figures/precursors.csv and front-speed.csv.
-// Speeds of precursors stand beside no sliding; the farthest slip so far stands beside no event,
-// where the table has events.
-static bool take_rows(const CsvTable *table, const Columns *found, const ResultView *view,
-                      Measured *measured, Error *err)
-{
-    Column at, value, error;
-    const ViewCurve way = {view->rows, view->t, view->U};
-    if (!choose(found, measured->kind, &at, &value)) return true;
-    if (measured->kind == MEASURED_PROBE) return take_probes(table, found, view, measured, err);
-    if (!make_lists(measured, table->rows, err)) return false;
-    if (!find_error(table, &value, &error, err)) return false;
-    bool is_time = measured->kind <= MEASURED_AREA && found->U.index < 0, has_events = false;
+    MeasuredKind kind = measured->kind;
+    Column error;
     int32_t events = csv_column(table, "event");
+    bool has_events = false;
+    if (!find_error(table, value, &error, err)) return false;
     for (int32_t row = 0; row < table->rows; ++row)
         if (strcmp(csv_cell(table, row, events), MEASURED_FARTHEST) != 0) has_events = true;
     for (int32_t row = 0; row < table->rows; ++row) {
         int32_t k = measured->count;
-        measured->at[k] = read_cell(table, row, &at);
-        if (is_time) measured->at[k] = curve_value(&way, measured->at[k]);
-        measured->x[k] = read_cell(table, row, &found->x);
-        measured->value[k] = read_cell(table, row, &value);
-        if (measured->kind == MEASURED_SPEED) measured->value[k] = fabs(measured->value[k]);
+        double moment = read_cell(table, row, at), number = read_cell(table, row, value);
+        measured->at[k] = at->index == found->t.index ? curve_value(&way, moment) : moment;
+        measured->x[k] = id >= 0 ? id : read_cell(table, row, &found->x);
+        measured->value[k] = kind == MEASURED_SPEED ? fabs(number) : number;
         measured->error[k] = read_cell(table, row, &error);
         measured->computed[k] = NAN;
-        bool placed = measured->kind != MEASURED_AREA || isfinite(measured->x[k]);
         const char *event = csv_cell(table, row, events);
-        bool shown = true;
-        if (measured->kind == MEASURED_SPEED)
-            shown = !*event || strcmp(event, VIEW_WORD_SLIDING) == 0;
-        if (measured->kind == MEASURED_LENGTH && strcmp(event, MEASURED_FARTHEST) == 0)
-            shown = !has_events;
-        if (isfinite(measured->at[k] + measured->value[k]) && placed && shown) ++measured->count;
+        bool shown = kind != MEASURED_AREA || isfinite(measured->x[k]);
+        if (kind == MEASURED_SPEED) shown = !*event || strcmp(event, VIEW_WORD_SLIDING) == 0;
+        if (kind == MEASURED_LENGTH && strcmp(event, MEASURED_FARTHEST) == 0) shown = !has_events;
+        if (isfinite(measured->at[k] + number) && shown) ++measured->count;
+    }
+    return true;
+}
+
+// Adds the rows of the columns that the kind has, of probes all columns of one quantity.
+static bool take_rows(const CsvTable *table, const Columns *found, const ResultView *view,
+                      Measured *measured, Error *err)
+{
+    Column at, value;
+    int32_t components = probe_components(view, found->quantity);
+    if (!choose(found, measured->kind, &at, &value)) return true;
+    if (!make_lists(measured, (int64_t)table->rows * table->columns, err)) return false;
+    measured->quantity = found->quantity;
+    if (measured->kind != MEASURED_PROBE)
+        return take_points(table, found, &at, &value, -1, view, measured, err);
+    for (int32_t k = 0; k < view->probes * components; ++k) {
+        int32_t probe = k / components, c = k % components, id = PROBE_COMPONENTS_MAX * probe + c;
+        if (!find_probe(table, view, found->quantity, probe, c, &value, err)) return false;
+        if (value.index < 0) continue;
+        if (!csv_check(table, value.index, false, err) ||
+            !take_points(table, found, &at, &value, id, view, measured, err))
+            return false;
     }
     return true;
 }
@@ -373,15 +369,6 @@ cleanup:
 // Computes what the result has where each measurement lies, and the misfit.
 static bool compare(Measured *measured, ResultView *view, Error *err)
 {
-    static const struct {
-        const char *words;
-        int32_t number;   // that the misfit is over; -1: none
-    } scales[MEASURED_KINDS] = {{"", -1},
-                                {" ~{L}", NUMBER_LENGTH},
-                                {"", -1},
-                                {" ~{L}", NUMBER_LENGTH},
-                                {" ~{c}_{R}", NUMBER_C_RAYLEIGH},
-                                {"", -1}};
     ViewCurve curve = {0};
     double *values = NULL;   // of the probes
     bool probe = measured->kind == MEASURED_PROBE, area = measured->kind == MEASURED_AREA;
@@ -414,7 +401,8 @@ static bool compare(Measured *measured, ResultView *view, Error *err)
 
     // Computes the misfit, and says in words what it is.
     double sum = 0, parts = 0;
-    int32_t count = 0, number = scales[measured->kind].number;
+    int32_t count = 0;
+    const MeasuredWords *words = &MEASURED_WORDS[measured->kind];
     for (int32_t k = 0; k < measured->count; ++k) {
         double away = measured->value[k] - measured->computed[k];
         if (!isfinite(away)) continue;
@@ -426,11 +414,11 @@ static bool compare(Measured *measured, ResultView *view, Error *err)
     measured->misfit = measured->in_errors = NAN;
     if (count == 0) goto cleanup;
     size_t length = strlen(measured->words);
-    double misfit = sqrt(sum / count) / (number < 0 ? 1 : view->number[number]);
+    double misfit = sqrt(sum / count) / (*words->over ? view->number[words->number] : 1);
     measured->misfit = misfit;
     if (isfinite(parts)) measured->in_errors = sqrt(parts / count);
     length += (size_t)snprintf(measured->words + length, sizeof measured->words - length,
-                               ": misfit %.3g%s", misfit, scales[measured->kind].words);
+                               ": misfit %.3g%s", misfit, words->over_words);
     if (isfinite(parts))
         snprintf(measured->words + length, sizeof measured->words - length, ", %.3g of its errors",
                  sqrt(parts / count));
@@ -477,39 +465,24 @@ int32_t measured_key(const Measured *measured, KeyMark mark, KeyEntry *entries, 
     return count;
 }
 
-void measured_draw_probes(const Page *page, const Measured *measured, int32_t component,
-                          const Axes *axes)
+void measured_draw(const Page *page, const Measured *measured, int32_t component, const Axes *axes)
 {
-    double radius = KEY_RADIUS * page->point * (measured->count > MARKS_FEW ? MARK_SMALL : 1);
+    bool probes = component >= 0;
+    bool many = measured->count > MARKS_FEW;   // a halo each would hide the curve below
+    double radius = KEY_RADIUS * page->point * (many ? MARK_SMALL : 1);
     canvas_clip(page->canvas, &axes->box);
     for (int32_t k = 0; k < measured->count; ++k) {
-        int32_t id = (int32_t)measured->x[k];
-        if (id % PROBE_COMPONENTS_MAX != component) continue;
-        Stroke stroke = {.color = stack_color(id / PROBE_COMPONENTS_MAX),
+        int32_t id = probes ? (int32_t)measured->x[k] : 0;
+        if (probes && id % PROBE_COMPONENTS_MAX != component) continue;
+        Stroke stroke = {.color = probes ? stack_color(id / PROBE_COMPONENTS_MAX) : MEASURED_COLOR,
                          .width = 0.5 * page->point};
         double at = measured->at[k], value = measured->value[k], error = measured->error[k];
         if (isfinite(error))
             draw_segment(page->canvas, &stroke, axes_place(axes, at, value - error),
                          axes_place(axes, at, value + error));
+        if (!probes && !many)
+            draw_disc(page->canvas, PAPER, axes_place(axes, at, value), 1.25 * radius);
         draw_disc(page->canvas, stroke.color, axes_place(axes, at, value), radius);
-    }
-    canvas_clip(page->canvas, NULL);
-}
-
-void measured_draw(const Page *page, const Measured *measured, const Axes *axes)
-{
-    Stroke stroke = {.color = MEASURED_COLOR, .width = 0.5 * page->point};
-    double radius = KEY_RADIUS * page->point;
-    bool many = measured->count > MARKS_FEW;   // a halo each would hide the curve below
-    if (many) radius *= MARK_SMALL;
-    canvas_clip(page->canvas, &axes->box);
-    for (int32_t k = 0; k < measured->count; ++k) {
-        double at = measured->at[k], value = measured->value[k], error = measured->error[k];
-        if (isfinite(error))
-            draw_segment(page->canvas, &stroke, axes_place(axes, at, value - error),
-                         axes_place(axes, at, value + error));
-        if (!many) draw_disc(page->canvas, PAPER, axes_place(axes, at, value), 1.25 * radius);
-        draw_disc(page->canvas, MEASURED_COLOR, axes_place(axes, at, value), radius);
     }
     canvas_clip(page->canvas, NULL);
 }

@@ -28,6 +28,14 @@ enum { MEASURED_WORDS_SIZE = 200 };
 // A word of the column `event`, beside those of events (render/view/result_view).
 #define MEASURED_FARTHEST "farthest so far"
 
+// Names and units of each kind in tables, and the number that its misfit is over.
+typedef struct MeasuredWords {
+    const char *at, *at_unit, *value, *unit;   // units: in SI; NULL: none
+    const char *over, *over_words;   // in a table and in a legend; "": the misfit is over nothing
+    ResultNumber number;
+} MeasuredWords;
+extern const MeasuredWords MEASURED_WORDS[MEASURED_KINDS];
+
 typedef struct Measured {
     MeasuredKind kind;
     const char *path;   // borrowed
@@ -59,10 +67,8 @@ bool measured_has(const char *path, MeasuredKind kind, const ResultView *view, b
 
 // Adds it to the entries of a key, if there is any; returns how many these are then.
 int32_t measured_key(const Measured *measured, KeyMark mark, KeyEntry *entries, int32_t count);
-// The marks of one component of MEASURED_PROBE, in the colours of their probes.
-void measured_draw_probes(const Page *page, const Measured *measured, int32_t component,
-                          const Axes *axes);
-// Discs with bars as long as the errors on both sides, in a colour of their own.
-void measured_draw(const Page *page, const Measured *measured, const Axes *axes);
+// Discs with bars as long as the errors on both sides. component: of MEASURED_PROBE, in the colours
+// of the probes; -1: all, in a colour of their own.
+void measured_draw(const Page *page, const Measured *measured, int32_t component, const Axes *axes);
 
 #endif
