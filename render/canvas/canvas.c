@@ -11,6 +11,8 @@
 #include <cairo-svg.h>
 
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { POINTS_AN_INCH = 72 };
@@ -21,8 +23,9 @@ struct Canvas {
     cairo_surface_t *surface;   // owned
     cairo_t *cairo;   // owned
     uint32_t map[MAP_SIZE], below;   // as Cairo stores pixels: alpha, red, green, blue
-    char *bytes;   // [room] of the PDF or SVG; owned
-    int64_t size, room;
+    FILE *out;   // the file, in memory; owned
+    char *bytes;   // [size] of it so far, as libc allocates it; owned
+    size_t size;
     Error failure;   // the first one
 };
 
@@ -34,24 +37,9 @@ const char *canvas_ending(CanvasFormat format)
 
 // --- begin ---------------------------------------------------------------------------------------
 
-// Appends bytes of the file to those in memory. false: no memory is left.
-static bool bytes_add(void *self, const uint8_t *bytes, size_t length)
+static cairo_status_t bytes_write(void *out, const unsigned char *bytes, unsigned int length)
 {
-    Canvas *canvas = self;
-    int64_t size = canvas->size + (int64_t)length;
-    if (size > canvas->room) {
-        if (!memory_resize(&canvas->bytes, canvas->room, 2 * size, 1, &canvas->failure))
-            return false;
-        canvas->room = 2 * size;
-    }
-    memcpy(canvas->bytes + canvas->size, bytes, length);
-    canvas->size = size;
-    return true;
-}
-
-static cairo_status_t bytes_of_cairo(void *self, const unsigned char *bytes, unsigned int length)
-{
-    return bytes_add(self, bytes, length) ? CAIRO_STATUS_SUCCESS : CAIRO_STATUS_NO_MEMORY;
+    return fwrite(bytes, 1, length, out) == length ? CAIRO_STATUS_SUCCESS : CAIRO_STATUS_NO_MEMORY;
 }
 
 Canvas *canvas_create(const CanvasDef *def, Error *err)
@@ -66,16 +54,16 @@ Canvas *canvas_create(const CanvasDef *def, Error *err)
     canvas->def = *def;
     if (def->format == CANVAS_PNG)
         TRY(canvas->pixels = memory_bytes(4 * (int64_t)def->width * def->height, err));
-    TRY(canvas->bytes = NEW_ARRAY(char, 1, err));
-    canvas->room = 1;
+    if (!(canvas->out = open_memstream(&canvas->bytes, &canvas->size)))
+        FAIL(err, ERROR_MEMORY, "no memory for a picture");
     double points = POINTS_AN_INCH / def->dpi, width = def->width * points;
     double height = def->height * points;
     if (def->format == CANVAS_PDF) {
         canvas->surface =
-            cairo_pdf_surface_create_for_stream(bytes_of_cairo, canvas, width, height);
+            cairo_pdf_surface_create_for_stream(bytes_write, canvas->out, width, height);
     } else if (def->format == CANVAS_SVG) {
         canvas->surface =
-            cairo_svg_surface_create_for_stream(bytes_of_cairo, canvas, width, height);
+            cairo_svg_surface_create_for_stream(bytes_write, canvas->out, width, height);
         cairo_svg_surface_set_document_unit(canvas->surface, CAIRO_SVG_UNIT_PT);
     } else {
         canvas->surface = cairo_image_surface_create_for_data(
@@ -101,7 +89,9 @@ void canvas_destroy(Canvas *canvas)
     if (!canvas) return;
     cairo_destroy(canvas->cairo);   // NULL is fine, here and below
     cairo_surface_destroy(canvas->surface);
-    memory_free_all(canvas->pixels, canvas->bytes, canvas);
+    if (canvas->out) fclose(canvas->out);
+    free(canvas->bytes);
+    memory_free_all(canvas->pixels, canvas);
 }
 
 int32_t canvas_width(const Canvas *canvas)
@@ -265,6 +255,7 @@ void canvas_heat_disc(Canvas *canvas, Point centre, double radius, float value)
 static bool canvas_check(Canvas *canvas, Error *err)
 {
     cairo_status_t status = cairo_status(canvas->cairo);
+    if (!status) status = cairo_surface_status(canvas->surface);   // of the bytes written
     if (!error_is_clean(&canvas->failure)) {
         *err = canvas->failure;
         return false;
@@ -310,10 +301,12 @@ bool canvas_finish(Canvas *canvas, const char *title, bool small, PictureBytes *
                               .pixels_per_metre = canvas->def.dpi / 0.0254,
                               .title = title,
                               .few_colors = small};
-        png_encode(&picture, bytes_add, canvas, &canvas->failure);
+        png_encode(&picture, canvas->out, &canvas->failure);
     }
     cairo_surface_finish(canvas->surface);   // the last of the bytes
-    *bytes = (PictureBytes){canvas->bytes, canvas->size};
+    if (fflush(canvas->out) != 0 && error_is_clean(&canvas->failure))
+        FAULT(&canvas->failure, ERROR_MEMORY, "no memory for a picture");
+    *bytes = (PictureBytes){canvas->bytes, (int64_t)canvas->size};
     return canvas_check(canvas, err);
 }
 

@@ -5,8 +5,8 @@
 
 #include "base/error.h"
 
-#include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 
 typedef struct PngPicture {
     int32_t width, height, stride;   // stride: bytes from one row to the next
@@ -16,10 +16,7 @@ typedef struct PngPicture {
     bool few_colors;   // a palette of the 256 most frequent: for a screen, a third of the bytes
 } PngPicture;
 
-// Takes the next bytes of the file; false: it failed, and its owner knows why.
-typedef bool (*PngSink)(void *context, const uint8_t *bytes, size_t length);
-
 // Same picture, same bytes: no date is stored.
-bool png_encode(const PngPicture *picture, PngSink sink, void *context, Error *err);
+bool png_encode(const PngPicture *picture, FILE *out, Error *err);
 
 #endif

@@ -272,8 +272,9 @@ TEST(dark_paper_is_inverted_and_keeps_hue)
     assert_true(red.red > 0.9F && red.green < 0.8F && red.blue < 0.8F);
 }
 
-// Memory that runs out while Cairo hands on the bytes of a PDF is an error, and none is lost.
-TEST(vector_files_run_out_of_memory)
+// Memory that runs out while a picture is made is an error, and none is lost. The bytes of a file
+// stand in memory of libc, which does not run out here.
+TEST(pictures_run_out_of_memory)
 {
     const CanvasFormat formats[] = {CANVAS_PNG, CANVAS_PDF, CANVAS_SVG};
     for (int32_t f = 0; f < 3; ++f) {
@@ -294,6 +295,6 @@ TEST(vector_files_run_out_of_memory)
             assert_int_equal(memory_counters().live, live);
             assert_int_equal(err.code, done ? ERROR_NONE : ERROR_MEMORY);
         }
-        assert_in_range(k, 3, 100);
+        assert_in_range(k, 2, 100);
     }
 }
