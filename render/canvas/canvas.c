@@ -305,7 +305,7 @@ bool canvas_finish(Canvas *canvas, const char *title, bool small, PictureBytes *
     }
     cairo_surface_finish(canvas->surface);   // the last of the bytes
     if (fflush(canvas->out) != 0 && error_is_clean(&canvas->failure))
-        FAULT(&canvas->failure, ERROR_MEMORY, "no memory for a picture");
+        error_set(&canvas->failure, ERROR_MEMORY, __FILE__, __LINE__, "no memory for a picture");
     *bytes = (PictureBytes){canvas->bytes, (int64_t)canvas->size};
     return canvas_check(canvas, err);
 }

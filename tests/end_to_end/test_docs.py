@@ -77,7 +77,7 @@ class Text(unittest.TestCase):
                         self.assertTrue(name in words or any(place.endswith(f"/{name}") or f"/{name.rstrip('/')}/" in place
                                                              for place in places))
                     named += 1
-        self.assertGreater(named, 200)
+        self.assertGreater(named, 150)   # that any are found: a header that has few readers names them
 
     def test_walk_through_is_read_in_five_minutes(self):
         """At 250 words a minute, a path counted as one."""
