@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Friction laws from the keys of a scene: its own, and those of the items of friction.contacts.
-// Called by scene/scene_read and model/node_laws.
+// Called by scene/scene_read and model/contact_nodes.
 #ifndef AMONTONS_SCENE_FRICTION_LAW_H
 #define AMONTONS_SCENE_FRICTION_LAW_H
 
