@@ -152,10 +152,14 @@ void canvas_set_below(Canvas *canvas, Color below)
 // OpenGL draws an image of its own, which Cairo places.
 static void draw_pixels(Canvas *canvas, const Box *box, const GlImageDef *wanted)
 {
+    enum { SIDE_MAX = 32767 };   // of Cairo's images
     GlImageDef def = *wanted;
     Error *err = &canvas->failure;
     cairo_t *cairo = canvas->cairo;
     cairo_surface_t *image = NULL;
+    if (def.width > SIDE_MAX || def.height > SIDE_MAX)
+        FAIL(err, ERROR_LIBRARY, "a map of %d by %d values: an image has at most %d a side",
+             def.width, def.height, (int)SIDE_MAX);
     if (!canvas->map[0]) map_fill(canvas);   // opaque pixels are not 0
     def.colors = canvas->map;
     def.color_count = MAP_SIZE;
