@@ -61,7 +61,7 @@ class Windows(Driven):
     def test_to_the_end(self):
         """From the end of the first sliding of three; the history as well, and pictures of it."""
         first = self.sliding(self.all, 1).stop - 1
-        window = (f"output.window={{from_t: {self.all['time'][first] - 1e-6!r}}}", ROWS, "output.fields={every_t: 5}", "output.figures=[force]")
+        window = (f"output.window={{from_t: {float(self.all['time'][first]) - 1e-6!r}}}", ROWS, "output.fields={every_t: 5}", "output.figures=[force]")
         found = self.run_scene("last", *window, scene=EXAMPLE)
         for key in ("time", "mu", "certified", "energy_error", "step_size"):
             numpy.testing.assert_array_equal(found[key], self.all[key][first:], err_msg=key)
