@@ -57,7 +57,8 @@ void html_words(TextWriter *html, const char *words)
     write_words(html, words, false);
 }
 
-void svg_words(TextWriter *html, const char *words)
+// The same as tspans inside of an SVG text.
+static void svg_words(TextWriter *html, const char *words)
 {
     write_words(html, words, true);
 }

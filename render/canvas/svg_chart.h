@@ -7,9 +7,8 @@
 #include "io/text/html_writer.h"
 #include "render/canvas/axes.h"
 
-// Text with render/canvas/text's marks, as <i>, <sub>, <sup>; or as tspans inside of an SVG text.
+// Text with render/canvas/text's marks, as <i>, <sub>, <sup>.
 void html_words(TextWriter *html, const char *words);
-void svg_words(TextWriter *html, const char *words);
 
 // Frame, ticks and names in the units of the drawing; without a name and numbers of x where others
 // stand below.

@@ -18,7 +18,8 @@ static const double PAD = 0.08;   // beside the precursors, over what they span
 static const double CYCLE_SHOWN = 0.15;   // of a cycle without rapid precursors
 static const double SPAN_MIN = 0.01;   // of a cycle: one precursor close to sliding
 
-int32_t zoom_slidings(const ResultView *view)
+// Counts the slidings of the whole block: as many cycles have ended.
+static int32_t count_slidings(const ResultView *view)
 {
     int32_t count = 0;
     for (int32_t k = 0; k < view->event_count; ++k) {
@@ -51,7 +52,7 @@ static bool cycle_find(const ResultView *view, Cycle *best, int32_t *slidings)
 {
     double low = 0, high = 0;
     bool found = false;
-    *slidings = zoom_slidings(view);
+    *slidings = count_slidings(view);
     int32_t asked = view->cycle == VIEW_CYCLE_LAST ? *slidings : view->cycle;
     if (asked == VIEW_CYCLE_CHOSEN && *slidings <= FEW_SLIDINGS) asked = 1;
     result_view_range(view, &low, &high);
@@ -138,7 +139,7 @@ bool zoom_covers(const Zoom *zoom, double U)
 
 void zoom_cycles(const ResultView *view, int32_t *first, int32_t *last)
 {
-    int32_t slidings = zoom_slidings(view);
+    int32_t slidings = count_slidings(view);
     bool all = view->cycle == VIEW_CYCLE_ALL && slidings > 0;
     *first = all ? 1 : view->cycle;
     *last = all ? slidings : view->cycle;
@@ -146,7 +147,7 @@ void zoom_cycles(const ResultView *view, int32_t *first, int32_t *last)
 
 bool zoom_choose_cycle(ResultView *view, const char *words, Error *err)
 {
-    int32_t slidings = zoom_slidings(view);
+    int32_t slidings = count_slidings(view);
     char *end = NULL;
     if (strcmp(words, "first") == 0) {
         view->cycle = 1;

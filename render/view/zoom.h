@@ -33,9 +33,6 @@ Zoom zoom_choose(const ResultView *view);
 // do where no sliding bounds it.
 bool zoom_covers(const Zoom *zoom, double U);
 
-// Slidings of the whole block: as many cycles have ended.
-int32_t zoom_slidings(const ResultView *view);
-
 // The cycles that are shown one by one, from *first to *last, as view->cycle may be.
 void zoom_cycles(const ResultView *view, int32_t *first, int32_t *last);
 

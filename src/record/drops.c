@@ -80,7 +80,7 @@ void segments_read(const Segments *segments, const Observation *seen, double *st
     }
 }
 
-void segments_archive(Segments *segments, Archive *archive)
+static void segments_archive(Segments *segments, Archive *archive)
 {
     archive_octets(archive, segments->slipped, segments->contact_count);
     archive_index(archive, &segments->stuck, 0, segments->contact_count + 1);
@@ -91,7 +91,8 @@ void segments_archive(Segments *segments, Archive *archive)
 static const Drop NOTHING_SEEN = {
     .mu = -INFINITY, .mu_after = INFINITY, .front_uncertified = NAN, .front_growth = NAN};
 
-int32_t drops_state_size(const Drops *drops)
+// Returns how many numbers a row of `states` has.
+static int32_t drops_state_size(const Drops *drops)
 {
     return 2 * drops->segments.count;
 }

@@ -41,8 +41,6 @@ void segments_follow(Segments *segments, const Observation *seen);
 // then how far it lags behind the drive, length.
 void segments_read(const Segments *segments, const Observation *seen, double *state);
 
-void segments_archive(Segments *segments, Archive *archive);
-
 // --- drops --------------------------------------------------------------------------------------
 
 typedef enum DropKind { DROP_BULK, DROP_LOAD, DROP_PADS } DropKind;
@@ -97,7 +95,6 @@ bool drops_create(const Interface *interface, const Events *events, double toler
 void drops_destroy(Drops *drops);
 bool drops_record(void *self, const Observation *seen, Error *err);   // a Recorder
 
-int32_t drops_state_size(const Drops *drops);   // numbers in a row of `states`
 bool drop_is(const Drop *drop, DropKind kind);
 int32_t drops_count(const Drops *drops, DropKind kind);
 // Drop k of the list as one of this kind: what it holds since the drop before, it holds since the

@@ -128,7 +128,7 @@ double front_path_speed(const FrontPath *path, const double times[FRONT_STATIONS
     return together && elapsed != 0 ? path->spacing / elapsed : NAN;
 }
 
-void front_path_archive(FrontPath *path, int32_t contact_count, Archive *archive)
+static void front_path_archive(FrontPath *path, int32_t contact_count, Archive *archive)
 {
     archive_number(archive, &path->t_before);
     archive_numbers(archive, path->rate_before, contact_count);

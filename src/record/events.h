@@ -66,8 +66,6 @@ void front_path_stations(const FrontPath *path, double origin, double times[FRON
 // or both at once, or they stand on different pads.
 double front_path_speed(const FrontPath *path, const double times[FRONT_STATIONS], int32_t k);
 
-void front_path_archive(FrontPath *path, int32_t contact_count, Archive *archive);
-
 // --- events -------------------------------------------------------------------------------------
 
 typedef struct Event {

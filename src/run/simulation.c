@@ -255,7 +255,7 @@ bool amontons_simulation_create(const Scene *scene, const RunOptions *options, S
 // A run is also finished if the time that is left is shorter than every step size whose matrices
 // are factored: a new factorisation is not worth it. The periodic regime is looked at only when an
 // event has ended.
-bool simulation_is_finished(const Simulation *simulation)
+static bool is_finished(const Simulation *simulation)
 {
     const StepControl *control = &simulation->control;
     bool implicit = simulation->scene.time.scheme != SCHEME_EXPLICIT;
@@ -309,7 +309,7 @@ bool amontons_simulation_step(Simulation *simulation, StepView *view, bool *fini
     if (implicit && isfinite(simulation->t_end) &&
         !step_control_gets_on(control, simulation->t_end, err))
         return false;
-    *finished = simulation_is_finished(simulation);
+    *finished = is_finished(simulation);
     if (view) *view = step_view(&simulation->seen, events, &simulation->contact, simulation->t_end);
     return true;
 }
@@ -357,7 +357,7 @@ bool amontons_simulation_block(Simulation *simulation, BlockView *view, Error *e
 bool simulation_loop(Simulation *simulation, Error *err)
 {
     Error unseen = {0}, lost = {0};
-    bool finished = simulation->goes_on && simulation_is_finished(simulation);
+    bool finished = simulation->goes_on && is_finished(simulation);
     while (!finished) {
         if (!amontons_simulation_step(simulation, NULL, &finished, err)) return false;
         checkpoint_when_due(simulation);

@@ -207,7 +207,6 @@ bool simulation_run(const Scene *scene, const RunOptions *options, RunSummary *s
 bool simulation_create_by(const Scene *scene, const RunOptions *options, double deadline,
                           Simulation **simulation, Error *err);
 bool simulation_loop(Simulation *simulation, Error *err);   // steps to the end of the scene
-bool simulation_is_finished(const Simulation *simulation);   // the scene's end, or its period
 Answers simulation_answers(const Simulation *simulation);   // of this run so far, at its end
 
 // Closes history, draws, reports. failure: NULL, or why the run ended early; it is reported, and

@@ -79,12 +79,6 @@ void step_control_destroy(StepControl *control)
     *control = (StepControl){0};
 }
 
-void step_control_settle(StepControl *control)
-{
-    control->settles = control->scheme.memory.frozen = true;
-    control->coarsest = 0;
-}
-
 void step_control_restart(StepControl *control)
 {
     control->settles = control->scheme.memory.frozen = false;
@@ -439,7 +433,11 @@ static double fastest(const StepControl *control)
 bool relax(StepControl *control, const RelaxationDef *def, int64_t *steps, Error *err)
 {
     double speed = INFINITY;
-    step_control_settle(control);
+
+    // Until the next restart only the state reached in the end matters: steps may be as long as
+    // relax_step, and nothing is asked of energy.
+    control->settles = control->scheme.memory.frozen = true;
+    control->coarsest = 0;
     for (*steps = 0; speed > def->speed_max; (*steps)++) {
         if (control->now.time > def->duration_max)
             FAIL(err, ERROR_COMPUTE,

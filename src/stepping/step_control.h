@@ -61,7 +61,7 @@ typedef struct StepControl {
     int32_t scanned;   // nodes that slipped then
     int32_t level;   // to try next; the larger the shorter is the step (stepping/dt_levels)
     int32_t coarsest;   // level of the longest step allowed
-    bool settles;   // see step_control_settle
+    bool settles;   // while the block relaxes: only the state in the end matters
     bool lands;   // steps end where `remaining` does, on levels made for it, down to an eighth of
         // the wave step
     int64_t looked_steps;   // accepted when step_control_gets_on looked last
@@ -84,10 +84,6 @@ bool step_control_fits(const StepControl *control, double remaining);
 // whole run where these resolved waves, as an event does) the time `end` would take more than 1e8
 // more: a state lets no step be accepted but very short ones, and does not change.
 bool step_control_gets_on(StepControl *control, double end, Error *err);
-
-// Until the next restart only the state reached in the end matters: steps may be as long as
-// relax_step, and nothing is asked of energy.
-void step_control_settle(StepControl *control);
 
 // Explicit steps of one length in place of those that step_control_advance chooses; the levels of
 // dt so far are freed. `scheme` is at `now`.
