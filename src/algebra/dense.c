@@ -21,6 +21,7 @@ enum { ROWS_CACHED = 65536, ROWS_STEP = 16 };
 
 void dpotrf_(const char *uplo, const int *n, double *a, const int *lda, int *info,
              size_t uplo_size);
+void spotrf_(const char *uplo, const int *n, float *a, const int *lda, int *info, size_t uplo_size);
 void dgetrf_(const int *m, const int *n, double *a, const int *lda, int *pivots, int *info);
 void dgetrs_(const char *trans, const int *n, const int *nrhs, const double *a, const int *lda,
              const int *pivots, double *b, const int *ldb, int *info, size_t trans_size);
@@ -89,6 +90,29 @@ bool dense_cholesky(double *a, int32_t n)
     for (int64_t k = 0; k < n; k++) {   // LAPACK lets NaN pass
         if (!(a[k * n + k] > 0)) return false;
     }
+    return true;
+}
+
+// A is scaled to a diagonal of 1 first, so that no entry is too large or too small for single
+// precision, and rounds to a part in 2^24 of it wherever it stands.
+bool dense_exceeds_single(const double *a, int32_t n, double margin, float *work)
+{
+    int info = 0;
+    int64_t size = n;
+    float *scale = work + size * size;
+    for (int64_t k = 0; k < size; k++) {
+        if (!(a[k * (size + 1)] > 0)) return false;
+        scale[k] = (float)(1 / sqrt(a[k * (size + 1)]));
+    }
+    for (int64_t j = 0; j < size; j++) {
+        for (int64_t i = j; i < size; i++)
+            work[j * size + i] = (float)a[j * size + i] * scale[i] * scale[j];
+        work[j * (size + 1)] = (float)(1 - margin);
+    }
+    if (n > 0) spotrf_("L", &n, work, &n, &info, 1);
+    if (info != 0) return false;
+    for (int64_t k = 0; k < size; k++)
+        if (!(work[k * (size + 1)] > 0)) return false;
     return true;
 }
 

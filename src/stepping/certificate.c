@@ -23,12 +23,18 @@ static const double BETWEEN_MEMORIES = 1.125;
 // tell it from 1.
 static const double SETTLED = 1e-6;
 
+// A matrix of so many rows is first asked about in single precision, which is enough where it stays
+// definite without this part of its diagonal: rounding there is some 1e-6 of it.
+enum { SINGLE_ROWS = 128 };
+static const double SINGLE_MARGIN = 1e-4;
+
 static bool create_work(const Block *block, Certificate *certificate, Error *err)
 {
     *certificate = (Certificate){0};
     int64_t count = block->interface->count;
     if (!moving_set_create(block, &certificate->moving, err)) return false;
     certificate->matrix = memory_bytes(8 * count * count, err);   // taken up as it is used
+    if (count >= SINGLE_ROWS) certificate->single = memory_bytes(4 * count * (count + 1), err);
     certificate->vector = NEW_ARRAY(double, count, err);
     certificate->pivots = NEW_ARRAY(int32_t, count, err);
     return error_is_clean(err);
@@ -117,7 +123,8 @@ void certificate_destroy(Certificate *certificate)
     contact_matrix_destroy(&certificate->damping_contact);
     memory_free_all(certificate->damping, certificate->alone);
     moving_set_destroy(&certificate->moving);
-    memory_free_all(certificate->matrix, certificate->vector, certificate->pivots);
+    memory_free_all(certificate->matrix, certificate->single, certificate->vector,
+                    certificate->pivots);
     *certificate = (Certificate){0};
 }
 
@@ -127,6 +134,15 @@ static const double *close_matrix(const Certificate *certificate, const State *s
 {
     return contact_matrix_close(matrix, state->status, state->contact_count,
                                 certificate->moving.interface->dim);
+}
+
+// certificate->matrix, which is overwritten, is positive definite.
+static bool matrix_is_definite(Certificate *certificate)
+{
+    int32_t count = certificate->moving.count;
+    return (count >= SINGLE_ROWS &&
+            dense_exceeds_single(certificate->matrix, count, SINGLE_MARGIN, certificate->single)) ||
+           dense_cholesky(certificate->matrix, count);
 }
 
 // S_C + narrow (S - S_C)/BETWEEN_LEVELS - W - N on F is positive definite; S that of `level` (NULL:
@@ -151,7 +167,7 @@ static bool is_definite(Certificate *certificate, const State *state, ContactMat
     moving_set_subtract_weakening(moving, 0, certificate->matrix);
     moving_set_subtract_memory(moving, reach, narrow, factor, certificate->matrix);
     certificate->checks++;
-    return dense_cholesky(certificate->matrix, moving->count);
+    return matrix_is_definite(certificate);
 }
 
 bool certificate_holds(Certificate *certificate, const State *state, double reach)
@@ -197,7 +213,7 @@ static bool is_positive(Certificate *certificate, const double *closed, double r
     moving_set_turn(moving, true, certificate->matrix);
     moving_set_add_dampers(moving, 0, certificate->matrix);
     moving_set_subtract_weakening(moving, reach, certificate->matrix);
-    return dense_cholesky(certificate->matrix, moving->count);
+    return matrix_is_definite(certificate);
 }
 
 // det J > 0 at the s of `level`; what moves has been found. false, too: nothing holds the open

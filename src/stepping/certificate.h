@@ -57,6 +57,7 @@ typedef struct Certificate {
     ContactMatrix damping_contact;   // S_C, open nodes condensed out; empty without; owned
     MovingSet moving;   // F and W of the state asked about; owned, like all that follows
     double *matrix;   // [count^2] work
+    float *single;   // [count * (count + 1)] work; NULL: count is small
     double *vector;   // [count] work
     int32_t *pivots;   // [count] work
     int64_t checks;   // counted, factorisations

@@ -36,9 +36,14 @@ void dt_levels_drop_halves(DtLevels *dt_levels)
             if (part != PART_WHOLE) drop_contact(dt_levels, k, part);
 }
 
+void dt_levels_drop_longer(DtLevels *dt_levels, int32_t longest)
+{
+    for (int32_t k = 0; k < longest; k++) drop_level(dt_levels, k);
+}
+
 void dt_levels_destroy(DtLevels *dt_levels)
 {
-    for (int32_t k = 0; k < DT_LEVELS_MAX; k++) drop_level(dt_levels, k);
+    dt_levels_drop_longer(dt_levels, DT_LEVELS_MAX);
     *dt_levels = (DtLevels){0};
 }
 
@@ -71,7 +76,23 @@ static ContactMatrix *made_contact(DtLevels *dt_levels, int32_t k, ContactPart p
     return matrix->schur ? matrix : NULL;
 }
 
-// The operator is made anew where its S was dropped: seldom is more than one part asked for.
+// What one side sees of S. Where that is not its own mirror image `half` becomes NULL.
+static bool build_half(DtLevels *dt_levels, int32_t k, ContactPart part, Error *err)
+{
+    int64_t count = dt_levels->half->interface.count;
+    double *schur = dt_levels->half_schur[part][k] =
+        memory_bytes(count * count * (int64_t)sizeof(double), err);
+    if (!schur) return false;
+    if (contact_half_matrix(dt_levels->half, interface_operator_schur(dt_levels->level[k]),
+                            part == PART_ANTISYMMETRIC, schur))
+        return contact_matrix_create(schur, (int32_t)count, &dt_levels->contact[part][k], err);
+    drop_contact(dt_levels, k, part);
+    dt_levels->half = NULL;
+    return true;
+}
+
+// The operator is made anew where its S was dropped. Levels that a run steps with get the matrices
+// of both sides at once, as both are asked for once slip weakens; relaxing asks for one alone.
 static bool build_level(DtLevels *dt_levels, int32_t k, ContactPart part, Error *err)
 {
     InterfaceOperator *level = dt_levels->level[k];
@@ -81,25 +102,20 @@ static bool build_level(DtLevels *dt_levels, int32_t k, ContactPart part, Error 
             interface_operator_create(dt_levels->system, level_terms(dt_levels, k), err);
         if (!level) return false;
     }
-    if (part != PART_WHOLE) {
-        int64_t count = dt_levels->half->interface.count;
-        double *schur = dt_levels->half_schur[part][k] =
-            memory_bytes(count * count * (int64_t)sizeof(double), err);
-        if (!schur) return false;
-        if (contact_half_matrix(dt_levels->half, interface_operator_schur(level),
-                                part == PART_ANTISYMMETRIC, schur)) {
-            // S itself is freed where nobody else uses it.
-            if (!dt_levels->contact[PART_WHOLE][k].schur)
-                memory_free(interface_operator_take_schur(level));
-            return contact_matrix_create(schur, (int32_t)count, &dt_levels->contact[part][k], err);
-        }
-        drop_contact(dt_levels, k, part);
-        dt_levels->half = NULL;
-        if (made_contact(dt_levels, k, PART_WHOLE)) return true;
+    for (ContactPart half = PART_SYMMETRIC; part != PART_WHOLE && half < CONTACT_PARTS; half++) {
+        bool wanted = half == part || k >= dt_levels->both_from;
+        if (!wanted || !dt_levels->half || made_contact(dt_levels, k, half)) continue;
+        if (!build_half(dt_levels, k, half, err)) return false;
     }
-    return contact_matrix_create(interface_operator_schur(level),
-                                 dt_levels->system->interface_count,
-                                 &dt_levels->contact[PART_WHOLE][k], err);
+    bool whole = made_contact(dt_levels, k, PART_WHOLE) != NULL;
+    if (part != PART_WHOLE && dt_levels->half) {
+        // S itself is freed where nobody else uses it.
+        if (!whole) memory_free(interface_operator_take_schur(level));
+        return true;
+    }
+    return whole || contact_matrix_create(interface_operator_schur(level),
+                                          dt_levels->system->interface_count,
+                                          &dt_levels->contact[PART_WHOLE][k], err);
 }
 
 // The time of a factorisation is counted here, not in the step's.

@@ -2,7 +2,9 @@
 #include "stepping/half_step.h"
 
 #include "algebra/dense.h"
+#include "base/clock.h"
 #include "base/memory.h"
+#include "base/parallel.h"
 
 #include <math.h>
 #include <string.h>
@@ -10,6 +12,10 @@
 // Largest antisymmetric part of a problem over its largest symmetric one: rounding of a state that
 // was stepped as a whole, far below what a step may be off.
 static const double ALIKE = 1e-9;
+
+// Interface unknowns of one side from which on its parts are certified in two threads: some tenths
+// of a millisecond each.
+enum { PARALLEL_UNKNOWNS = 300 };
 
 bool half_step_create(const Block *block, const Certificate *whole, HalfStep *half, Error *err)
 {
@@ -219,18 +225,49 @@ void half_step_archive(HalfStep *half, Archive *archive)
 
 // --- certificates of the parts ------------------------------------------------------------------
 
+// A question to both parts, which needs no level but this one.
+typedef struct BothParts {
+    HalfStep *half;
+    const State *one_side;
+    ContactMatrix
+        *level[2];   // of the symmetric and the antisymmetric part; NULL: whether they hold
+    double reach;
+    bool yes[2];
+} BothParts;
+
+static void ask_part(void *context, int32_t k, int32_t worker)
+{
+    BothParts *both = context;
+    Certificate *certificate = k == 0 ? &both->half->symmetric : &both->half->antisymmetric;
+    const State *state = both->one_side;
+    (void)worker;
+    both->yes[k] = both->level[k]
+                       ? certificate_step_resolves(certificate, state, both->level[k], both->reach)
+                       : certificate_holds(certificate, state, both->reach);
+}
+
+// Side by side where that is worth a thread; `seconds` go by the clock.
+static void ask_both(CertifiedParts parts, BothParts *both)
+{
+    double started = clock_seconds(), before = parts.whole->seconds;
+    if (parts.half->contact.interface.count >= PARALLEL_UNKNOWNS)
+        parallel_for(2, ask_part, both);
+    else
+        for (int32_t k = 0; k < 2; k++) ask_part(both, k, 0);
+    certificate_take_counts(parts.whole, &parts.half->symmetric);
+    certificate_take_counts(parts.whole, &parts.half->antisymmetric);
+    parts.whole->seconds = before + clock_seconds() - started;
+}
+
 bool parts_hold(CertifiedParts parts, const State *state, double reach, bool *antisymmetric_decays)
 {
     HalfStep *half = parts.half;
     *antisymmetric_decays = false;
     if (!parts.halved) return certificate_holds(parts.whole, state, reach);
-    const State *one_side = half_step_fold(half, state);
-    *antisymmetric_decays = certificate_holds(&half->antisymmetric, one_side, reach);
-    half->antisymmetric_decays = *antisymmetric_decays;
-    bool holds = certificate_holds(&half->symmetric, one_side, reach);
-    certificate_take_counts(parts.whole, &half->symmetric);
-    certificate_take_counts(parts.whole, &half->antisymmetric);
-    return holds && *antisymmetric_decays;
+    BothParts both = {.half = half, .one_side = half_step_fold(half, state), .reach = reach};
+    ask_both(parts, &both);
+    *antisymmetric_decays = half->antisymmetric_decays = both.yes[1];
+    return both.yes[0] && both.yes[1];
 }
 
 // The answer of one certificate.
@@ -261,6 +298,17 @@ bool parts_ask(CertifiedParts parts, const State *state, PartsAsked asked, Level
     DtLevels *dt_levels = parts.dt_levels;
     if (!parts.halved) return answer(parts.whole, state, dt_levels, asked, range, growth);
     const State *one_side = half_step_fold(half, state);
+    if (asked == PARTS_RESOLVE && !half->antisymmetric_decays) {
+        int32_t k = range.first;
+        BothParts both = {.half = half,
+                          .one_side = one_side,
+                          .level = {dt_level_contact(dt_levels, k, PART_SYMMETRIC),
+                                    dt_level_contact(dt_levels, k, PART_ANTISYMMETRIC)},
+                          .reach = dt_level_reach(dt_levels, k)};
+        if (!both.level[0] || !both.level[1] || !dt_levels->half) return false;
+        ask_both(parts, &both);
+        return both.yes[0] && both.yes[1];
+    }
     bool yes = answer(&half->symmetric, one_side, dt_levels, asked, range, growth);
     if (yes && !half->antisymmetric_decays)
         yes = answer(&half->antisymmetric, one_side, dt_levels, asked, range, growth);
