@@ -14,6 +14,7 @@
 // 128 MB that OpenBLAS asks for again and again where it gets none.
 static const size_t THREAD_ROOM = (size_t)256 << 20;
 
+static int32_t sharing = 1;   // processes that share the processors
 static _Thread_local int32_t left_to_piece;   // threads; 0: not within a piece
 
 typedef struct Work {
@@ -45,8 +46,13 @@ int thread_start(void *(*run)(void *self), void *self, pthread_t *thread)
 int32_t parallel_workers(void)
 {
     if (left_to_piece > 0) return left_to_piece;
-    int32_t count = system_processors();
-    return count < PARALLEL_WORKERS_MAX ? count : PARALLEL_WORKERS_MAX;
+    int32_t count = system_processors() / sharing;
+    return count < 1 ? 1 : count < PARALLEL_WORKERS_MAX ? count : PARALLEL_WORKERS_MAX;
+}
+
+void parallel_share(int32_t processes)
+{
+    sharing = processes;
 }
 
 static void do_pieces(Work *work, int32_t worker)

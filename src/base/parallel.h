@@ -22,6 +22,8 @@ int thread_start(void *(*run)(void *self), void *self, pthread_t *thread);
 
 // Processors of this process, PARALLEL_WORKERS_MAX at most; from within a piece: those left to it.
 int32_t parallel_workers(void);
+// From now on so many processes like this one share the processors.
+void parallel_share(int32_t processes);
 
 // Calls piece(context, k, worker) for k from 0 to count - 1; returns when all are done. worker:
 // which thread it is, for room of its own; 0 is the caller's. From within a piece: those that are

@@ -91,6 +91,19 @@ TEST(test_all_are_done)
     assert_true(parallel_workers() == 1 || elsewhere > 0);
 }
 
+// Processes that share the processors have their part of them each, and one at least.
+TEST(test_processors_are_shared)
+{
+    int32_t all = parallel_workers();
+    parallel_share(2);
+    assert_true(parallel_workers() == 1 || parallel_workers() >= all / 2);
+    assert_true(all == 1 || parallel_workers() < all || all == PARALLEL_WORKERS_MAX);
+    parallel_share(100000);
+    assert_int_equal(parallel_workers(), 1);
+    parallel_share(1);
+    assert_int_equal(parallel_workers(), all);
+}
+
 // One piece alone has them all.
 TEST(test_pieces_of_pieces)
 {

@@ -8,6 +8,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "base/parallel.h"
 #include "base/process.h"
 #include "base/system.h"
 #include "base/transfer.h"
@@ -72,6 +73,7 @@ static bool start_child(Pool *pool, PoolChild *child, Error *err)
 
         // A parent that has died since the fork has sent no signal; the child then has another one.
         if (getppid() != parent) _exit(1);
+        parallel_share(pool->size);
         mallopt(M_TRIM_THRESHOLD, MEMORY_KEPT);   // the next point needs what the last gave back
         mallopt(M_MMAP_THRESHOLD, MEMORY_KEPT);
         while (transfer_read(ends[1], &point, sizeof point, -1) == sizeof point) {
