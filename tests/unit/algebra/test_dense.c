@@ -77,6 +77,35 @@ TEST(test_cholesky_and_triangles)
 }
 
 // A matrix with one eigenvalue below zero is told from one with all above, however close.
+// A chain of springs between walls, 2 on the diagonal and -1 beside it, has the eigenvalues
+// 2 - 2 cos(k pi/(n + 1)); what is taken off its diagonal makes the least of them `least` parts of
+// what is left there. Units of the unknowns range over sixty decades.
+TEST(test_definite_by_a_margin_in_single_precision)
+{
+    enum { CHAIN = 300 };
+    static double a[CHAIN * CHAIN];
+    static float work[CHAIN * (CHAIN + 1)];
+    static const struct {
+        double least;
+        bool more;   // than 1e-4 of the diagonal
+    } cases[] = {{1e-2, true}, {1.2e-4, true}, {0.8e-4, false}, {1e-6, false}, {-1e-3, false}};
+    for (int k = 0; k < 5; k++) {
+        double first = 2 - 2 * cos(M_PI / (CHAIN + 1)), least = cases[k].least;
+        double off = (first - 2 * least) / (1 - least);
+        for (int32_t j = 0; j < CHAIN; j++)
+            for (int32_t i = 0; i < CHAIN; i++) {
+                double unit = pow(10, 0.1 * (i + j) - 30);
+                a[j * CHAIN + i] = i < j ? NAN : unit * (i == j ? 2 - off : i == j + 1 ? -1 : 0);
+            }
+        assert_int_equal(dense_exceeds_single(a, CHAIN, 1e-4, work), cases[k].more);
+    }
+    a[0] = NAN;
+    assert_false(dense_exceeds_single(a, CHAIN, 1e-4, work));
+    a[0] = -1;
+    assert_false(dense_exceeds_single(a, CHAIN, 1e-4, work));
+    assert_true(dense_exceeds_single(a, 0, 1e-4, work));
+}
+
 TEST(test_not_definite)
 {
     for (double least = 1e-9; least > -2e-9; least -= 2e-9) {
@@ -108,6 +137,30 @@ TEST(test_lu)
     double singular[] = {1, 2, 2, 4};
     int32_t pivots[2];
     assert_false(dense_lu(singular, 2, pivots));
+}
+
+// By panels and pieces, the last of which are narrower: rows are swapped, and L U solves the system
+// to single precision. A matrix with a column of zeros in its last panel is singular.
+TEST(test_lu_by_columns_side_by_side)
+{
+    enum { ROWS = 1100 };
+    int64_t size = (int64_t)ROWS * ROWS;
+    double *a = malloc((size_t)size * sizeof *a);
+    float *lu = malloc((size_t)size * sizeof *lu), work[ROWS];
+    double x[ROWS], b[ROWS];
+    int32_t pivots[ROWS];
+    Random random = {.state = 5};
+    for (int64_t k = 0; k < size; k++) a[k] = random_between(&random, -1, 1);
+    for (int32_t k = 0; k < ROWS; k++) x[k] = random_between(&random, 1, 2);
+    dense_apply(dense_view(a, ROWS, ROWS), x, 1, 0, b);
+    for (int64_t k = 0; k < size; k++) lu[k] = (float)a[k];
+    assert_true(dense_lu_single(lu, ROWS, pivots));
+    dense_lu_single_solve(lu, ROWS, pivots, b, work);
+    assert_all_near("x", b, x, ROWS, 5e-2);   // a condition of some 1e4 times 6e-8, and a margin
+    for (int64_t k = 0; k < size; k++) lu[k] = k / ROWS == ROWS - 3 ? 0 : (float)a[k];
+    assert_false(dense_lu_single(lu, ROWS, pivots));
+    free(a);
+    free(lu);
 }
 
 TEST(test_vectors)
