@@ -53,6 +53,11 @@ void dgeev_(const char *jobvl, const char *jobvr, const int *n, double *a, const
             double *wr, double *wi, double *vl, const int *ldvl, double *vr, const int *ldvr,
             double *work, const int *lwork, int *info, size_t jobvl_size, size_t jobvr_size);
 
+static int32_t smaller(int32_t a, int32_t b)
+{
+    return a < b ? a : b;
+}
+
 // OpenBLAS itself calls this before a fork. Its builds without threads do not have it.
 int blas_thread_shutdown_(void) __attribute__((weak));
 
@@ -160,11 +165,6 @@ typedef struct PanelUpdate {
     int32_t *pivots;   // [n], counted from 1
     int32_t *singular;   // by panel: 1 where it is
 } PanelUpdate;
-
-static int32_t smaller(int32_t a, int32_t b)
-{
-    return a < b ? a : b;
-}
 
 // Factors the columns first .. first + width - 1 from row `first` down.
 static void factor_panel(float *a, int32_t n, int32_t first, int32_t width, int32_t *pivots,
@@ -326,19 +326,45 @@ void dense_apply(DenseView a, const double *x, double factor, double keep, doubl
                 keep, y, 1);
 }
 
-// A run ends at a 0; one of every second column also before it would leave out what is none.
-void dense_add_nonzero(DenseView a, const double *x, double factor, double *y)
+typedef struct NonzeroProduct {
+    DenseView a;
+    const double *x;
+    double factor, *y;
+    int32_t rows;   // of a piece
+} NonzeroProduct;
+
+// The rows of a piece. A run ends at a 0; one of every second column also before it would leave out
+// what is none.
+static void add_nonzero_rows(void *context, int32_t piece, int32_t worker)
 {
-    int64_t rows = a.rows;
-    for (int32_t first = 0, end; first < a.columns && rows > 0; first++) {
+    const NonzeroProduct *all = context;
+    const double *x = all->x;
+    int64_t rows = all->a.rows, from = (int64_t)piece * all->rows;
+    int32_t columns = all->a.columns, here = smaller(all->rows, (int32_t)(rows - from));
+    (void)worker;
+    for (int32_t first = 0, end; first < columns && rows > 0; first++) {
         if (x[first] == 0) continue;
-        int32_t stride = first + 1 < a.columns && x[first + 1] != 0 ? 1 : 2;
-        for (end = first + stride; end < a.columns && x[end] != 0; end += stride)
+        int32_t stride = first + 1 < columns && x[first + 1] != 0 ? 1 : 2;
+        for (end = first + stride; end < columns && x[end] != 0; end += stride)
             if (stride == 2 && x[end - 1] != 0) break;
-        cblas_dgemv(CblasColMajor, CblasNoTrans, a.rows, (end - first) / stride, factor,
-                    a.values + first * rows, stride * a.rows, x + first, stride, 1, y, 1);
+        cblas_dgemv(CblasColMajor, CblasNoTrans, here, (end - first) / stride, all->factor,
+                    all->a.values + first * rows + from, stride * all->a.rows, x + first, stride, 1,
+                    all->y + from, 1);
         first = end - stride;
     }
+}
+
+void dense_add_nonzero(DenseView a, const double *x, double factor, double *y)
+{
+    int64_t nonzero = 0;
+    for (int32_t k = 0; k < a.columns; k++) nonzero += x[k] != 0;
+    NonzeroProduct all = {a, x, factor, y, a.rows};
+    if (nonzero * a.rows < PARALLEL_ENTRIES) {
+        add_nonzero_rows(&all, 0, 0);
+        return;
+    }
+    all.rows = (a.rows / 2 + ROWS_STEP) / ROWS_STEP * ROWS_STEP;   // halves
+    parallel_for(2, add_nonzero_rows, &all);
 }
 
 // A few rows at a time, which stay in the processor's cache for the next vector.

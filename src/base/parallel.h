@@ -13,7 +13,8 @@
 enum {
     PARALLEL_WORKERS_MAX = 8,
     PARALLEL_OPERATIONS =
-        20000000   // some ms: with less, threads (20 us each to begin) save little
+        20000000,   // some ms: with less, threads (20 us each to begin) save little
+    PARALLEL_ENTRIES = 4000000   // of a matrix that is read once and comes from memory: the same
 };
 
 // Starts a thread as those below are, for base/worker, too: signals are for the threads of whoever

@@ -5,6 +5,7 @@
 
 #include "algebra/dense.h"
 #include "base/memory.h"
+#include "base/parallel.h"
 #include "friction/friction.h"
 
 #include <math.h>
@@ -27,7 +28,7 @@ bool contact_newton_create(const Interface *interface, ContactNewton *newton, Er
     factors->pivots = NEW_ARRAY(int32_t, count, err);
     factors->status = NEW_ARRAY(uint8_t, contacts + interface->rod_count, err);
     factors->row = NEW_ARRAY(ContactRow, contacts, err);
-    factors->column = NEW_ARRAY(double, count, err);
+    factors->column = NEW_ARRAY(double, PARALLEL_WORKERS_MAX *count, err);
     return error_is_clean(err);
 }
 
@@ -192,6 +193,24 @@ static bool keeps_factors(const ContactNewton *newton)
     return true;
 }
 
+enum { COLUMNS = 64 };   // of a piece
+
+// Columns of the derivative over the largest entry of S, in single precision.
+static void fill_columns(void *context, int32_t piece, int32_t worker)
+{
+    const ContactNewton *newton = context;
+    const ContactFactors *factors = &newton->factors;
+    int64_t size = newton->equations.free_count, end = (piece + 1) * (int64_t)COLUMNS;
+    double scale = 1 / newton->equations.problem->matrix->diagonal;
+    double *column = factors->column +
+                     worker * (int64_t)newton->equations.problem->interface->count;
+    for (int64_t b = piece * (int64_t)COLUMNS; b < size && b < end; b++) {
+        float *out = (float *)factors->lu + b * size;
+        contact_derivative_column(&newton->equations, newton->condensed, (int32_t)b, column);
+        for (int64_t a = 0; a < size; a++) out[a] = (float)(scale * column[a]);
+    }
+}
+
 // LU of the derivative at the rows as they are, which are kept. false: it is singular.
 static bool make_factors(ContactNewton *newton)
 {
@@ -202,12 +221,11 @@ static bool make_factors(ContactNewton *newton)
     bool regular;
     factors->is_single = !newton->in_double;
     if (factors->is_single) {
-        double scale = 1 / matrix->diagonal;
-        float *out = (float *)factors->lu;
-        for (int32_t b = 0; b < size; b++, out += size) {
-            contact_derivative_column(equations, newton->condensed, b, factors->column);
-            for (int32_t a = 0; a < size; a++) out[a] = (float)(scale * factors->column[a]);
-        }
+        int32_t pieces = (size + COLUMNS - 1) / COLUMNS;
+        if ((int64_t)size * size >= PARALLEL_ENTRIES)
+            parallel_for(pieces, fill_columns, newton);
+        else
+            for (int32_t piece = 0; piece < pieces; piece++) fill_columns(newton, piece, 0);
         regular = dense_lu_single((float *)factors->lu, size, factors->pivots);
     } else {
         double *out = factors->lu;

@@ -20,7 +20,7 @@ typedef struct ContactFactors {
     int32_t *pivots;   // [rows]
     uint8_t *status;   // [contact_count + rod_count] that it is for (contact_copy_statuses)
     ContactRow *row;   // [contact_count] that it is for
-    double *column;   // [count] work
+    double *column;   // [PARALLEL_WORKERS_MAX * count] work
 } ContactFactors;
 
 typedef struct ContactNewton {

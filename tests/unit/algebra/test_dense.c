@@ -262,6 +262,23 @@ TEST(test_add_nonzero)
 
 // Sizes of 0 are answered as sums over nothing are, and nothing is touched: BLAS refuses them, with
 // a sentence on standard error.
+// A matrix that is large enough for its rows to be shared among threads.
+TEST(test_add_nonzero_of_many)
+{
+    enum { ROWS = 2501, COLUMNS = 2000 };
+    Random random = {.state = 9};
+    double *a = malloc(sizeof *a * ROWS * COLUMNS), x[COLUMNS], y[ROWS], wanted[ROWS];
+    for (int64_t k = 0; k < (int64_t)ROWS * COLUMNS; k++) a[k] = random_between(&random, -1, 1);
+    for (int32_t j = 0; j < COLUMNS; j++) x[j] = j % 7 == 3 ? 0 : random_between(&random, -1, 1);
+    for (int32_t i = 0; i < ROWS; i++) {
+        y[i] = wanted[i] = i;
+        for (int64_t j = 0; j < COLUMNS; j++) wanted[i] += 2 * a[j * ROWS + i] * x[j];
+    }
+    dense_add_nonzero(dense_view(a, ROWS, COLUMNS), x, 2, y);
+    assert_all_near("y + 2 A x", y, wanted, ROWS, 1e-12);
+    free(a);
+}
+
 TEST(test_nothing)
 {
     double a[4] = {3, 5, 7, 9}, c[4] = {1, 2, 3, 4}, x[2] = {1, 1};
