@@ -36,14 +36,14 @@ void dt_levels_drop_halves(DtLevels *dt_levels)
             if (part != PART_WHOLE) drop_contact(dt_levels, k, part);
 }
 
-void dt_levels_drop_longer(DtLevels *dt_levels, int32_t longest)
+void dt_levels_drop(DtLevels *dt_levels, int32_t first, int32_t end)
 {
-    for (int32_t k = 0; k < longest; k++) drop_level(dt_levels, k);
+    for (int32_t k = first; k < end; k++) drop_level(dt_levels, k);
 }
 
 void dt_levels_destroy(DtLevels *dt_levels)
 {
-    dt_levels_drop_longer(dt_levels, DT_LEVELS_MAX);
+    dt_levels_drop(dt_levels, 0, DT_LEVELS_MAX);
     *dt_levels = (DtLevels){0};
 }
 
@@ -103,7 +103,7 @@ static bool build_level(DtLevels *dt_levels, int32_t k, ContactPart part, Error 
         if (!level) return false;
     }
     for (ContactPart half = PART_SYMMETRIC; part != PART_WHOLE && half < CONTACT_PARTS; half++) {
-        bool wanted = half == part || k >= dt_levels->both_from;
+        bool wanted = half == part || k >= dt_levels->run_from;
         if (!wanted || !dt_levels->half || made_contact(dt_levels, k, half)) continue;
         if (!build_half(dt_levels, k, half, err)) return false;
     }

@@ -14,7 +14,7 @@ enum { DT_LEVELS_MAX = 128 };
 typedef struct DtLevels {
     BulkOperator *system;   // not owned
     double step_max;   // of level 0, time
-    int32_t both_from;   // level from which on both sides' matrices are made at once
+    int32_t run_from;   // levels before it are relaxing's alone
     int32_t level_count;   // usable levels: 0 .. level_count - 1
     InterfaceOperator *level[DT_LEVELS_MAX];   // NULL: not built; owned
     // S of the levels that are built, or its symmetric or antisymmetric part on one side, when
@@ -31,8 +31,8 @@ typedef struct DtLevels {
 // Levels from step_max down to the last that is not below step_min.
 void dt_levels_init(BulkOperator *system, double step_max, double step_min, DtLevels *dt_levels);
 void dt_levels_destroy(DtLevels *dt_levels);
-// Frees all matrices of levels before `longest`.
-void dt_levels_drop_longer(DtLevels *dt_levels, int32_t longest);
+// Frees all matrices of levels from `first` to before `end`.
+void dt_levels_drop(DtLevels *dt_levels, int32_t first, int32_t end);
 // Frees the matrices of one side, where contact is solved as a whole from now on.
 void dt_levels_drop_halves(DtLevels *dt_levels);
 

@@ -51,7 +51,7 @@ bool step_control_create(const Block *block, const StepControlDef *def, StepCont
     double longest = def->step_max;
     while (longest < def->relax_step) longest *= 2;   // so that step_max is a level
     dt_levels_init(block->system, longest, def->step_min, &control->dt_levels);
-    control->dt_levels.both_from = dt_level_find(&control->dt_levels, def->step_max);
+    control->dt_levels.run_from = dt_level_find(&control->dt_levels, def->step_max);
     TRY(sdirk_create(block, &control->dt_levels, &control->scheme, err));
     TRY(certificate_create(block, &control->certificate, err));
     if (def->use_certificate && !control->scheme.memory.node)
@@ -90,9 +90,8 @@ void step_control_restart(StepControl *control)
     for (int32_t k = 0; k < DT_LEVELS_MAX; k++) control->dt_levels.accepted[k] = 0;
     control->ledger = energy_open(&control->now);
     oscillation_record_clear(&control->oscillations);
-    // Longer steps, which relaxing alone takes, are not taken any more.
-    control->coarsest = dt_level_find(&control->dt_levels, control->def.step_max);
-    dt_levels_drop_longer(&control->dt_levels, control->coarsest);
+    control->coarsest = control->dt_levels.run_from;
+    dt_levels_drop(&control->dt_levels, 0, control->coarsest);
     int32_t first =
         dt_level_find(&control->dt_levels, fmin(control->def.wave_step, control->def.step_max));
     control->level = first < control->dt_levels.level_count ? first
@@ -449,6 +448,8 @@ bool relax(StepControl *control, const RelaxationDef *def, int64_t *steps, Error
                  "too short?)",
                  control->now.time, speed, def->speed_max);
         TRY(step_control_advance(control, INFINITY, err));
+        // Steps get longer, and those before are hardly taken once more.
+        dt_levels_drop(&control->dt_levels, control->level + 1, control->dt_levels.run_from);
         if (def->may_go_on) TRY(def->may_go_on(def->self, err));
         speed = fastest(control);
     }
