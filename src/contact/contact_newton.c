@@ -333,22 +333,41 @@ double contact_newton_residual(ContactNewton *newton)
     return largest;
 }
 
+// Interface unknowns from which on linear equations are solved by factors in single precision; steps
+// with these, and what they must leave of the forces.
+enum { FOLLOW_SINGLE = 1000, FOLLOW_STEPS = 4 };
+static const double FOLLOWED = 1e-10;
+
+// From no motion but that of what is held. false: the derivative is singular, or steps in single
+// precision do not come close enough.
+static bool follow(ContactNewton *newton, bool in_double)
+{
+    ContactEquations *equations = &newton->equations;
+    int32_t count = equations->problem->interface->count;
+    double force = dense_max_abs(equations->problem->g, count);
+    memset(equations->at->velocity, 0, (size_t)count * sizeof(double));
+    contact_hold(equations);
+    contact_newton_react(newton);
+    newton->factors_gain = false;
+    newton->in_double = in_double;
+    bool close = false;
+    for (int32_t k = 0; k < (in_double ? 1 : FOLLOW_STEPS) && !close; k++) {
+        if (!contact_newton_step(newton)) return false;
+        contact_newton_react(newton);
+        close = in_double || contact_newton_residual(newton) <= FOLLOWED * force;
+    }
+    contact_release(equations);
+    return close;
+}
+
 bool contact_newton_follow(ContactNewton *newton, const ContactRow *rows,
                            const ContactProblem *problem, ContactSolution *solution)
 {
     const Interface *interface = problem->interface;
-    memset(solution->velocity, 0, (size_t)interface->count * sizeof(double));
     begin(newton, problem, solution, 0);
     newton->creeps = false;   // the equations are linear, whatever the law
     memcpy(newton->row, rows, (size_t)interface->contact_count * sizeof(ContactRow));
-    contact_hold(&newton->equations);
-    contact_newton_react(newton);
-    newton->factors_gain = false;
-    newton->in_double = true;
-    if (!contact_newton_step(newton)) return false;
-    contact_newton_react(newton);
-    contact_release(&newton->equations);
-    return true;
+    return (interface->count >= FOLLOW_SINGLE && follow(newton, false)) || follow(newton, true);
 }
 
 // Factors take as many bytes as their precision has.

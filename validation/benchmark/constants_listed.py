@@ -318,7 +318,8 @@ NOT_A_CHOICE = {
     "reduction/machine.c": {"LOOSE": "rounding, with room: a matrix that must not be singular"},
     "algebra/sparse_order.c": {"LEAF": "points: 4, 16, 32, 100 leave 0.98, 1, 1.02, 1.12 times the entries on 16 x 32 x 16 cells"},
     "algebra/sparse_factor.c": {"COLUMNS": "solved for at once: time alone"},
-    "contact/contact_newton.c": {"COLUMNS": "filled at once: time alone"},
+    "contact/contact_newton.c": {"COLUMNS": "filled at once: time alone", "FOLLOW_SINGLE": "time alone",
+                                 "FOLLOW_STEPS": "five digits each", "FOLLOWED": "of what is itself a billionth"},
     "contact/contact_matrix.c": {"TOGETHER": "unknowns swept at once: time alone",
                                  "PAIR": "of a node"},
     "model/model.c": {
