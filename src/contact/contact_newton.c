@@ -333,8 +333,8 @@ double contact_newton_residual(ContactNewton *newton)
     return largest;
 }
 
-// Interface unknowns from which on linear equations are solved by factors in single precision; steps
-// with these, and what they must leave of the forces.
+// Interface unknowns from which on linear equations are solved by factors in single precision;
+// steps with these, and what they must leave of the forces.
 enum { FOLLOW_SINGLE = 1000, FOLLOW_STEPS = 4 };
 static const double FOLLOWED = 1e-10;
 

@@ -41,16 +41,12 @@ int32_t undamped_nodes(const Certificate *certificate, double load, double *wors
     const Friction *friction = certificate->moving.contact_friction;
     double length = 0;
     *worst = 0;
-    if (!certificate->damping || !(friction->drop > 0)) return 0;   // the scene was warned of
-    const double *schur = certificate->damping;
+    if (!certificate->alone || !(friction->drop > 0)) return 0;   // the scene was warned of
     int32_t count = 0;
     for (int32_t i = 0; i < interface->contact_count; i++) length += interface->weight[i];
     for (int32_t i = 0; i < interface->contact_count; i++) {
-        int64_t t = interface_tangent(interface, i);
         double slope = friction_steepest(friction_at(friction, i));
-        double ratio =
-            slope * load / length * interface->weight[i] /
-            (certificate->alone ? certificate->alone[i] : schur[t * interface->count + t]);
+        double ratio = slope * load / length * interface->weight[i] / certificate->alone[i];
         count += ratio > 1;
         *worst = ratio > *worst ? ratio : *worst;
     }

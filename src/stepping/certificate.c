@@ -40,8 +40,9 @@ static bool create_work(const Block *block, Certificate *certificate, Error *err
     return error_is_clean(err);
 }
 
-// At real rates that double, up from the fastest branch while inertia does not yet make up for
-// what branches lose, and down to the slowest or until every node resists RISEN times its least.
+// By viscosity alone, or with branches at real rates that double, up from the fastest branch while
+// inertia does not yet make up for what branches lose, and down to the slowest or until every node
+// resists RISEN times its least.
 static bool find_alone(const Block *block, Certificate *certificate, Error *err)
 {
     static const double RISEN = 4;
@@ -52,9 +53,12 @@ static bool find_alone(const Block *block, Certificate *certificate, Error *err)
         fastest = fmin(fastest, spectrum->time[k]);
         slowest = fmax(slowest, spectrum->time[k]);
     }
-    if (spectrum->count == 0) return true;
     double *alone = certificate->alone = NEW_ARRAY(double, interface->contact_count, err);
-    for (int32_t i = 0; alone && i < interface->contact_count; i++) alone[i] = INFINITY;
+    for (int32_t i = 0; alone && i < interface->contact_count; i++) {
+        int64_t t = interface_tangent(interface, i);
+        alone[i] = spectrum->count > 0 ? INFINITY : certificate->damping[t * interface->count + t];
+    }
+    if (spectrum->count == 0) return alone;
     bool up = true, done = !alone;
     for (double rate = 1 / fastest; !done; rate = up ? 2 * rate : 0.5 * rate) {
         OperatorTerms terms = {.mass = rate, .damping = 1, .stiffness = 1 / rate};
@@ -81,21 +85,42 @@ static bool find_alone(const Block *block, Certificate *certificate, Error *err)
 
 // S_C is condensed from C alone, lifted as C may be singular in the interface's own motion
 // (reduction/interface_operator), once for all states.
-bool certificate_create(const Block *block, Certificate *certificate, Error *err)
+static bool make_damping(Certificate *certificate, Error *err)
 {
-    TRY(create_work(block, certificate, err));
     OperatorTerms terms = {.damping = 1, .lift = true};
-    InterfaceOperator *condensed = interface_operator_create(block->system, terms, err);
+    InterfaceOperator *condensed = interface_operator_create(certificate->system, terms, err);
+    certificate->aside = false;
     if (condensed) certificate->damping = interface_operator_take_schur(condensed);
     interface_operator_destroy(condensed);
     // Without viscosity (or with eta1 = 0) there is nothing that could certify a weakening slip.
     if (err->code == ERROR_COMPUTE) error_clear(err);
-    if (certificate->damping)
-        TRY(contact_matrix_create(certificate->damping, block->interface->count,
+    return error_is_clean(err) &&
+           (!certificate->damping ||
+            contact_matrix_create(certificate->damping, certificate->moving.interface->count,
                                   &certificate->damping_contact, err));
+}
+
+bool certificate_create(const Block *block, Certificate *certificate, Error *err)
+{
+    TRY(create_work(block, certificate, err));
+    certificate->system = block->system;
+    TRY(make_damping(certificate, err));
     if (certificate->damping) TRY(find_alone(block, certificate, err));
 cleanup:
     return error_is_clean(err);
+}
+
+static void free_damping(Certificate *certificate)
+{
+    contact_matrix_destroy(&certificate->damping_contact);
+    memory_free(certificate->damping);
+    certificate->damping = NULL;
+}
+
+void certificate_lay_aside(Certificate *certificate)
+{
+    certificate->aside = certificate->damping != NULL;
+    free_damping(certificate);
 }
 
 bool certificate_halve(const Certificate *whole, const ContactHalf *half, const Block *block,
@@ -111,8 +136,7 @@ bool certificate_halve(const Certificate *whole, const ContactHalf *half, const 
     if (contact_half_matrix(half, whole->damping, antisymmetric, damping)) {
         TRY(contact_matrix_create(damping, (int32_t)count, &certificate->damping_contact, err));
     } else {
-        memory_free(damping);
-        certificate->damping = NULL;
+        free_damping(certificate);
     }
 cleanup:
     return error_is_clean(err);
@@ -120,8 +144,8 @@ cleanup:
 
 void certificate_destroy(Certificate *certificate)
 {
-    contact_matrix_destroy(&certificate->damping_contact);
-    memory_free_all(certificate->damping, certificate->alone);
+    free_damping(certificate);
+    memory_free(certificate->alone);
     moving_set_destroy(&certificate->moving);
     memory_free_all(certificate->matrix, certificate->single, certificate->vector,
                     certificate->pivots);
@@ -154,6 +178,7 @@ static bool is_definite(Certificate *certificate, const State *state, ContactMat
     MovingSet *moving = &certificate->moving;
     moving_set_find(moving, state, false);
     if (!moving->weakens && !moving->remembers) return true;   // S itself is never indefinite
+    if (certificate->aside && !make_damping(certificate, &(Error){0})) return false;
     const double *damping = NULL, *own = NULL;
     double part = narrow / BETWEEN_LEVELS, factor = level ? BETWEEN_MEMORIES : 1;
     if (certificate->damping_contact.schur)
@@ -308,6 +333,7 @@ void certificate_archive(Certificate *certificate, Archive *archive)
     archive_section(archive, "certificate");
     archive_count(archive, &certificate->checks);
     archive_flag(archive, &damped);
+    if (damped && certificate->aside) make_damping(certificate, &(Error){0});
     if (damped != (certificate->damping_contact.schur != NULL)) archive->failed = true;
     // It is never factored by the contact solver.
     if (damped) contact_matrix_archive(&certificate->damping_contact, -1, archive);

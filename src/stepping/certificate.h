@@ -50,10 +50,13 @@
 
 typedef struct Certificate {
     ContactPart part;   // of what is asked about
+    BulkOperator *system;   // that S_C is of; NULL: of one side; not owned
+    bool aside;   // S_C was laid aside, and is made again when it is asked for
     double *damping;   // [count^2] S_C, or its symmetric or antisymmetric part; owned; NULL: C is
         // singular
-    double *alone;   // [contact_count] S[t,t] at the real rate where it is least: what resists a
-        // node that slips alone, with branches of the materials; NULL: there are none; owned
+    double
+        *alone;   // [contact_count] what resists a node that slips alone: S_C[t,t], with branches
+        // of the materials S[t,t] at the real rate where it is least; NULL: C is singular; owned
     ContactMatrix damping_contact;   // S_C, open nodes condensed out; empty without; owned
     MovingSet moving;   // F and W of the state asked about; owned, like all that follows
     double *matrix;   // [count^2] work
@@ -70,6 +73,8 @@ bool certificate_create(const Block *block, Certificate *certificate, Error *err
 bool certificate_halve(const Certificate *whole, const ContactHalf *half, const Block *block,
                        ContactPart part, Certificate *certificate, Error *err);
 void certificate_destroy(Certificate *certificate);
+// Frees S_C until it is asked for again: while the parts of a state are asked about it is not.
+void certificate_lay_aside(Certificate *certificate);
 
 // The slip set of `state` cannot gain energy. Where friction remembers: |lambda| < 1/reach of all
 // that grows, reach: gamma dt of a step, time.

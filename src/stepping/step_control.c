@@ -56,7 +56,10 @@ bool step_control_create(const Block *block, const StepControlDef *def, StepCont
     TRY(certificate_create(block, &control->certificate, err));
     if (def->use_certificate && !control->scheme.memory.node)
         TRY(half_step_create(block, &control->certificate, &control->half, err));
-    if (control->half.exists) control->dt_levels.half = &control->half.contact;
+    if (control->half.exists) {
+        control->dt_levels.half = &control->half.contact;
+        certificate_lay_aside(&control->certificate);
+    }
     control->scheme.half = &control->half;
     TRY(oscillation_record_create(block, def->watch_time, &control->oscillations, err));
     TRY(state_create(block->system, block->interface, &control->now, err));
