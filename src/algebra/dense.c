@@ -319,6 +319,14 @@ void dense_multiply_by_transposed(DenseView a, DenseView b, double *c)
                 a.rows, b.values, b.rows, 1, c, a.rows);
 }
 
+void dense_subtract_square(DenseView a, double *c)
+{
+    if (a.rows > 0 && a.columns > 0)
+        cblas_dsyrk(CblasColMajor, CblasLower, CblasTrans, a.columns, a.rows, -1, a.values, a.rows,
+                    1, c, a.columns);
+    dense_mirror(c, a.columns);
+}
+
 void dense_apply(DenseView a, const double *x, double factor, double keep, double *y)
 {
     if (a.columns == 0 || a.rows == 0) return;

@@ -99,6 +99,8 @@ static inline DenseView dense_view(const double *values, int64_t rows, int64_t c
 // c = factor a' b + keep c, c = factor a b + keep c; c has the rows and columns that follow.
 void dense_multiply_transposed(DenseView a, DenseView b, double factor, double keep, double *c);
 void dense_multiply(DenseView a, DenseView b, double factor, double keep, double *c);
+// c -= a'a of a symmetric c, whose lower triangle is read; both are written.
+void dense_subtract_square(DenseView a, double *c);
 // c += a b'
 void dense_multiply_by_transposed(DenseView a, DenseView b, double *c);
 // c or b may be rows of a larger matrix, whose columns are `stride` apart: c = factor a' b + keep

@@ -12,6 +12,7 @@
 
 #include "algebra/dense.h"
 #include "base/memory.h"
+#include "base/parallel.h"
 
 #include <string.h>
 
@@ -19,7 +20,19 @@ struct ReducedOperator {
     const ReducedBulk *reduced;   // not owned
     double *local[REDUCED_PARTS_MAX], *image[REDUCED_PARTS_MAX];   // [count] of each, work; owned
     double *border;   // [interface + mirrored] work; owned
+    bool large;   // a level of it is worth threads
 };
+
+// Entries of the parts' matrices on their borders from which on a level is worth threads.
+enum { ENTRIES_LARGE = 250000 };
+
+// Calls piece(context, k, worker) for k from 0 to count - 1.
+static void side_by_side(const ReducedOperator *system, int32_t count,
+                         void (*piece)(void *context, int32_t k, int32_t worker), void *context)
+{
+    if (system->large) parallel_for(count, piece, context);
+    for (int32_t k = 0; !system->large && k < count; k++) piece(context, k, 0);
+}
 
 void reduced_operator_destroy(ReducedOperator *system)
 {
@@ -32,6 +45,7 @@ void reduced_operator_destroy(ReducedOperator *system)
 
 ReducedOperator *reduced_operator_create(const ReducedBulk *reduced, Error *err)
 {
+    int64_t entries = 0;
     ReducedOperator *system = NEW_ARRAY(ReducedOperator, 1, err);
     if (!system) goto cleanup;
     system->reduced = reduced;
@@ -40,7 +54,9 @@ ReducedOperator *reduced_operator_create(const ReducedBulk *reduced, Error *err)
         const ReducedPart *part = &reduced->part[p];
         system->local[p] = NEW_ARRAY(double, part->count, err);
         system->image[p] = NEW_ARRAY(double, part->count, err);
+        entries += (int64_t)part->border_count * part->border_count;
     }
+    system->large = entries >= ENTRIES_LARGE;
 cleanup:
     if (error_is_clean(err)) return system;
     reduced_operator_destroy(system);
@@ -115,6 +131,12 @@ static void combine_column(OperatorTerms terms, const double *mass, const double
         out[row] = terms.mass * (mass ? mass[row] : 0) + terms.damping * damping[row];
 }
 
+// Room for numbers all of which are written at once: large arrays are slow to zero.
+static double *numbers(int64_t count, Error *err)
+{
+    return memory_bytes(count * (int64_t)sizeof(double), err);
+}
+
 // Fills schur [border^2] by the formulas at the head. weight: [shape_count] of the shape matrices
 // in A. The inverse itself, not a factor: a product with it is one pass over memory for each of
 // many right-hand sides, and A_qq is well conditioned (K_qq = 1).
@@ -125,10 +147,9 @@ static bool condensed_part_create(const ReducedPart *part, OperatorTerms terms,
     int64_t m = part->border_count, r = part->interior_count, size = (m + r) * (m + r);
     const double *damping_values = part->damping;
     *condensed = (CondensedPart){0};
-    double *coupling = NEW_ARRAY(double, r *m, err);
-    double *resisting = part->shape_count > 0 ? NEW_ARRAY(double, size, err) : NULL;
-    condensed->inverse = NEW_ARRAY(double, r *r, err);
-    condensed->map = NEW_ARRAY(double, r *m, err);
+    double *resisting = part->shape_count > 0 ? numbers(size, err) : NULL;
+    condensed->inverse = numbers(r * r, err);
+    condensed->map = numbers(r * m, err);
     condensed->half = NEW_ARRAY(double, r, err);
     if (!error_is_clean(err)) goto cleanup;
     if (resisting) {   // c C + sum of the weighted shapes, in the place of C
@@ -146,19 +167,20 @@ static bool condensed_part_create(const ReducedPart *part, OperatorTerms terms,
     for (int64_t column = 0; column < m; column++) {
         const double *stiffness = part->stiffness + column * m;
         const double *damping = damping_values + column * part->count;
-        combine_column(terms, part->coupling + column * r, damping + m, r, coupling + column * r);
+        combine_column(terms, part->coupling + column * r, damping + m, r,
+                       condensed->map + column * r);
         combine_column(terms, part->mass + column * m, damping, m, schur + column * m);
         for (int64_t row = 0; row < m; row++)
             schur[column * m + row] += terms.stiffness * stiffness[row];
     }
-    if (!dense_cholesky(condensed->inverse, (int32_t)r) ||
-        !dense_invert_factored(condensed->inverse, (int32_t)r))
+    if (!dense_cholesky(condensed->inverse, (int32_t)r))
         FAIL(err, ERROR_COMPUTE, "the interior of the reduced bulk is not positive definite");
-    DenseView couple = dense_view(coupling, r, m);
-    dense_multiply(dense_view(condensed->inverse, r, r), couple, 1, 0, condensed->map);
-    dense_multiply_transposed(couple, dense_view(condensed->map, r, m), -1, 1, schur);
+    dense_lower_divide(condensed->inverse, (int32_t)r, (int32_t)m, condensed->map);
+    dense_subtract_square(dense_view(condensed->map, r, m), schur);
+    dense_lower_divide_transposed(condensed->inverse, (int32_t)r, (int32_t)m, condensed->map);
+    dense_invert_factored(condensed->inverse, (int32_t)r);
 cleanup:
-    memory_free_all(coupling, resisting);
+    memory_free(resisting);
     return error_is_clean(err);
 }
 
@@ -210,55 +232,103 @@ void condensed_bulk_destroy(CondensedBulk *condensed)
                     condensed);
 }
 
-// border: [m + n, squared] S; schur [m^2] := S_bb - S_bR E.
-static bool condense_mirrored(const double *border, int32_t m, int32_t n, MirroredDofs *mirrored,
-                              double *schur, Error *err)
+typedef struct Condensing {
+    CondensedBulk *condensed;
+    OperatorTerms terms;   // normalised
+    double weight[SPECTRUM_SHAPES_MAX];
+    double *part[REDUCED_PARTS_MAX];   // [border_count^2] S of each; owned, like the columns
+    Error error[REDUCED_PARTS_MAX];
+    double *column[PARALLEL_WORKERS_MAX];   // [interface + mirrored] work
+    double *schur;   // [interface^2]
+} Condensing;
+
+static void condense_part(void *context, int32_t p, int32_t worker)
 {
-    int64_t all = m + n;
-    mirrored->follow = NEW_ARRAY(double, (int64_t)n *m, err);
-    mirrored->lower = NEW_ARRAY(double, (int64_t)n *n, err);
+    Condensing *all = context;
+    const ReducedPart *part = &all->condensed->system->reduced->part[p];
+    (void)worker;
+    all->part[p] = numbers((int64_t)part->border_count * part->border_count, &all->error[p]);
+    if (!all->part[p]) return;
+    condensed_part_create(part, all->terms, all->weight, &all->condensed->part[p], all->part[p],
+                          &all->error[p]);
+}
+
+// One column of the S on the border.
+static void join_column(const Condensing *all, int64_t j, double *column)
+{
+    const ReducedBulk *reduced = all->condensed->system->reduced;
+    memset(column, 0, (size_t)(reduced->interface_count + reduced->mirrored) * sizeof *column);
+    for (int p = 0; p < reduced->part_count; p++)
+        transform_add_square(&reduced->part[p].border, all->part[p], (int32_t)j, column);
+}
+
+// Factors S_RR; follow := L^-1 S_Rb.
+static bool factor_mirrored(const Condensing *all, MirroredDofs *mirrored, Error *err)
+{
+    const ReducedBulk *reduced = all->condensed->system->reduced;
+    int64_t m = reduced->interface_count, n = reduced->mirrored;
+    double *column = all->column[0];
+    mirrored->follow = numbers(n * m, err);
+    mirrored->lower = numbers(n * n, err);
     if (!error_is_clean(err)) return false;
-    for (int64_t j = 0; j < m; j++) {
-        memcpy(mirrored->follow + j * n, border + j * all + m, (size_t)n * sizeof *border);
-        memcpy(schur + j * m, border + j * all, (size_t)m * sizeof *schur);
+    for (int64_t j = 0; j < n; j++) {
+        join_column(all, m + j, column);
+        memcpy(mirrored->lower + j * n, column + m, (size_t)n * sizeof *column);
+        for (int64_t i = 0; i < m; i++) mirrored->follow[i * n + j] = column[i];
     }
-    for (int64_t j = 0; j < n; j++)
-        memcpy(mirrored->lower + j * n, border + (m + j) * all + m, (size_t)n * sizeof *border);
-    if (!dense_cholesky(mirrored->lower, n))
+    if (!dense_cholesky(mirrored->lower, (int32_t)n))
         return FAULT(err, ERROR_COMPUTE, "mirror images of the interface are not held by it");
-    DenseView half = dense_view(mirrored->follow, n, m);
-    dense_lower_divide(mirrored->lower, n, m, mirrored->follow);
-    if (n > 0) dense_multiply_transposed(half, half, -1, 1, schur);
-    dense_lower_divide_transposed(mirrored->lower, n, m, mirrored->follow);
-    return error_is_clean(err);
+    dense_lower_divide(mirrored->lower, (int32_t)n, (int32_t)m, mirrored->follow);
+    return true;
+}
+
+enum { COLUMNS_TOGETHER = 64 };   // of S, which are still in the cache when S_bR E is subtracted
+
+// schur := S_bb - S_bR E, some columns of it.
+static void join_columns(void *context, int32_t k, int32_t worker)
+{
+    const Condensing *all = context;
+    const ReducedBulk *reduced = all->condensed->system->reduced;
+    int64_t m = reduced->interface_count, n = reduced->mirrored;
+    int64_t from = (int64_t)k * COLUMNS_TOGETHER, end = from + COLUMNS_TOGETHER;
+    const double *half = all->condensed->mirrored.follow;
+    if (end > m) end = m;
+    for (int64_t j = from; j < end; j++) {
+        join_column(all, j, all->column[worker]);
+        memcpy(all->schur + j * m, all->column[worker], (size_t)m * sizeof *all->schur);
+    }
+    if (n > 0)
+        dense_multiply_transposed(dense_view(half, n, m),
+                                  dense_view(half + from * n, n, end - from), -1, 1,
+                                  all->schur + from * m);
 }
 
 CondensedBulk *condensed_bulk_create(const ReducedOperator *system, OperatorTerms terms,
                                      double *schur, Error *err)
 {
     const ReducedBulk *reduced = system->reduced;
-    int64_t m = reduced->interface_count, size = m + reduced->mirrored, widest = 0;
-    double weight[SPECTRUM_SHAPES_MAX];
-    for (int p = 0; p < reduced->part_count; p++)
-        if (reduced->part[p].border_count > widest) widest = reduced->part[p].border_count;
-    CondensedBulk *condensed = NEW_ARRAY(CondensedBulk, 1, err);
-    double *border = NEW_ARRAY(double, size *size, err);
-    double *part = memory_bytes(widest * widest * (int64_t)sizeof(double), err);
-    if (!error_is_clean(err)) goto cleanup;
+    int32_t m = reduced->interface_count, n = reduced->mirrored;
+    Condensing all = {.condensed = NEW_ARRAY(CondensedBulk, 1, err), .schur = schur};
+    CondensedBulk *condensed = all.condensed;
+    if (!condensed) goto cleanup;
     condensed->system = system;
-    condensed->pushed = NEW_ARRAY(double, size, err);
-    terms.stiffness += spectrum_weights(&reduced->spectrum, terms.damping, terms.stiffness, weight);
-    terms.stiffness *= reduced->scales.stiffness;
-    terms.damping *= reduced->scales.damping;
-    terms.mass *= reduced->scales.mass;
-    for (int p = 0; p < reduced->part_count; p++) {
-        TRY(condensed_part_create(&reduced->part[p], terms, weight, &condensed->part[p], part,
-                                  err));
-        transform_add_square(&reduced->part[p].border, part, border);
-    }
-    TRY(condense_mirrored(border, (int32_t)m, reduced->mirrored, &condensed->mirrored, schur, err));
+    condensed->pushed = NEW_ARRAY(double, m + n, err);
+    for (int w = 0; w < PARALLEL_WORKERS_MAX; w++) all.column[w] = numbers(m + n, err);
+    if (!error_is_clean(err)) goto cleanup;
+    terms.stiffness +=
+        spectrum_weights(&reduced->spectrum, terms.damping, terms.stiffness, all.weight);
+    all.terms = (OperatorTerms){.mass = terms.mass * reduced->scales.mass,
+                                .damping = terms.damping * reduced->scales.damping,
+                                .stiffness = terms.stiffness * reduced->scales.stiffness};
+    side_by_side(system, reduced->part_count, condense_part, &all);
+    for (int p = 0; p < reduced->part_count && error_is_clean(err); p++) *err = all.error[p];
+    if (!error_is_clean(err)) goto cleanup;
+    TRY(factor_mirrored(&all, &condensed->mirrored, err));
+    side_by_side(system, (m + COLUMNS_TOGETHER - 1) / COLUMNS_TOGETHER, join_columns, &all);
+    dense_lower_divide_transposed(condensed->mirrored.lower, n, m, condensed->mirrored.follow);
 cleanup:
-    memory_free_all(border, part);
+    memory_free_list((void *const *)all.part, REDUCED_PARTS_MAX);
+    memory_free_list((void *const *)all.column, PARALLEL_WORKERS_MAX);
     if (error_is_clean(err)) return condensed;
     condensed_bulk_destroy(condensed);
     return NULL;

@@ -77,14 +77,15 @@ void transform_apply_transposed(const Transform *by, const double *x, double *y)
         y[by->block_of[by->rows[k]]] += by->values[k] * x[by->rows[k]];
 }
 
-void transform_add_square(const Transform *by, const double *s, double *a)
+void transform_add_square(const Transform *by, const double *s, int32_t j, double *column)
 {
-    if (!by->blocks) dense_add_scaled(1, s, by->size * by->size, a);
-    for (int32_t k = 0; k < by->row_count; k++) {
-        const double *from = s + (int64_t)by->block_of[by->rows[k]] * by->count;
-        double *out = a + (int64_t)by->rows[k] * by->size;
-        for (int32_t i = 0; i < by->row_count; i++)
-            out[by->rows[i]] += by->values[k] * by->values[i] * from[by->block_of[by->rows[i]]];
+    int32_t at = by->blocks ? by->block_of[j] : j;
+    if (at == NO_BLOCK) return;
+    const double *from = s + (int64_t)at * by->count;
+    if (!by->blocks) dense_add_scaled(1, from, by->size, column);
+    for (const TransformBlock *b = by->blocks; b < by->blocks + by->block_count; b++) {
+        double moved = by->values[by->place[j]] * from[b->first];
+        for (int32_t i = 0; i < b->size; i++) column[b->rows[i]] += b->values[i] * moved;
     }
 }
 

@@ -40,8 +40,8 @@ int32_t transform_column(const Transform *by, int32_t row);
 // Three where blocks have one column each, or T is 1.
 void transform_apply(const Transform *by, const double *y, double *x);   // x += T y
 void transform_apply_transposed(const Transform *by, const double *x, double *y);   // y = T'x
-// a [size^2] += T s T' of a symmetric s [count^2]
-void transform_add_square(const Transform *by, const double *s, double *a);
+// column [size] += column j of T s T', of a symmetric s [count^2]
+void transform_add_square(const Transform *by, const double *s, int32_t j, double *column);
 // x = T y of `columns` columns; x starts at 0.
 bool transform_apply_many(const Transform *by, const double *y, int32_t columns, double *x,
                           Error *err);

@@ -222,6 +222,9 @@ NOT_A_CHOICE = {
     "reduction/reduction_block.c": {
         "BASE_APART": "It keeps nodes of the block and of the base apart that stand at one place; as a number of the grid "
                       "it adds no rounding."},
+    "reduction/reduced_operator.c": {
+        "ENTRIES_LARGE": "threads for a level: time alone; an estimate, as starting them twice took 0.4 ms on a busy machine",
+        "COLUMNS_TOGETHER": "columns that stay in the cache"},
     "reduction/reduced_operator.h": {"BULK_TERMS": "K, C, M",
                                     "BULK_TERMS_MAX": "It counts K, C, M and all shape matrices that there is room for."},
     "reduction/responses.h": {"RESPONSE_BLOCKS_MAX": SIZE,

@@ -58,6 +58,11 @@ TEST(test_cholesky_and_triangles)
         dense_lower_square(lower, n, square);
         hand_apply(square, n, n, x, y);
         assert_all_near("square", y, wanted, n, 1e-13);
+        dense_transpose(dense_view(lower, n, n), square, n);   // A - L L' is 0
+        double left[SIZE_MAX_TRIED * SIZE_MAX_TRIED];
+        memcpy(left, a, sizeof left);
+        dense_subtract_square(dense_view(square, n, n), left);
+        for (int32_t k = 0; k < n * n; k++) assert_near("A - L L'", left[k], 0, 1e-13);
         spoil_upper(lower, n);
 
         double both[2 * SIZE_MAX_TRIED], back[2 * SIZE_MAX_TRIED];   // L'^-1 (L^-1 (A x)) is x

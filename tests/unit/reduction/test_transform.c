@@ -180,11 +180,11 @@ TEST(test_square)
             for (int32_t j = 0; j < SIZE; j++)
                 for (int32_t i = 0; i < SIZE; i++)
                     wanted[j * SIZE + i] += t[p * SIZE + i] * s[q * COUNT + p] * t[q * SIZE + j];
-    transform_add_square(&by, s, a);
+    for (int32_t j = 0; j < SIZE; j++) transform_add_square(&by, s, j, a + (ptrdiff_t)j * SIZE);
     assert_all_near("a + T s T'", a, wanted, SIZE * SIZE, 1e-15);
     Transform one = {.size = COUNT, .count = COUNT};
     for (int32_t k = 0; k < COUNT * COUNT; k++) a[k] = 1;
-    transform_add_square(&one, s, a);
+    for (int32_t j = 0; j < COUNT; j++) transform_add_square(&one, s, j, a + (ptrdiff_t)j * COUNT);
     for (int32_t k = 0; k < COUNT * COUNT; k++) assert_true(a[k] == 1 + s[k]);
     free(t);
     transform_destroy(&by);
