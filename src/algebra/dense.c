@@ -493,6 +493,27 @@ void dense_lower_multiply(const double *lower, int32_t n, int32_t columns, doubl
                     1.0, lower, n, b, n);
 }
 
+// The panel is not empty. Right sides are rows here.
+void dense_panel_forward(const double *panel, int32_t height, int32_t count, int32_t columns,
+                         double *own, double *below)
+{
+    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, columns, count, 1,
+                panel, height, own, columns);
+    if (height > count)
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, columns, height - count, count, 1, own,
+                    columns, panel + count, height, 0, below, columns);
+}
+
+void dense_panel_backward(const double *panel, int32_t height, int32_t count, int32_t columns,
+                          double *own, const double *below)
+{
+    if (height > count)
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, columns, count, height - count, -1,
+                    below, columns, panel + count, height, 1, own, columns);
+    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasNoTrans, CblasNonUnit, columns, count,
+                1, panel, height, own, columns);
+}
+
 // dsygst: half the operations of two triangular solves, as it keeps to one triangle. Turns a x =
 // lambda L L' x into a symmetric problem of its own.
 void dense_divide_both_sides(const double *lower, int32_t n, double *a)

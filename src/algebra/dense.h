@@ -59,6 +59,15 @@ void dense_lower_multiply(const double *lower, int32_t n, int32_t columns, doubl
 void dense_lower_divide(const double *lower, int32_t n, int32_t columns, double *b);
 void dense_lower_divide_transposed(const double *lower, int32_t n, int32_t columns, double *b);
 
+// Columns of a sparse factor as one dense panel [height * count]: the triangle L of `count` rows,
+// and below it the other rows, R. For `columns` right sides, whose values for one unknown stand
+// side by side, own [columns * count] and below [columns * (height - count)]: own := L^-1 own, then
+// below := R own; and back, own := L^-T (own - R' below).
+void dense_panel_forward(const double *panel, int32_t height, int32_t count, int32_t columns,
+                         double *own, double *below);
+void dense_panel_backward(const double *panel, int32_t height, int32_t count, int32_t columns,
+                          double *own, const double *below);
+
 // a := L^-1 a L^-T with a Cholesky factor `lower`; of the symmetric `a` [n * n] the lower triangle
 // is read and written.
 void dense_divide_both_sides(const double *lower, int32_t n, double *a);

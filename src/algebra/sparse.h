@@ -67,9 +67,13 @@ const double *sparse_schur_lower(const SparseFactor *factor);
 bool sparse_condense(SparseFactor *factor, const double *rhs, double *g, Error *err);
 // x_border: [border_count] -> x: [size]; nothing is allocated after the first solve.
 bool sparse_expand(SparseFactor *factor, const double *x_border, double *x, Error *err);
-// x [size * count], with no right-hand side inside, from as many x_border [border_count * count].
-// Many at once take a fraction of the time that one by one would; two threads do half each.
-bool sparse_expand_many(SparseFactor *factor, const double *x_border, int32_t count, double *x,
-                        Error *err);
+// The same for many columns at once, in a fraction of the time that one by one would take; two
+// threads do half each. Neither knows of the other: g [border_count * count] from rhs [size *
+// count], and x [size * count], with no right-hand side inside, from x_border [border_count *
+// count].
+bool sparse_condense_many(const SparseFactor *factor, const double *rhs, int32_t count, double *g,
+                          Error *err);
+bool sparse_expand_many(const SparseFactor *factor, const double *x_border, int32_t count,
+                        double *x, Error *err);
 
 #endif

@@ -289,75 +289,96 @@ bool sparse_expand(SparseFactor *factor, const double *x_border, double *x, Erro
     return true;
 }
 
-// Columns of x that CHOLMOD solves for at once: enough for products of matrices, while the work
-// arrays of each thread stay small.
+// --- many columns at once -----------------------------------------------------------------------
+
+// Columns that are solved for at once: enough for products of matrices, while the work arrays of
+// each thread stay small. All values of one unknown stand side by side, so that the rows of a
+// supernode, which lie anywhere, are gathered in long pieces.
 enum { COLUMNS = 64 };
 
-typedef struct Expansion {
+typedef struct Columns {
     const SparseFactor *factor;
-    const double *x_border;   // [border_count * count]
+    bool forward;   // to the border, else from it
+    const double *from;
     int32_t count, pieces;
-    double *x;   // [size * count]
-} Expansion;
+    double *to;
+} Columns;
 
-// Solves for every chunk of COLUMNS columns whose number is `piece` modulo all.pieces.
-static bool expand_piece(void *context, int32_t piece, Error *err)
+// Forward over the interior: L_ii y_i = x_i, then L_bi y_i is taken off x_b. Or backward: L_ii' x_i
+// = y_i - L_bi' x_b. x: [columns * n], below: [columns * rows of a supernode].
+static void solve_interior(const Columns *all, int32_t columns, double *x, double *below)
 {
-    const Expansion *all = context;
-    cholmod_factor *factor = all->factor->numeric;
-    const int32_t *permutation = factor->Perm;
-    int64_t size = (int64_t)factor->n, count = all->factor->analysis->border_count;
-    cholmod_common common;
-    cholmod_start(&common);
-    common.print = 0;
-    // CHOLMOD 3 does not look whether it got memory in a substitution: all that it uses is there.
-    size_t n = factor->n, chunk = all->count < COLUMNS ? (size_t)all->count : COLUMNS;
-    cholmod_dense *rhs = cholmod_zeros(n, chunk, CHOLMOD_REAL, &common);
-    cholmod_dense *solution = cholmod_allocate_dense(n, chunk, n, CHOLMOD_REAL, &common);
-    cholmod_dense *work_y = cholmod_allocate_dense(n, chunk, n, CHOLMOD_REAL, &common);
-    size_t gathered = factor->maxesize > 0 ? factor->maxesize : 1;
-    cholmod_dense *work_e =
-        cholmod_allocate_dense(gathered, chunk, gathered, CHOLMOD_REAL, &common);
-    bool done = rhs && solution && work_y && work_e;
-    for (int64_t first = piece * COLUMNS; done && first < all->count;
-         first += (int64_t)all->pieces * COLUMNS) {
-        int64_t columns = all->count - first < COLUMNS ? all->count - first : COLUMNS;
-        rhs->ncol = (size_t)columns;
-        for (int64_t j = 0; j < columns; j++) {
-            double *border = (double *)rhs->x + j * size + (size - count);
-            memcpy(border, all->x_border + (first + j) * count, (size_t)count * sizeof *border);
-            dense_lower_apply_transposed(all->factor->border_factor, (int32_t)count, border);
+    const cholmod_factor *factor = all->factor->numeric;
+    const int32_t *super = factor->super, *row_start = factor->pi, *value_start = factor->px;
+    int32_t interior = (int32_t)factor->n - all->factor->analysis->border_count, nodes = 0;
+    size_t row = (size_t)columns * sizeof *x;
+    while (nodes < (int32_t)factor->nsuper && super[nodes] < interior) nodes++;
+    for (int32_t k = 0; k < nodes; k++) {
+        int32_t s = all->forward ? k : nodes - 1 - k;
+        int32_t height = row_start[s + 1] - row_start[s];
+        int32_t end = super[s + 1] < interior ? super[s + 1] : interior, count = end - super[s];
+        const int32_t *rows = (const int32_t *)factor->s + row_start[s] + count;
+        const double *panel = (const double *)factor->x + value_start[s];
+        double *own = x + (int64_t)super[s] * columns;
+        if (all->forward) dense_panel_forward(panel, height, count, columns, own, below);
+        for (int32_t i = 0; i < height - count; i++) {
+            double *there = x + (int64_t)rows[i] * columns, *here = below + (int64_t)i * columns;
+            if (!all->forward) memcpy(here, there, row);
+            for (int32_t j = 0; all->forward && j < columns; j++) there[j] -= here[j];
         }
-        done = cholmod_solve2(CHOLMOD_Lt, factor, rhs, NULL, &solution, NULL, &work_y, &work_e,
-                              &common);
-        for (int64_t j = 0; done && j < columns; j++) {
-            const double *from = (const double *)solution->x + j * size;
-            double *to = all->x + (first + j) * size;
-            for (int64_t k = 0; k < size; k++) to[permutation[k]] = from[k];
-            for (int64_t k = 0; k < count; k++)
-                to[permutation[size - count + k]] = all->x_border[(first + j) * count + k];
-        }
+        if (!all->forward) dense_panel_backward(panel, height, count, columns, own, below);
     }
-    if (!done)
-        error_set(err, ERROR_MEMORY, __FILE__, __LINE__,
-                  "CHOLMOD: no memory for %d columns of a solution (status %d)", COLUMNS,
-                  common.status);
-    cholmod_free_dense(&rhs, &common);
-    cholmod_free_dense(&solution, &common);
-    cholmod_free_dense(&work_y, &common);
-    cholmod_free_dense(&work_e, &common);
-    cholmod_finish(&common);
-    return done;
 }
 
-bool sparse_expand_many(SparseFactor *factor, const double *x_border, int32_t count, double *x,
-                        Error *err)
+// Solves for every chunk of COLUMNS columns whose number is `piece` modulo all.pieces.
+static bool solve_piece(void *context, int32_t piece, Error *err)
 {
-    int32_t chunks = (count + COLUMNS - 1) / COLUMNS;
-    Expansion all = {.factor = factor,
-                     .x_border = x_border,
-                     .count = count,
-                     .pieces = chunks < PARALLEL_WORKERS_MAX ? chunks : PARALLEL_WORKERS_MAX,
-                     .x = x};
-    return parallel_try(all.pieces, expand_piece, &all, err);
+    const Columns *all = context;
+    const cholmod_factor *factor = all->factor->numeric;
+    const int32_t *permutation = factor->Perm;
+    int64_t size = (int64_t)factor->n, count = all->factor->analysis->border_count;
+    int64_t interior = size - count, chunk = all->count < COLUMNS ? all->count : COLUMNS;
+    int64_t tallest = (int64_t)factor->maxesize + count;   // where one reaches into the border
+    double *x = memory_bytes(chunk * size * (int64_t)sizeof *x, err);
+    double *below = memory_bytes(chunk * tallest * (int64_t)sizeof *x, err);
+    for (int64_t first = (int64_t)piece * COLUMNS; x && below && first < all->count;
+         first += (int64_t)all->pieces * COLUMNS) {
+        int64_t columns = all->count - first < COLUMNS ? all->count - first : COLUMNS;
+        const double *from = all->from + first * (all->forward ? size : count);
+        double *to = all->to + first * (all->forward ? count : size);
+        for (int64_t k = 0; all->forward && k < size; k++)
+            for (int64_t j = 0; j < columns; j++)
+                x[k * columns + j] = from[j * size + permutation[k]];
+        if (!all->forward) {
+            memset(x, 0, (size_t)(interior * columns) * sizeof *x);
+            dense_transpose(dense_view(from, count, columns), x + interior * columns, columns);
+        }
+        solve_interior(all, (int32_t)columns, x, below);
+        if (all->forward)
+            dense_transpose(dense_view(x + interior * columns, columns, count), to, count);
+        for (int64_t k = 0; !all->forward && k < size; k++)
+            for (int64_t j = 0; j < columns; j++)
+                to[j * size + permutation[k]] = x[k * columns + j];
+    }
+    memory_free_all(x, below);
+    return error_is_clean(err);
+}
+
+static bool solve_columns(Columns all, Error *err)
+{
+    int32_t chunks = (all.count + COLUMNS - 1) / COLUMNS;
+    all.pieces = chunks < PARALLEL_WORKERS_MAX ? chunks : PARALLEL_WORKERS_MAX;
+    return parallel_try(all.pieces, solve_piece, &all, err);
+}
+
+bool sparse_condense_many(const SparseFactor *factor, const double *rhs, int32_t count, double *g,
+                          Error *err)
+{
+    return solve_columns((Columns){factor, true, rhs, count, 0, g}, err);
+}
+
+bool sparse_expand_many(const SparseFactor *factor, const double *x_border, int32_t count,
+                        double *x, Error *err)
+{
+    return solve_columns((Columns){factor, false, x_border, count, 0, x}, err);
 }

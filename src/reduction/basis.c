@@ -191,7 +191,7 @@ static bool make_orthonormal(Basis *basis, Extension *x, Error *err)
         memcpy(all + j * (m + count) + m, phi + j * count, (size_t)count * sizeof *all);
     }
     dense_multiply(dense_view(next->field, dofs, added), by, 1, 0, formed);
-    responses_combine(&basis->responses, all, kept, formed);
+    TRY(responses_combine(&basis->responses, all, kept, formed, err));
     responses_replace(&basis->responses, kept, formed);
 cleanup:
     memory_free_all(turn, values, work, formed, phi, psi, all);
@@ -276,29 +276,20 @@ cleanup:
 bool basis_start(Basis *basis, InterfaceOperator *statics, Error *err)
 {
     int64_t m = basis->interface_count;
-    const double *schur = interface_operator_schur(statics);
-    double *boundary = NEW_ARRAY(double, m *m, err);
-    ResponseBlock *next = responses_next(&basis->responses, (ParameterPoint){0, 0}, m, err);
-    if (!boundary || !next) goto cleanup;
-    for (int64_t j = 0; j < m; j++) {
-        boundary[j * m + j] = next->boundary[j * (m + 1) + j] = 1;
-        memcpy(next->reaction + j * (m + 1), schur + j * m, (size_t)m * sizeof *schur);
-    }
-    TRY(interface_operator_respond(statics, boundary, (int32_t)m, next->field, err));
-    TRY(responses_multiply(&basis->responses, basis->statics, err));
+    Responses *responses = &basis->responses;
+    TRY(responses_start(responses, statics, basis->statics, err));
     // Inside the block K Psi = 0, so that Psi'K Psi is S_K.
-    memcpy(basis->statics[BULK_STIFFNESS], schur, (size_t)(m * m) * sizeof *schur);
-    for (int64_t j = 0; j < m; j++) basis->load[j] = next->boundary[j * (m + 1) + m];
-    responses_keep(&basis->responses);
-    next = responses_next(&basis->responses, (ParameterPoint){0, 0}, 1, err);
+    memcpy(basis->statics[BULK_STIFFNESS], interface_operator_schur(statics),
+           (size_t)(m * m) * sizeof(double));
+    for (int64_t j = 0; j < m; j++) basis->load[j] = responses->blocks[0].boundary[j * (m + 1) + m];
+    ResponseBlock *next = responses_next(responses, (ParameterPoint){0, 0}, 1, err);
     if (!next) goto cleanup;
-    TRY(interface_operator_respond_held(statics, basis->responses.unit_load, next->field,
-                                        next->reaction, err));
+    TRY(interface_operator_respond_held(statics, responses->unit_load, next->field, next->reaction,
+                                        err));
     for (int64_t i = 0; i < m; i++) next->reaction[i] = -next->reaction[i];
     next->reaction[m] = 1;
     if (dense_max_abs(next->field, basis->full_dofs) > 0) TRY(basis_extend(basis, err));
 cleanup:
-    memory_free(boundary);
     return error_is_clean(err);
 }
 
@@ -417,16 +408,18 @@ static bool write_modes(const Basis *basis, const double *w, ReducedPart *part, 
     const Responses *responses = &basis->responses;
     double *modes = part->modes = NEW_ARRAY(double, dofs *(m + r), err), *phi = modes + dofs * m;
     double *statics = NEW_ARRAY(double, m *r, err), *mixed = NEW_ARRAY(double, (m + r) * r, err);
+    double *motions = NEW_ARRAY(double, m *m, err);   // one each
     if (!error_is_clean(err)) goto cleanup;
-    memcpy(modes, responses->blocks[0].field, (size_t)(dofs * m) * sizeof *modes);
+    for (int64_t j = 0; j < m; j++) motions[j * (m + 1)] = 1;
+    TRY(interface_operator_respond(responses->statics, motions, (int32_t)m, modes, err));
     dense_multiply(dense_view(basis->parts, m, r), dense_view(w, r, r), -1, 0, statics);
     for (int64_t j = 0; j < r; j++) {
         memcpy(mixed + j * (m + r), statics + j * m, (size_t)m * sizeof *mixed);
         memcpy(mixed + j * (m + r) + m, w + j * r, (size_t)r * sizeof *mixed);
     }
-    responses_combine(responses, mixed, r, phi);
+    TRY(responses_combine(responses, mixed, r, phi, err));
 cleanup:
-    memory_free_all(statics, mixed);
+    memory_free_all(statics, mixed, motions);
     return error_is_clean(err);
 }
 

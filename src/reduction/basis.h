@@ -13,7 +13,7 @@
 
 typedef struct Basis {
     int32_t full_dofs, interface_count, interior_count;   // m, r
-    Responses responses;   // the first m of them are Psi; owned, like all below
+    Responses responses;   // the first m of them are Psi, not kept; owned, like all below
     double loss_max;   // of digits, from which on a block is made orthonormal
     double *statics[BULK_TERMS_MAX];   // [m^2] Psi' (K, C, M, S_j) Psi
     double *beside[BULK_TERMS_MAX];   // [m * r] Psi' (C, M, S_j) Phi; none of K
@@ -27,7 +27,8 @@ typedef struct Basis {
 bool basis_create(const BulkOperator *full, const BulkScales *scales, Basis *basis, Error *err);
 void basis_destroy(Basis *basis);
 
-// Static modes, and the static response to the load. statics: the full mesh at K alone.
+// Static modes, and the static response to the load. statics: the full mesh at K alone, which must
+// outlive the basis: it stands for Psi.
 bool basis_start(Basis *basis, InterfaceOperator *statics, Error *err);
 
 // Adds what the next block of responses has beside all modes.

@@ -284,10 +284,16 @@ bool interface_operator_expand(InterfaceOperator *condensed, const double *inter
     return true;
 }
 
-bool interface_operator_respond(InterfaceOperator *condensed, const double *boundary, int32_t count,
-                                double *v, Error *err)
+bool interface_operator_respond(const InterfaceOperator *condensed, const double *boundary,
+                                int32_t count, double *v, Error *err)
 {
     return sparse_expand_many(condensed->factor, boundary, count, v, err);
+}
+
+bool interface_operator_condense_many(const InterfaceOperator *condensed, const double *rhs,
+                                      int32_t count, double *g, Error *err)
+{
+    return sparse_condense_many(condensed->factor, rhs, count, g, err);
 }
 
 bool interface_operator_respond_held(InterfaceOperator *condensed, const double *rhs, double *v,

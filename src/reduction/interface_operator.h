@@ -98,8 +98,13 @@ bool interface_operator_expand(InterfaceOperator *condensed, const double *inter
 
 // Responses v [dof_count * count] of the full mesh to `count` boundary motions v_b [interface_count
 // * count], nothing pressing inside.
-bool interface_operator_respond(InterfaceOperator *condensed, const double *boundary, int32_t count,
-                                double *v, Error *err);
+bool interface_operator_respond(const InterfaceOperator *condensed, const double *boundary,
+                                int32_t count, double *v, Error *err);
+
+// What is condensed of `count` right sides, g [interface_count * count] of rhs [dof_count * count],
+// of the full mesh.
+bool interface_operator_condense_many(const InterfaceOperator *condensed, const double *rhs,
+                                      int32_t count, double *g, Error *err);
 
 // The response v [dof_count] to `rhs`, the interface held, and what is condensed of it, g
 // [interface_count].

@@ -37,6 +37,7 @@ static const double NEGATIVE_LIMIT = 1e-3;
 // Work of one build.
 typedef struct Builder {
     BulkOperator *full;   // what is reduced: the mesh, or what the far field leaves of it
+    InterfaceOperator *statics;   // it at K alone
     const ReductionDef *def;
     Basis basis;
     bool spoiled;   // by rounding: S_r is below S
@@ -178,11 +179,9 @@ cleanup:
 static bool train_basis(Builder *work, Error *err)
 {
     const ReductionDef *def = work->def;
-    OperatorTerms terms = {.stiffness = 1 / def->scales.stiffness, .lift = true};
     double slowest = work->far.slowest;   // where the whole mesh was looked at
-    InterfaceOperator *statics = interface_operator_create(work->full, terms, err);
-    if (!statics) return false;
-    if (!(slowest > 0)) TRY(inertia_slowest(work->full, &def->scales, statics, &slowest, err));
+    if (!(slowest > 0))
+        TRY(inertia_slowest(work->full, &def->scales, work->statics, &slowest, err));
 
     // The points to train at.
     training_points_list(&def->materials, &def->scales, &work->full->bulk->spectrum, slowest,
@@ -192,7 +191,7 @@ static bool train_basis(Builder *work, Error *err)
     work->basis.responses.inertia_least = slowest / 20;
     for (int32_t k = 0; k < work->training.count; k++)
         work->terms[k] = parameter_terms(work->training.points[k].point, &def->scales);
-    TRY(basis_start(&work->basis, statics, err));
+    TRY(basis_start(&work->basis, work->statics, err));
     FactoredPointsDef points = {.system = work->full,
                                 .load = work->basis.responses.unit_load,
                                 .terms = work->terms,
@@ -202,7 +201,6 @@ static bool train_basis(Builder *work, Error *err)
     TRY(factored_points_visit(&points, err));
     TRY(compare_beyond(work, err));
 cleanup:
-    interface_operator_destroy(statics);
     return error_is_clean(err);
 }
 
@@ -228,6 +226,8 @@ static bool reduce_part(const Bulk *bulk, const int32_t *interface_dofs, int32_t
     work.values = NEW_ARRAY(double, m, err);
     work.eigen_work = NEW_ARRAY(double, DENSE_EIGEN_WORK(interface_count), err);
     TRY(error_is_clean(err));
+    OperatorTerms at_rest = {.stiffness = 1 / def->scales.stiffness, .lift = true};
+    TRY((work.statics = interface_operator_create(work.full, at_rest, err)));
     work.basis.loss_max = LOSS_LIMIT;
     if (!train_basis(&work, err) && work.spoiled) {
         error_clear(err);
@@ -260,6 +260,7 @@ static bool reduce_part(const Bulk *bulk, const int32_t *interface_dofs, int32_t
 cleanup:
     basis_destroy(&work.basis);
     memory_free_all(work.excess, work.values, work.eigen_work);
+    interface_operator_destroy(work.statics);
     bulk_operator_destroy(&work.mesh);
     far_field_destroy(far);
     if (!error_is_clean(err)) error_context(err, "while reducing the bulk");

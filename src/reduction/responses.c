@@ -167,7 +167,14 @@ typedef struct Multiplication {
     const Responses *responses;
     double *const *gram;
     int32_t pieces;
+    Error *errors;   // [PARALLEL_WORKERS_MAX]
 } Multiplication;
+
+static bool first_error(const Error *errors, Error *err)
+{
+    for (int32_t k = 0; k < PARALLEL_WORKERS_MAX && error_is_clean(err); k++) *err = errors[k];
+    return error_is_clean(err);
+}
 
 // Blocks whose fields stand side by side: multiplied as one.
 typedef struct Run {
@@ -211,9 +218,9 @@ static void multiply_kind(const Multiplication *all, int kind, BulkTerm term,
     for (int32_t k = 0; k <= responses->block_count; k++) {
         const ResponseBlock *block = &responses->blocks[k];
         int64_t skipped = block == next ? from : 0;
-        const double *field = block->field + skipped * dofs;
         unsigned needed = needed_products(responses, block, next);
-        if (kind_of(block->point) != kind || !(needed & 1u << term)) continue;
+        if (!block->field || kind_of(block->point) != kind || !(needed & 1u << term)) continue;
+        const double *field = block->field + skipped * dofs;
         bool beside = run.count > 0 && field == run.field + run.columns * dofs;
         if (run.count > 0 && !beside) multiply_run(all, &run, image, from, product, gram);
         if (run.count == 0) run.field = field;
@@ -221,6 +228,22 @@ static void multiply_kind(const Multiplication *all, int kind, BulkTerm term,
         run.columns += block->count - skipped;
     }
     if (run.count > 0) multiply_run(all, &run, image, from, product, gram);
+}
+
+// Psi' image, into the first rows of gram.
+static void multiply_statics(const Multiplication *all, BulkTerm term, const ResponseRoom *room,
+                             int64_t from, int64_t columns, Error *err)
+{
+    const Responses *responses = all->responses;
+    const ResponseBlock *next = &responses->blocks[responses->block_count];
+    int64_t m = responses->full->interface_count, rows = responses->count + next->count;
+    double *out = all->gram[term] + from * rows;
+    if (!(needed_products(responses, &responses->blocks[0], next) & 1u << term)) return;
+    if (!interface_operator_condense_many(responses->statics, room->image, (int32_t)columns,
+                                          room->product, err))
+        return;
+    for (int64_t j = 0; j < columns; j++)
+        memcpy(out + j * rows, room->product + j * m, (size_t)m * sizeof *out);
 }
 
 static void multiply_piece(void *context, int32_t piece, int32_t worker)
@@ -238,6 +261,8 @@ static void multiply_piece(void *context, int32_t piece, int32_t worker)
         if (!(needed & 1u << term)) continue;
         apply(responses, (BulkTerm)term, dense_view(next->field + from * dofs, dofs, columns),
               room->image);
+        if (responses->statics)
+            multiply_statics(all, (BulkTerm)term, room, from, columns, &all->errors[worker]);
         for (int kind = 0; kind < 2; kind++)
             multiply_kind(all, kind, (BulkTerm)term, room, from, columns);
     }
@@ -299,7 +324,8 @@ bool responses_multiply(Responses *responses, double *const *gram, Error *err)
     int64_t rows = responses->count + next->count;
     // Two at least; the work of a piece falls with its number.
     int64_t most = 2 * RESPONSES_TOGETHER, pieces = 2 * ((next->count + most - 1) / most);
-    Multiplication by_mesh = {responses, gram, (int32_t)(next->count > 1 ? pieces : 1)};
+    Error errors[PARALLEL_WORKERS_MAX] = {0};
+    Multiplication by_mesh = {responses, gram, (int32_t)(next->count > 1 ? pieces : 1), errors};
     double *a = NEW_ARRAY(double, rows * next->count, err);
     double *b = NEW_ARRAY(double, rows * next->count, err);
     for (int32_t k = 0; k < parallel_workers(); k++)
@@ -309,6 +335,7 @@ bool responses_multiply(Responses *responses, double *const *gram, Error *err)
         next->boundary[j * (m + 1) + m] =
             dense_dot(next->field + j * dofs, responses->unit_load, (int32_t)dofs);
     parallel_for(by_mesh.pieces, multiply_piece, &by_mesh);
+    if (!first_error(errors, err)) goto cleanup;
     for (int32_t k = 0; k <= responses->block_count; k++)
         complete_block(responses, &responses->blocks[k], a, b, gram);
     for (int term = 0; term < responses->term_count; term++)   // those of the block with itself
@@ -324,17 +351,101 @@ cleanup:
     return error_is_clean(err);
 }
 
+// --- Psi -----------------------------------------------------------------------------------------
+
+// Products of Psi with those of its columns that a piece makes.
+static void multiply_static_piece(void *context, int32_t piece, int32_t worker)
+{
+    const Multiplication *all = context;
+    const Responses *responses = all->responses;
+    const InterfaceOperator *statics = responses->statics;
+    int64_t dofs = responses->full->dof_count, m = responses->full->interface_count;
+    int64_t from = m * piece / all->pieces, columns = m * (piece + 1) / all->pieces - from;
+    Error *err = &all->errors[worker];
+    double *field = memory_bytes(dofs * columns * (int64_t)sizeof(double), err);
+    double *image = responses->room[worker].image, *motions = NEW_ARRAY(double, m *columns, err);
+    if (!field || !motions) goto cleanup;
+    for (int64_t j = 0; j < columns; j++) motions[j * m + from + j] = 1;
+    TRY(interface_operator_respond(statics, motions, (int32_t)columns, field, err));
+    for (int term = 0; term < responses->term_count; term++) {
+        if (term == BULK_STIFFNESS) continue;
+        apply(responses, (BulkTerm)term, dense_view(field, dofs, columns), image);
+        TRY(interface_operator_condense_many(statics, image, (int32_t)columns,
+                                             all->gram[term] + from * m, err));
+    }
+cleanup:
+    memory_free_all(field, motions);
+}
+
+bool responses_start(Responses *responses, const InterfaceOperator *statics,
+                     double *const *products, Error *err)
+{
+    ResponseBlock *block = &responses->blocks[0];
+    int64_t m = responses->full->interface_count;
+    const double *schur = interface_operator_schur(statics);
+    double *load = NEW_ARRAY(double, m, err);
+    Error errors[PARALLEL_WORKERS_MAX] = {0};
+    int64_t most = 2 * RESPONSES_TOGETHER, pieces = 2 * ((m + most - 1) / most);
+    Multiplication all = {responses, products, (int32_t)(m > 1 ? pieces : 1), errors};
+    block->boundary = NEW_ARRAY(double, (m + 1) * m, err);
+    block->reaction = NEW_ARRAY(double, (m + 1) * m, err);
+    if (!error_is_clean(err)) goto cleanup;
+    responses->statics = statics;
+    block->count = m;
+    parallel_for(all.pieces, multiply_static_piece, &all);
+    if (!first_error(errors, err)) goto cleanup;
+    for (int term = 0; term < responses->term_count; term++)
+        if (term != BULK_STIFFNESS) dense_mirror(products[term], m);
+    TRY(interface_operator_condense_many(statics, responses->unit_load, 1, load, err));
+    for (int64_t j = 0; j < m; j++) {
+        block->boundary[j * (m + 1) + j] = 1;
+        block->boundary[j * (m + 1) + m] = load[j];
+        memcpy(block->reaction + j * (m + 1), schur + j * m, (size_t)m * sizeof *schur);
+    }
+    responses->count = m;
+    responses->block_count = 1;
+cleanup:
+    memory_free(load);
+    return error_is_clean(err);
+}
+
+// y += Psi c, some columns at a time.
+static bool combine_statics(const Responses *responses, const double *c, int64_t columns, double *y,
+                            Error *err)
+{
+    int64_t dofs = responses->full->dof_count, m = responses->full->interface_count;
+    int64_t together = columns < RESPONSES_TOGETHER ? columns : RESPONSES_TOGETHER;
+    double *motions = NEW_ARRAY(double, m *together, err);
+    double *field = NEW_ARRAY(double, dofs *together, err);
+    if (!motions || !field) goto cleanup;
+    for (int64_t from = 0; from < columns; from += together) {
+        int64_t count = columns - from < together ? columns - from : together;
+        for (int64_t j = 0; j < count; j++)
+            memcpy(motions + j * m, c + (from + j) * responses->count, (size_t)m * sizeof *c);
+        TRY(interface_operator_respond(responses->statics, motions, (int32_t)count, field, err));
+        for (int64_t j = 0; j < count; j++)
+            dense_add_scaled(1, field + j * dofs, (int32_t)dofs, y + (from + j) * dofs);
+    }
+cleanup:
+    memory_free_all(motions, field);
+    return error_is_clean(err);
+}
+
 // Rows of `c` that belong to a block stand `count` apart.
-void responses_combine(const Responses *responses, const double *c, int64_t columns, double *y)
+bool responses_combine(const Responses *responses, const double *c, int64_t columns, double *y,
+                       Error *err)
 {
     const BulkOperator *full = responses->full;
     int64_t dofs = full->dof_count;
     for (int32_t k = 0; k < responses->block_count; k++) {
         const ResponseBlock *block = &responses->blocks[k];
+        if (!block->field) continue;
         dense_multiply_rows(dense_view(block->field, dofs, block->count), c + block->first,
                             responses->count, columns, 1, y);
     }
+    if (responses->statics && !combine_statics(responses, c, columns, y, err)) return false;
     for (int64_t j = 0; j < columns; j++)
         for (int32_t i = 0; i < full->interface_count; i++)
             y[j * dofs + full->interface_dofs[i]] = 0;
+    return true;
 }

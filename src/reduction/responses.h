@@ -20,7 +20,7 @@ typedef struct ResponseBlock {
     ParameterPoint point;
     bool formed;   // of a basis, no response: 0 on the interface, all its products are by the mesh
     int64_t first, count;   // columns
-    double *field;   // [dofs] each, x; in a shelf
+    double *field;   // [dofs] each, x; in a shelf; NULL: of Psi, which is not kept
     double *boundary;   // [m + 1] each, x on the interface, then f'x; owned, as what follows
     double *reaction;   // [m + 1] each, r (with t: r less t f there), then t
 } ResponseBlock;
@@ -39,6 +39,7 @@ typedef struct ResponseRoom {
 
 typedef struct Responses {
     const BulkOperator *full;   // of the mesh; not owned
+    const InterfaceOperator *statics;   // it at K alone, once Psi is there; not owned
     BulkScales scales;
     int32_t term_count;   // K, C, M and the shape matrices
     double *unit_load;   // [dofs] f; owned
@@ -57,6 +58,12 @@ bool responses_create(const BulkOperator *full, const BulkScales *scales, Respon
                       Error *err);
 void responses_destroy(Responses *responses);
 
+// Begins with the static modes Psi, the responses to K alone of each motion of the interface. They
+// are not kept: Psi'y is what `statics`, which must outlive the responses, condenses of y. products
+// [term_count][m * m] := Psi' (C, M, S_j) Psi; that of K is left as it is, S_K.
+bool responses_start(Responses *responses, const InterfaceOperator *statics,
+                     double *const *products, Error *err);
+
 // Room for `columns` columns, behind all others: a block that counts from responses_keep on.
 ResponseBlock *responses_next(Responses *responses, ParameterPoint point, int64_t columns,
                               Error *err);
@@ -72,6 +79,7 @@ bool responses_multiply(Responses *responses, double *const *gram, Error *err);
 
 // y [dofs * columns] += X c, of the columns that are kept, 0 on the interface to the last bit; c
 // [count * columns].
-void responses_combine(const Responses *responses, const double *c, int64_t columns, double *y);
+bool responses_combine(const Responses *responses, const double *c, int64_t columns, double *y,
+                       Error *err);
 
 #endif

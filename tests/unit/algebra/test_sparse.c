@@ -129,13 +129,20 @@ static void check_solution(Random *random, const Case *made, SparseFactor *facto
     free(schur);
 }
 
-// Answers to many motions at once against A_ii x_i + A_ib x_b = 0: from one to more than fit
-// together.
+// Answers to many motions at once against A_ii x_i + A_ib x_b = 0, and what is condensed of many
+// right sides against one by one: from one to more than fit together.
 static void check_many(Random *random, const Case *made, SparseFactor *factor)
 {
     Error err = {0};
     int32_t n = made->size, count = made->border_count, motions = 1 + random_index(random, 40);
     double *given = hand_matrix(count, motions), *x = hand_matrix(n, motions);
+    double *condensed = hand_matrix(count, motions), *one = hand_matrix(count, 1);
+    for (int32_t k = 0; k < n * motions; k++) x[k] = random_between(random, -1, 1);
+    assert_true(sparse_condense_many(factor, x, motions, condensed, &err));
+    for (int32_t j = 0; j < motions; j++) {
+        assert_true(sparse_condense(factor, x + j * n, one, &err));
+        assert_all_near("g", condensed + j * count, one, count, 1e-12);
+    }
     for (int32_t k = 0; k < count * motions; k++) given[k] = random_between(random, -1, 1);
     assert_true(sparse_expand_many(factor, given, motions, x, &err));
     for (int32_t j = 0; j < motions; j++) {
@@ -147,7 +154,7 @@ static void check_many(Random *random, const Case *made, SparseFactor *factor)
         for (int32_t k = 0; k < count; k++) inside[made->border[k]] = 0;
         for (int32_t k = 0; k < n; k++) assert_near("nothing presses inside", inside[k], 0, 1e-11);
     }
-    free(given), free(x);
+    free(given), free(x), free(condensed), free(one);
 }
 
 TEST(test_random_matrices)

@@ -14,6 +14,7 @@ static const BlockDef SHAPE = {
 typedef struct Rig {
     ReducedBlock block;   // not reduced
     BulkOperator mesh;
+    InterfaceOperator *statics;
     Basis basis;
     ReducedPart reduced;   // what the basis becomes at the end
 } Rig;
@@ -30,15 +31,15 @@ static void start(Rig *rig, double loss_max)
     rig->basis.loss_max = loss_max;
     rig->basis.responses.inertia_least = 0.1;
     OperatorTerms terms = {.stiffness = 1 / rig->block.def.scales.stiffness, .lift = true};
-    InterfaceOperator *statics = interface_operator_create(&rig->mesh, terms, &err);
-    assert_non_null(statics);
-    if (!basis_start(&rig->basis, statics, &err)) fail_msg("%s", err.message);
-    interface_operator_destroy(statics);
+    rig->statics = interface_operator_create(&rig->mesh, terms, &err);
+    assert_non_null(rig->statics);
+    if (!basis_start(&rig->basis, rig->statics, &err)) fail_msg("%s", err.message);
 }
 
 static void end(Rig *rig)
 {
     basis_destroy(&rig->basis);
+    interface_operator_destroy(rig->statics);
     bulk_operator_destroy(&rig->mesh);
     reduced_part_destroy(&rig->reduced);
     reduced_block_destroy(&rig->block);
