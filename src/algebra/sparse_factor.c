@@ -294,7 +294,7 @@ bool sparse_expand(SparseFactor *factor, const double *x_border, double *x, Erro
 // Columns that are solved for at once: enough for products of matrices, while the work arrays of
 // each thread stay small. All values of one unknown stand side by side, so that the rows of a
 // supernode, which lie anywhere, are gathered in long pieces.
-enum { COLUMNS = 64 };
+enum { COLUMNS = 96 };
 
 typedef struct Columns {
     const SparseFactor *factor;

@@ -276,13 +276,23 @@ cleanup:
 bool basis_start(Basis *basis, InterfaceOperator *statics, Error *err)
 {
     int64_t m = basis->interface_count;
+    const double *schur = interface_operator_schur(statics);
     Responses *responses = &basis->responses;
-    TRY(responses_start(responses, statics, basis->statics, err));
+    double *boundary = NEW_ARRAY(double, m *m, err);
+    ResponseBlock *next = responses_next(responses, (ParameterPoint){0, 0}, m, err);
+    if (!boundary || !next) goto cleanup;
+    for (int64_t j = 0; j < m; j++) {
+        boundary[j * m + j] = next->boundary[j * (m + 1) + j] = 1;
+        memcpy(next->reaction + j * (m + 1), schur + j * m, (size_t)m * sizeof *schur);
+    }
+    TRY(interface_operator_respond(statics, boundary, (int32_t)m, next->field, err));
+    TRY(responses_multiply(responses, basis->statics, err));
     // Inside the block K Psi = 0, so that Psi'K Psi is S_K.
-    memcpy(basis->statics[BULK_STIFFNESS], interface_operator_schur(statics),
-           (size_t)(m * m) * sizeof(double));
-    for (int64_t j = 0; j < m; j++) basis->load[j] = responses->blocks[0].boundary[j * (m + 1) + m];
-    ResponseBlock *next = responses_next(responses, (ParameterPoint){0, 0}, 1, err);
+    memcpy(basis->statics[BULK_STIFFNESS], schur, (size_t)(m * m) * sizeof *schur);
+    for (int64_t j = 0; j < m; j++) basis->load[j] = next->boundary[j * (m + 1) + m];
+    responses_keep(responses);
+    responses_release_statics(responses, statics);
+    next = responses_next(responses, (ParameterPoint){0, 0}, 1, err);
     if (!next) goto cleanup;
     TRY(interface_operator_respond_held(statics, responses->unit_load, next->field, next->reaction,
                                         err));
@@ -290,6 +300,7 @@ bool basis_start(Basis *basis, InterfaceOperator *statics, Error *err)
     next->reaction[m] = 1;
     if (dense_max_abs(next->field, basis->full_dofs) > 0) TRY(basis_extend(basis, err));
 cleanup:
+    memory_free(boundary);
     return error_is_clean(err);
 }
 

@@ -13,7 +13,7 @@
 
 typedef struct Basis {
     int32_t full_dofs, interface_count, interior_count;   // m, r
-    Responses responses;   // the first m of them are Psi, not kept; owned, like all below
+    Responses responses;   // the first m of them are Psi, released; owned, like all below
     double loss_max;   // of digits, from which on a block is made orthonormal
     double *statics[BULK_TERMS_MAX];   // [m^2] Psi' (K, C, M, S_j) Psi
     double *beside[BULK_TERMS_MAX];   // [m * r] Psi' (C, M, S_j) Phi; none of K

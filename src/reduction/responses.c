@@ -353,60 +353,14 @@ cleanup:
 
 // --- Psi -----------------------------------------------------------------------------------------
 
-// Products of Psi with those of its columns that a piece makes.
-static void multiply_static_piece(void *context, int32_t piece, int32_t worker)
+void responses_release_statics(Responses *responses, const InterfaceOperator *statics)
 {
-    const Multiplication *all = context;
-    const Responses *responses = all->responses;
-    const InterfaceOperator *statics = responses->statics;
-    int64_t dofs = responses->full->dof_count, m = responses->full->interface_count;
-    int64_t from = m * piece / all->pieces, columns = m * (piece + 1) / all->pieces - from;
-    Error *err = &all->errors[worker];
-    double *field = memory_bytes(dofs * columns * (int64_t)sizeof(double), err);
-    double *image = responses->room[worker].image, *motions = NEW_ARRAY(double, m *columns, err);
-    if (!field || !motions) goto cleanup;
-    for (int64_t j = 0; j < columns; j++) motions[j * m + from + j] = 1;
-    TRY(interface_operator_respond(statics, motions, (int32_t)columns, field, err));
-    for (int term = 0; term < responses->term_count; term++) {
-        if (term == BULK_STIFFNESS) continue;
-        apply(responses, (BulkTerm)term, dense_view(field, dofs, columns), image);
-        TRY(interface_operator_condense_many(statics, image, (int32_t)columns,
-                                             all->gram[term] + from * m, err));
-    }
-cleanup:
-    memory_free_all(field, motions);
-}
-
-bool responses_start(Responses *responses, const InterfaceOperator *statics,
-                     double *const *products, Error *err)
-{
-    ResponseBlock *block = &responses->blocks[0];
-    int64_t m = responses->full->interface_count;
-    const double *schur = interface_operator_schur(statics);
-    double *load = NEW_ARRAY(double, m, err);
-    Error errors[PARALLEL_WORKERS_MAX] = {0};
-    int64_t most = 2 * RESPONSES_TOGETHER, pieces = 2 * ((m + most - 1) / most);
-    Multiplication all = {responses, products, (int32_t)(m > 1 ? pieces : 1), errors};
-    block->boundary = NEW_ARRAY(double, (m + 1) * m, err);
-    block->reaction = NEW_ARRAY(double, (m + 1) * m, err);
-    if (!error_is_clean(err)) goto cleanup;
+    ResponseBlock *first = &responses->blocks[0];
+    ResponseShelf *shelf = &responses->shelves[responses->shelf_of[kind_of(first->point)]];
+    memory_free(shelf->field);
+    *shelf = (ResponseShelf){0};
+    first->field = NULL;
     responses->statics = statics;
-    block->count = m;
-    parallel_for(all.pieces, multiply_static_piece, &all);
-    if (!first_error(errors, err)) goto cleanup;
-    for (int term = 0; term < responses->term_count; term++)
-        if (term != BULK_STIFFNESS) dense_mirror(products[term], m);
-    TRY(interface_operator_condense_many(statics, responses->unit_load, 1, load, err));
-    for (int64_t j = 0; j < m; j++) {
-        block->boundary[j * (m + 1) + j] = 1;
-        block->boundary[j * (m + 1) + m] = load[j];
-        memcpy(block->reaction + j * (m + 1), schur + j * m, (size_t)m * sizeof *schur);
-    }
-    responses->count = m;
-    responses->block_count = 1;
-cleanup:
-    memory_free(load);
-    return error_is_clean(err);
 }
 
 // y += Psi c, some columns at a time.

@@ -20,7 +20,7 @@ typedef struct ResponseBlock {
     ParameterPoint point;
     bool formed;   // of a basis, no response: 0 on the interface, all its products are by the mesh
     int64_t first, count;   // columns
-    double *field;   // [dofs] each, x; in a shelf; NULL: of Psi, which is not kept
+    double *field;   // [dofs] each, x; in a shelf; NULL: of Psi, released
     double *boundary;   // [m + 1] each, x on the interface, then f'x; owned, as what follows
     double *reaction;   // [m + 1] each, r (with t: r less t f there), then t
 } ResponseBlock;
@@ -58,12 +58,6 @@ bool responses_create(const BulkOperator *full, const BulkScales *scales, Respon
                       Error *err);
 void responses_destroy(Responses *responses);
 
-// Begins with the static modes Psi, the responses to K alone of each motion of the interface. They
-// are not kept: Psi'y is what `statics`, which must outlive the responses, condenses of y. products
-// [term_count][m * m] := Psi' (C, M, S_j) Psi; that of K is left as it is, S_K.
-bool responses_start(Responses *responses, const InterfaceOperator *statics,
-                     double *const *products, Error *err);
-
 // Room for `columns` columns, behind all others: a block that counts from responses_keep on.
 ResponseBlock *responses_next(Responses *responses, ParameterPoint point, int64_t columns,
                               Error *err);
@@ -72,6 +66,9 @@ ResponseBlock *responses_last(Responses *responses);   // that one
 void responses_replace(Responses *responses, int64_t columns, const double *field);
 void responses_keep(Responses *responses);
 void responses_drop(Responses *responses);   // if it was not kept
+// The only block so far, the static modes Psi, leaves its fields: from here on Psi'y is what
+// `statics`, the mesh at K alone, which must outlive the responses, condenses of y.
+void responses_release_statics(Responses *responses, const InterfaceOperator *statics);
 
 // gram [term_count][all * added]: X' (K, C, M, S_j) X_next, X all columns with those of the next
 // block.
