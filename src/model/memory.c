@@ -20,12 +20,13 @@ static const double SPACE_LEAST = 6e7;
 // Bytes for each unknown of the mesh: mesh, matrices and those of its parts.
 static const double SPACE_MESH = 4500;
 // Numbers in space that are kept at once: matrices of m x m (one for each step size, their copies,
-// factors, certificate), entries of a factor, and in a reduction those of the factors of a part and
-// columns of responses over those of its border. Contact that is its own mirror image is solved on
-// one side, and takes 58 squares where its symmetry breaks, which nobody knows before.
+// factors, certificate), entries of a factor, and in a reduction those of three factors of a part
+// (at rest, and of two points at once) and columns of responses over those of its border. Contact
+// that is its own mirror image is solved on one side, and takes 58 squares where its symmetry
+// breaks, which nobody knows before.
 static const double SPACE_SQUARES = 30, SPACE_SQUARES_ONE_SIDE = 20, SPACE_ENTRIES = 25;
-static const double SPACE_PART_ENTRIES = 28, SPACE_COLUMNS = 5;
-static const double SPACE_TOGETHER = 1.43;   // two parts side by side over one
+static const double SPACE_PART_ENTRIES = 90, SPACE_COLUMNS = 1.5;
+static const double SPACE_TOGETHER = 1.4;   // two parts side by side over one
 static const double SPACE_FACTORS = 11;   // step sizes of a run with a sliding, each with a factor
 // Unknowns of a reduced block over those of its interface. Each is a mode of the mesh, which is
 // kept where fields or probes are asked for.

@@ -34,7 +34,7 @@ typedef struct ReductionDef {
     Materials materials;   // likewise
     bool modes;   // of the whole mesh are wanted, to see what happens inside
     bool one_by_one;   // parts of a block that is its own mirror image are built one after another,
-        // in 0.7 of the memory, else two at a time
+        // in 0.8 of the memory, else two at a time
     bool no_patches;   // what is far is not replaced: in space too little is for patches to pay
     int32_t *const
         *node_image;   // [DIM_MAX - 1] of the block (reduction/reduction_block); NULL: none
