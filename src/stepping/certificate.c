@@ -28,6 +28,9 @@ static const double SETTLED = 1e-6;
 enum { SINGLE_ROWS = 128 };
 static const double SINGLE_MARGIN = 1e-4;
 
+// Open nodes are few where they are at most this part of all.
+enum { OPEN_PARTS = 8 };
+
 static bool create_work(const Block *block, Certificate *certificate, Error *err)
 {
     *certificate = (Certificate){0};
@@ -152,10 +155,23 @@ void certificate_destroy(Certificate *certificate)
     *certificate = (Certificate){0};
 }
 
-// S with open nodes condensed out; NULL where they alone are singular in it.
+// Finds what moves: open nodes are condensed out of every S, or where they are few counted among
+// what moves, which is the same question and needs no second matrix of a level. On pads most nodes
+// are open; in the plane a matrix is small.
+static void find_moving(Certificate *certificate, const State *state)
+{
+    int32_t open = 0;
+    for (int32_t i = 0; i < state->contact_count; i++) open += state->status[i] == CONTACT_OPEN;
+    certificate->with_open = certificate->moving.interface->dim > 2 &&
+                             OPEN_PARTS * open <= state->contact_count;
+    moving_set_find(&certificate->moving, state, certificate->with_open);
+}
+
+// S for what was found to move; NULL where open nodes alone are singular in it.
 static const double *close_matrix(const Certificate *certificate, const State *state,
                                   ContactMatrix *matrix)
 {
+    if (certificate->with_open) return matrix->schur;
     return contact_matrix_close(matrix, state->status, state->contact_count,
                                 certificate->moving.interface->dim);
 }
@@ -171,12 +187,13 @@ static bool matrix_is_definite(Certificate *certificate)
 
 // S_C + narrow (S - S_C)/BETWEEN_LEVELS - W - N on F is positive definite; S that of `level` (NULL:
 // narrow is 0), N of what is remembered at 1/reach and faster. Parts of condensed operators are
-// less than their parts condensed: with open nodes the test is a little stricter between its ends.
+// less than their parts condensed: with open nodes condensed out the test is a little stricter
+// between its ends.
 static bool is_definite(Certificate *certificate, const State *state, ContactMatrix *level,
                         double narrow, double reach)
 {
     MovingSet *moving = &certificate->moving;
-    moving_set_find(moving, state, false);
+    find_moving(certificate, state);
     if (!moving->weakens && !moving->remembers) return true;   // S itself is never indefinite
     if (certificate->aside && !make_damping(certificate, &(Error){0})) return false;
     const double *damping = NULL, *own = NULL;
@@ -261,7 +278,7 @@ bool certificate_step_resolves(Certificate *certificate, const State *state, Con
                                double reach)
 {
     double started = clock_seconds();
-    moving_set_find(&certificate->moving, state, false);
+    find_moving(certificate, state);
     bool resolves = is_resolved(certificate, state, level, reach);
     certificate->seconds += clock_seconds() - started;
     return resolves;
@@ -272,7 +289,7 @@ bool certificate_finds_runaway(Certificate *certificate, const State *state, DtL
 {
     double started = clock_seconds();
     bool found = false;
-    moving_set_find(&certificate->moving, state, false);
+    find_moving(certificate, state);
     for (int32_t k = 0; k < dt_levels->level_count && !found; k++) {
         ContactMatrix *level = k == resolved ? NULL
                                              : dt_level_contact(dt_levels, k, certificate->part);
@@ -287,9 +304,9 @@ double certificate_ratio(Certificate *certificate, const State *state, ContactMa
 {
     double started = clock_seconds(), ratio = INFINITY;
     int32_t *pivots = certificate->pivots;
+    find_moving(certificate, state);
     const double *closed = close_matrix(certificate, state, level);
     if (closed) {
-        moving_set_find(&certificate->moving, state, false);
         bool decays = moving_set_decays(&certificate->moving, reach);
         moving_set_settle(&certificate->moving, reach);
         fill_coupled(certificate, closed);

@@ -56,8 +56,9 @@ typedef struct Certificate {
         // singular
     double
         *alone;   // [contact_count] what resists a node that slips alone: S_C[t,t], with branches
-        // of the materials S[t,t] at the real rate where it is least; NULL: C is singular; owned
+    // of the materials S[t,t] at the real rate where it is least; NULL: C is singular; owned
     ContactMatrix damping_contact;   // S_C, open nodes condensed out; empty without; owned
+    bool with_open;   // open nodes are counted among what moves
     MovingSet moving;   // F and W of the state asked about; owned, like all that follows
     double *matrix;   // [count^2] work
     float *single;   // [count * (count + 1)] work; NULL: count is small

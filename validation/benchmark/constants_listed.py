@@ -170,7 +170,7 @@ NOT_A_CHOICE = {
     "stepping/certificate.c": {"BETWEEN_LEVELS": "(sqrt 2 + 1/sqrt 2)/2: dt doubles from level to level",
                                "BETWEEN_MEMORIES": "proven: 1.1242, dt doubles from level to level",
                                "SETTLED": "digits that tell a ratio from 1, with room",
-                               "SINGLE_ROWS": "time alone",
+                               "SINGLE_ROWS": "time alone", "OPEN_PARTS": "memory and time alone: pads have most of their nodes open, blocks a few",
                                "SINGLE_MARGIN": "4000 matrices of two blocks are as definite in single precision as in double even with 0"},
     "contact/contact_solver.c": {
         "STEPS": "with 40 a fifth fewer of 30 000 hard problems is left to sweeps, at one and a half times the steps",
