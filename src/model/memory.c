@@ -24,7 +24,7 @@ static const double SPACE_MESH = 4500;
 // (at rest, and of two points at once) and columns of responses over those of its border. Contact
 // that is its own mirror image is solved on one side, and takes 58 squares where its symmetry
 // breaks, which nobody knows before.
-static const double SPACE_SQUARES = 30, SPACE_SQUARES_ONE_SIDE = 20, SPACE_ENTRIES = 25;
+static const double SPACE_SQUARES = 30, SPACE_SQUARES_ONE_SIDE = 13, SPACE_ENTRIES = 25;
 static const double SPACE_PART_ENTRIES = 90, SPACE_COLUMNS = 1.5;
 static const double SPACE_TOGETHER = 1.4;   // two parts side by side over one
 static const double SPACE_FACTORS = 11;   // step sizes of a run with a sliding, each with a factor

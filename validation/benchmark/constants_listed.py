@@ -337,7 +337,7 @@ NOT_A_CHOICE = {
         "SPACE_MESH": "bytes, by heaptrack of a reduction of 24 x 24 x 24 cells",
         "SPACE_SQUARES": "numbers, by the memory of runs on cubes of 10, 14, 20 and 28 cells and on 40 x 40 x 20: 25 to 36, and 58 where contact "
                          "came to be solved as a whole",
-        "SPACE_SQUARES_ONE_SIDE": "18 to 19 by 40 x 40 x 20, 24 x 24 x 11 and 28 x 28 x 13 cells",
+        "SPACE_SQUARES_ONE_SIDE": "11 to 12 by 20 x 20 x 20, 28 x 28 x 14 and 40 x 80 x 40 cells",
         "SPACE_ENTRIES": "entries of factors of cubes of 20 and 40 cells over unknowns^(4/3): 22 and 25; whole meshes of 14^3 and 20^3 cells "
                          "told 0.67 and 2.3 GB, taken 0.63 and 2.5",
         "SPACE_PART_ENTRIES": "the same of the parts of 16 x 32 x 16, 24 x 48 x 24 and 40 x 80 x 40 cells: 22, 25, 28, of each of three",
