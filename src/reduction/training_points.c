@@ -8,9 +8,8 @@
 
 // Levels of inertia that the basis is built at, a factor of LEVEL_RATIO_LIMIT apart at most, from
 // LEVEL_LOWEST times the slowest mode of the interior, below which it follows like a spring, to
-// that of one element. (Factors from 7 to 1000 give bases of the same error; of 1e6 not.) Then the
-// one half way between the two highest, where up to three times what is allowed is missing before.
-// Half way between lower ones, where the allowed error grows little, up to 0.7 is.
+// that of one element. Then those between two of them are treated likewise, so that two levels are
+// a factor of 10 apart. (Factors from 7 to 1000 give bases of the same error; of 1e6 not.)
 static const double LEVEL_RATIO_LIMIT = 100, LEVEL_LOWEST = 0.1;
 
 // The last level stands for infinity: there the error is only checked.
@@ -20,8 +19,8 @@ static const double BEYOND_LIMIT = 1e6;
 // areal and shear moduli alone, of all regions. At a viscosity v each is its elastic value times
 // 1 - v + v t, t its viscous time, and no quotient changes more than that of the longest and the
 // shortest time. The basis is built at viscosities where that quotient differs by this factor at
-// most. (With eta2 = eta1 in plane stress the two ends suffice.) Half way between the error at the
-// lowest inertia, where the whole block moves, is 0.02 to 0.6 of what is allowed.
+// most, and at the lowest inertia, where the whole block moves, half way between, too.
+// (With eta2 = eta1 in plane stress the two ends suffice elsewhere.)
 static const double VISCOSITY_RATIO = 2;
 
 // Where inertia acts within an element the mesh itself has an error, of about a quarter of
@@ -41,7 +40,7 @@ static const double PATH_BEYOND = 1e5;   // times the fastest rate of the materi
 
 typedef struct ViscosityPath {
     int32_t steps;
-    double at[TRAINING_VISCOSITIES_MAX];   // [steps + 1] ends of steps
+    double at[2 * TRAINING_VISCOSITIES_MAX - 1];   // [2 * steps + 1] ends of steps, and half way
     double stiffest;   // largest modulus on the path over its elastic value
 } ViscosityPath;
 
@@ -113,10 +112,10 @@ static void find_path(const Materials *materials, const BulkScales *scales,
     }
     double parts = ceil(length[PATH_STEPS] / log(VISCOSITY_RATIO) - 1e-6);
     path->steps = (int32_t)fmin(fmax(parts, 1), TRAINING_VISCOSITIES_MAX - 1);
-    for (int32_t i = 0, k = 0; i <= path->steps; i++) {
-        double wanted = length[PATH_STEPS] * i / path->steps;
+    for (int32_t i = 0, k = 0; i <= 2 * path->steps; i++) {
+        double wanted = length[PATH_STEPS] * i / (2.0 * path->steps);
         while (k < PATH_STEPS && length[k] < wanted) k++;
-        path->at[i] = i == path->steps ? 1 : path_viscosity(k, slowest, fastest);
+        path->at[i] = i == 2 * path->steps ? 1 : path_viscosity(k, slowest, fastest);
     }
 }
 
@@ -145,7 +144,9 @@ static void list_path(const Materials *materials, const BulkScales *scales,
     *path = (ViscosityPath){.steps = (int32_t)fmin(fmax(parts, 1), TRAINING_VISCOSITIES_MAX - 1),
                             .stiffest = 1};
     for (int32_t k = 0; k <= path->steps; k++)
-        path->at[k] = viscosity_at((double)k / path->steps, volume, shear);
+        path->at[2 * k] = viscosity_at((double)k / path->steps, volume, shear);
+    for (int32_t k = 0; k < path->steps; k++)
+        path->at[2 * k + 1] = viscosity_at((k + 0.5) / path->steps, volume, shear);
 }
 
 int32_t training_viscosities(const Materials *materials, const BulkScales *scales,
@@ -153,7 +154,7 @@ int32_t training_viscosities(const Materials *materials, const BulkScales *scale
 {
     ViscosityPath path;
     list_path(materials, scales, spectrum, &path);
-    for (int32_t k = 0; k <= path.steps; k++) viscosity[k] = path.at[k];
+    for (int32_t k = 0; k <= path.steps; k++) viscosity[k] = path.at[2 * k];
     return path.steps + 1;
 }
 
@@ -190,6 +191,7 @@ static void add(TrainingPoints *training, const ReductionErrors *errors, double 
         (TrainingPoint){{viscosity, errors->inertia[level]}, level};
 }
 
+// Every other level first: at those between them less is missing.
 void training_points_list(const Materials *materials, const BulkScales *scales,
                           const Spectrum *spectrum, double slowest, double element_inertia,
                           ReductionErrors *errors, TrainingPoints *training)
@@ -206,23 +208,22 @@ void training_points_list(const Materials *materials, const BulkScales *scales,
         element_inertia *= fmax(1, unit * range.shear);
     }
 
-    // Levels, ascending: all but the last three are built at first, the third to last lies between
-    // its neighbours, the last beyond. On a mesh of a few elements the slowest mode is hardly below
-    // that of one element.
+    // Levels, ascending: even ones are built at first, odd ones lie between, the last beyond. On a
+    // mesh of a few elements the slowest mode is hardly below that of one element.
     double lowest = fmin(LEVEL_LOWEST * slowest, element_inertia / LEVEL_RATIO_LIMIT);
     double parts = log(element_inertia / lowest) / log(LEVEL_RATIO_LIMIT);
-    int32_t steps = (int32_t)fmin(ceil(parts), REDUCTION_LEVELS_MAX - 3);
-    for (int32_t k = 0; k <= steps; k++)
-        errors->inertia[k < steps ? k : steps + 1] =
-            lowest * pow(element_inertia / lowest, (double)k / steps);
-    errors->inertia[steps] = sqrt(errors->inertia[steps - 1] * element_inertia);
-    errors->inertia[steps + 2] = BEYOND_LIMIT * element_inertia;
-    errors->count = steps + 3;
+    int32_t steps = (int32_t)fmin(ceil(parts), (REDUCTION_LEVELS_MAX - 2) / 2);
+    for (int32_t k = 0; k <= 2 * steps; k++)
+        errors->inertia[k] = lowest * pow(element_inertia / lowest, k / (2.0 * steps));
+    errors->inertia[2 * steps + 1] = BEYOND_LIMIT * element_inertia;
+    errors->count = 2 * steps + 2;
     *training = (TrainingPoints){.element_inertia = element_inertia};
-    for (int32_t level = 0; level <= steps + 1; level++)
-        if (level != steps)
-            for (int32_t k = 0; k <= path.steps; k++) add(training, errors, path.at[k], level);
-    for (int32_t k = 0; k <= path.steps; k++) add(training, errors, path.at[k], steps);
+    for (int32_t pass = 0; pass < 2; pass++) {
+        for (int32_t level = pass; level < errors->count - 1; level += 2)
+            for (int32_t k = 0; k <= path.steps; k++) add(training, errors, path.at[2 * k], level);
+        for (int32_t k = 0; pass == 0 && k < path.steps; k++)
+            add(training, errors, path.at[2 * k + 1], 0);
+    }
 }
 
 // Inverse ones, for the slowest mode.

@@ -47,8 +47,7 @@ static void assert_said(const ReducedBlock *block, OperatorTerms terms, double s
 
 // Anywhere in the parameter domain, between the levels of the build and between all elastic and all
 // viscous, S is off by no more than the basis says of that inertia, and than the tolerance allows
-// at the next level, or at ten times the inertia. Two of three points lie where damping hardly, or
-// almost alone, counts.
+// at the next level. Two of three points lie where damping hardly, or almost alone, counts.
 static void check_error_of(const BlockDef *shape, const Materials *materials, double layer,
                            double tolerance, Random *random)
 {
@@ -67,8 +66,7 @@ static void check_error_of(const BlockDef *shape, const Materials *materials, do
         double error = response_error(&block, &block.reduced, terms);
         int32_t level = 0;   // the next above, one of those it is measured at
         while (errors->inertia[level] < inertia) level++;
-        double next = fmin(errors->inertia[level], 10 * inertia);
-        double allowed = tolerance * (tolerance + 2.5 * next / element);
+        double allowed = tolerance * (tolerance + 2.5 * errors->inertia[level] / element);
         double said = reduced_bulk_error(&block.reduced, inertia);
         assert_said(&block, terms, said);
         if (error > said + 1e-9 || error > allowed)
