@@ -161,44 +161,44 @@ enum { PANEL = 96, PIECE = 192, LU_ROWS = 1000 };
 
 typedef struct PanelUpdate {
     float *a;   // [n * n]
-    int32_t n, first, width;   // the panel, which is factored, from its first column on
+    int32_t n, first;   // the first column of the panel, which is factored
     int32_t *pivots;   // [n], counted from 1
-    int32_t *singular;   // by panel: 1 where it is
+    bool *regular;   // all panels so far
 } PanelUpdate;
 
 // Factors the columns first .. first + width - 1 from row `first` down.
 static void factor_panel(float *a, int32_t n, int32_t first, int32_t width, int32_t *pivots,
-                         int32_t *singular)
+                         bool *regular)
 {
     int rows = n - first, info = 0;
     sgetrf_(&rows, &width, a + (int64_t)first * n + first, &n, pivots + first, &info);
     for (int32_t k = first; k < first + width; k++) pivots[k] += first;
-    *singular = info != 0;
+    *regular = *regular && info == 0;
 }
 
 // Brings a panel's swaps and what it takes away to `count` columns on its right.
 static void update_columns(const PanelUpdate *by, int32_t column, int32_t count)
 {
-    int n = by->n, from = by->first + 1, to = by->first + by->width, one = 1, below = n - to;
+    int n = by->n, from = by->first + 1, to = by->first + PANEL, one = 1, below = n - to;
     const float *panel = by->a + (int64_t)by->first * n + by->first;
     float *top = by->a + (int64_t)column * n + by->first;
     slaswp_(&count, by->a + (int64_t)column * n, &n, &from, &to, by->pivots, &one);
-    cblas_strsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasUnit, by->width, count, 1,
+    cblas_strsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasUnit, PANEL, count, 1,
                 panel, n, top, n);
     if (below > 0)
-        cblas_sgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, below, count, by->width, -1,
-                    panel + by->width, n, top, n, 1, top + by->width, n);
+        cblas_sgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, below, count, PANEL, -1,
+                    panel + PANEL, n, top, n, 1, top + PANEL, n);
 }
 
 // Piece 0 is the next panel, which is factored at once while others go on beside it.
 static void update_piece(void *context, int32_t k, int32_t worker)
 {
     const PanelUpdate *by = context;
-    int32_t next = by->first + by->width, width = smaller(PANEL, by->n - next);
+    int32_t next = by->first + PANEL, width = smaller(PANEL, by->n - next);
     int32_t column = k == 0 ? next : next + width + (k - 1) * PIECE;
     (void)worker;
     update_columns(by, column, k == 0 ? width : smaller(PIECE, by->n - column));
-    if (k == 0) factor_panel(by->a, by->n, next, width, by->pivots, by->singular + next / PANEL);
+    if (k == 0) factor_panel(by->a, by->n, next, width, by->pivots, by->regular);
 }
 
 // The swaps of all panels on its right.
@@ -212,23 +212,20 @@ static void swap_panel(void *context, int32_t k, int32_t worker)
 
 bool dense_lu_single(float *a, int32_t n, int32_t *pivots)
 {
-    enum { PANELS_MAX = 1024 };
-    int32_t panels = (n + PANEL - 1) / PANEL, singular[PANELS_MAX] = {0};
     int info = 0;
-    if (n < LU_ROWS || panels > PANELS_MAX) {
+    bool regular = true;
+    if (n < LU_ROWS) {
         if (n > 0) sgetrf_(&n, &n, a, &n, pivots, &info);
         return info == 0;
     }
-    factor_panel(a, n, 0, PANEL, pivots, singular);
-    for (int32_t first = 0; first + PANEL < n; first += PANEL) {
-        PanelUpdate by = {a, n, first, PANEL, pivots, singular};
-        int32_t next = first + PANEL, beside = n - next - smaller(PANEL, n - next);
+    PanelUpdate by = {a, n, 0, pivots, &regular};
+    factor_panel(a, n, 0, PANEL, pivots, &regular);
+    for (; by.first + PANEL < n; by.first += PANEL) {
+        int32_t next = by.first + PANEL, beside = n - next - smaller(PANEL, n - next);
         parallel_for(1 + (beside + PIECE - 1) / PIECE, update_piece, &by);
     }
-    parallel_for(panels - 1, swap_panel, &(PanelUpdate){a, n, 0, PANEL, pivots, singular});
-    for (int32_t k = 0; k < panels; k++)
-        if (singular[k]) return false;
-    return true;
+    parallel_for((n - 1) / PANEL, swap_panel, &by);
+    return regular;
 }
 
 // b over its largest entry, so that nothing is too small for single precision.

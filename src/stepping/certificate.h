@@ -54,9 +54,8 @@ typedef struct Certificate {
     bool aside;   // S_C was laid aside, and is made again when it is asked for
     double *damping;   // [count^2] S_C, or its symmetric or antisymmetric part; owned; NULL: C is
         // singular
-    double
-        *alone;   // [contact_count] what resists a node that slips alone: S_C[t,t], with branches
-    // of the materials S[t,t] at the real rate where it is least; NULL: C is singular; owned
+    double *alone;   // [contact_count] what resists a node that slips alone; NULL: C is singular;
+        // S_C[t,t], with branches S[t,t] at the real rate where it is least; owned
     ContactMatrix damping_contact;   // S_C, open nodes condensed out; empty without; owned
     bool with_open;   // open nodes are counted among what moves
     MovingSet moving;   // F and W of the state asked about; owned, like all that follows

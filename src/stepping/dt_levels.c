@@ -76,7 +76,7 @@ static ContactMatrix *made_contact(DtLevels *dt_levels, int32_t k, ContactPart p
     return matrix->schur ? matrix : NULL;
 }
 
-// What one side sees of S. Where that is not its own mirror image `half` becomes NULL.
+// Makes the S that one side sees. Where S is not its own mirror image `half` becomes NULL.
 static bool build_half(DtLevels *dt_levels, int32_t k, ContactPart part, Error *err)
 {
     int64_t count = dt_levels->half->interface.count;

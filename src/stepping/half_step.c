@@ -229,8 +229,7 @@ void half_step_archive(HalfStep *half, Archive *archive)
 typedef struct BothParts {
     HalfStep *half;
     const State *one_side;
-    ContactMatrix
-        *level[2];   // of the symmetric and the antisymmetric part; NULL: whether they hold
+    ContactMatrix *level[2];   // symmetric, antisymmetric; NULL: whether they hold
     double reach;
     bool yes[2];
 } BothParts;
