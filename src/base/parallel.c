@@ -93,6 +93,13 @@ void parallel_for(int32_t count, void (*piece)(void *context, int32_t k, int32_t
     }
 }
 
+void parallel_where(bool worth, int32_t count,
+                    void (*piece)(void *context, int32_t k, int32_t worker), void *context)
+{
+    if (worth) parallel_for(count, piece, context);
+    for (int32_t k = 0; !worth && k < count; k++) piece(context, k, 0);
+}
+
 typedef struct Tries {
     bool (*piece)(void *context, int32_t k, Error *err);
     void *context;

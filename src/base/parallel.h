@@ -32,8 +32,12 @@ void parallel_share(int32_t processes);
 void parallel_for(int32_t count, void (*piece)(void *context, int32_t k, int32_t worker),
                   void *context);
 
-// The same for at most PARALLEL_WORKERS_MAX pieces that may fail: each has an error of its own, the
-// caller's becomes that of the first piece that failed, by its number.
+// The same, but by the caller's thread alone where it is not worth others.
+void parallel_where(bool worth, int32_t count,
+                    void (*piece)(void *context, int32_t k, int32_t worker), void *context);
+
+// As parallel_for, of at most PARALLEL_WORKERS_MAX pieces that may fail: each has an error of its
+// own, the caller's becomes that of the first piece that failed, by its number.
 bool parallel_try(int32_t count, bool (*piece)(void *context, int32_t k, Error *err), void *context,
                   Error *err);
 

@@ -222,10 +222,7 @@ static bool make_factors(ContactNewton *newton)
     factors->is_single = !newton->in_double;
     if (factors->is_single) {
         int32_t pieces = (size + COLUMNS - 1) / COLUMNS;
-        if ((int64_t)size * size >= PARALLEL_ENTRIES)
-            parallel_for(pieces, fill_columns, newton);
-        else
-            for (int32_t piece = 0; piece < pieces; piece++) fill_columns(newton, piece, 0);
+        parallel_where((int64_t)size * size >= PARALLEL_ENTRIES, pieces, fill_columns, newton);
         regular = dense_lu_single((float *)factors->lu, size, factors->pivots);
     } else {
         double *out = factors->lu;

@@ -26,14 +26,6 @@ struct ReducedOperator {
 // Entries of the parts' matrices on their borders from which on a level is worth threads.
 enum { ENTRIES_LARGE = 250000 };
 
-// Calls piece(context, k, worker) for k from 0 to count - 1.
-static void side_by_side(const ReducedOperator *system, int32_t count,
-                         void (*piece)(void *context, int32_t k, int32_t worker), void *context)
-{
-    if (system->large) parallel_for(count, piece, context);
-    for (int32_t k = 0; !system->large && k < count; k++) piece(context, k, 0);
-}
-
 void reduced_operator_destroy(ReducedOperator *system)
 {
     if (!system) return;
@@ -320,11 +312,12 @@ CondensedBulk *condensed_bulk_create(const ReducedOperator *system, OperatorTerm
     all.terms = (OperatorTerms){.mass = terms.mass * reduced->scales.mass,
                                 .damping = terms.damping * reduced->scales.damping,
                                 .stiffness = terms.stiffness * reduced->scales.stiffness};
-    side_by_side(system, reduced->part_count, condense_part, &all);
+    parallel_where(system->large, reduced->part_count, condense_part, &all);
     for (int p = 0; p < reduced->part_count && error_is_clean(err); p++) *err = all.error[p];
     if (!error_is_clean(err)) goto cleanup;
     TRY(factor_mirrored(&all, &condensed->mirrored, err));
-    side_by_side(system, (m + COLUMNS_TOGETHER - 1) / COLUMNS_TOGETHER, join_columns, &all);
+    parallel_where(system->large, (m + COLUMNS_TOGETHER - 1) / COLUMNS_TOGETHER, join_columns,
+                   &all);
     dense_lower_divide_transposed(condensed->mirrored.lower, n, m, condensed->mirrored.follow);
 cleanup:
     memory_free_list((void *const *)all.part, REDUCED_PARTS_MAX);

@@ -249,10 +249,7 @@ static void ask_part(void *context, int32_t k, int32_t worker)
 static void ask_both(CertifiedParts parts, BothParts *both)
 {
     double started = clock_seconds(), before = parts.whole->seconds;
-    if (parts.half->contact.interface.count >= PARALLEL_UNKNOWNS)
-        parallel_for(2, ask_part, both);
-    else
-        for (int32_t k = 0; k < 2; k++) ask_part(both, k, 0);
+    parallel_where(parts.half->contact.interface.count >= PARALLEL_UNKNOWNS, 2, ask_part, both);
     certificate_take_counts(parts.whole, &parts.half->symmetric);
     certificate_take_counts(parts.whole, &parts.half->antisymmetric);
     parts.whole->seconds = before + clock_seconds() - started;
