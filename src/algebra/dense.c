@@ -359,10 +359,25 @@ static void add_nonzero_rows(void *context, int32_t piece, int32_t worker)
     }
 }
 
-void dense_add_nonzero(DenseView a, const double *x, double factor, double *y)
+static int64_t count_nonzero(const double *x, int32_t n)
 {
     int64_t nonzero = 0;
-    for (int32_t k = 0; k < a.columns; k++) nonzero += x[k] != 0;
+    for (int32_t k = 0; k < n; k++) nonzero += x[k] != 0;
+    return nonzero;
+}
+
+void dense_add_symmetric(const double *a, int32_t n, const double *x, double factor, double *y)
+{
+    // Both are bound by memory: half of the columns are as much as a triangle.
+    if (2 * count_nonzero(x, n) <= n)
+        dense_add_nonzero((DenseView){a, n, n}, x, factor, y);
+    else
+        cblas_dsymv(CblasColMajor, CblasLower, n, factor, a, n, x, 1, 1.0, y, 1);
+}
+
+void dense_add_nonzero(DenseView a, const double *x, double factor, double *y)
+{
+    int64_t nonzero = count_nonzero(x, a.columns);
     NonzeroProduct all = {a, x, factor, y, a.rows};
     if (nonzero * a.rows < PARALLEL_ENTRIES) {
         add_nonzero_rows(&all, 0, 0);

@@ -124,6 +124,9 @@ void dense_apply_transposed(DenseView a, const double *x, double factor, double 
 // y += factor a x where much of x is 0: columns that meet a 0 are not read. Runs of columns and of
 // every second one, as where unknowns of two directions take turns, go through BLAS together.
 void dense_add_nonzero(DenseView a, const double *x, double factor, double *y);
+// The same of a symmetric `a` [n * n], both triangles given: of its lower triangle alone, where
+// most of x is not 0.
+void dense_add_symmetric(const double *a, int32_t n, const double *x, double factor, double *y);
 // y = a x for `count` vectors, the same bits as one by one: `a` comes from memory once.
 void dense_apply_each(DenseView a, int32_t count, const double *const *x, double *const *y);
 

@@ -221,9 +221,8 @@ void contact_react(const ContactEquations *equations)
     const ContactProblem *problem = equations->problem;
     int32_t count = problem->interface->count;
     double *reaction = equations->at->reaction;
-    DenseView schur = {problem->matrix->schur, count, count};
     for (int32_t k = 0; k < count; k++) reaction[k] = -problem->g[k];
-    dense_add_nonzero(schur, equations->at->velocity, 1, reaction);   // what sticks adds nothing
+    dense_add_symmetric(problem->matrix->schur, count, equations->at->velocity, 1, reaction);
 }
 
 void contact_release(const ContactEquations *equations)

@@ -88,8 +88,7 @@ void contact_newton_settle(ContactNewton *newton)
     }
     if (!moved) return;
     newton->exact = false;
-    dense_add_nonzero((DenseView){problem->matrix->schur, count, count}, newton->more, 1,
-                      at->reaction);
+    dense_add_symmetric(problem->matrix->schur, count, newton->more, 1, at->reaction);
 }
 
 bool contact_newton_start_fast(ContactNewton *newton, double least)
@@ -140,9 +139,7 @@ static void find_pull(ContactNewton *newton)
         newton->more[k] = force;
         pulls = true;
     }
-    if (pulls)
-        dense_add_nonzero((DenseView){newton->condensed, count, count}, newton->more, 1,
-                          newton->pull);
+    if (pulls) dense_add_symmetric(newton->condensed, count, newton->more, 1, newton->pull);
 }
 
 // Velocities and reactions after a step of what is free. Where nodes are open one product with S'
@@ -160,7 +157,7 @@ static void take_step(ContactNewton *newton, const double *step)
     }
     memset(newton->more, 0, (size_t)count * sizeof(double));
     for (int32_t a = 0; a < free_count; a++) newton->more[newton->free[a]] = step[a];
-    dense_add_nonzero((DenseView){newton->condensed, count, count}, newton->more, -1, newton->pull);
+    dense_add_symmetric(newton->condensed, count, newton->more, -1, newton->pull);
     for (int32_t k = 0; k < count; k++) at->reaction[k] -= newton->pull[k];
     for (int32_t b = 0; b < newton->open_count; b++) {
         int32_t unknown = newton->open[b];

@@ -66,13 +66,12 @@ static void part_apply(const ReducedPart *part, BulkTerm term, const double *x, 
         return;
     }
     if (term >= BULK_SHAPE) {   // asked in every stage, where most of the interface is at rest
-        DenseView shape = {part->shape[term - BULK_SHAPE], part->count, part->count};
         memset(y, 0, (size_t)part->count * sizeof *y);
-        dense_add_nonzero(shape, x, 1, y);
+        dense_add_symmetric(part->shape[term - BULK_SHAPE], part->count, x, 1, y);
         return;
     }
     memset(y, 0, (size_t)m * sizeof *y);
-    dense_add_nonzero(border, x, 1, y);
+    dense_add_symmetric(term == BULK_MASS ? part->mass : part->stiffness, m, x, 1, y);
     memcpy(y + m, x + m, (size_t)r * sizeof *y);
     if (term == BULK_STIFFNESS) return;
     for (int32_t k = 0; k < r; k++) y[m + k] *= part->masses[k];

@@ -265,8 +265,29 @@ TEST(test_add_nonzero)
     dense_add_nonzero((DenseView){NULL, 0, COLUMNS}, (double[COLUMNS]){1}, 1, NULL);
 }
 
-// Sizes of 0 are answered as sums over nothing are, and nothing is touched: BLAS refuses them, with
-// a sentence on standard error.
+// Little and most of x is 0: by columns and by the lower triangle the same.
+TEST(test_add_symmetric)
+{
+    enum { ROWS = 2001 };
+    Random random = {.state = 33};
+    double *a = malloc(sizeof *a * ROWS * ROWS), x[ROWS], y[ROWS], wanted[ROWS];
+    const int32_t nonzero[] = {0, 1, ROWS / 2, ROWS / 2 + 1, ROWS};
+    for (int64_t j = 0; j < ROWS; j++)
+        for (int64_t i = 0; i <= j; i++)
+            a[j * ROWS + i] = a[i * ROWS + j] = random_between(&random, -1, 1);
+    for (int32_t k = 0; k < 5; k++) {
+        for (int32_t j = 0; j < ROWS; j++)
+            x[j] = j * 2 % ROWS < nonzero[k] ? random_between(&random, 1, 2) : 0;
+        for (int32_t i = 0; i < ROWS; i++) {
+            y[i] = wanted[i] = i;
+            for (int64_t j = 0; j < ROWS; j++) wanted[i] -= 0.5 * a[j * ROWS + i] * x[j];
+        }
+        dense_add_symmetric(a, ROWS, x, -0.5, y);
+        assert_all_near("y - A x/2", y, wanted, ROWS, 1e-11);
+    }
+    free(a);
+}
+
 // A matrix that is large enough for its rows to be shared among threads.
 TEST(test_add_nonzero_of_many)
 {
@@ -284,6 +305,8 @@ TEST(test_add_nonzero_of_many)
     free(a);
 }
 
+// Sizes of 0 are answered as sums over nothing are, and nothing is touched: BLAS refuses them, with
+// a sentence on standard error.
 TEST(test_nothing)
 {
     double a[4] = {3, 5, 7, 9}, c[4] = {1, 2, 3, 4}, x[2] = {1, 1};
