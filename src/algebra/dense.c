@@ -108,7 +108,7 @@ bool dense_exceeds_single(const double *a, int32_t n, double margin, float *work
     int64_t size = n;
     float *scale = work + size * size;
     for (int64_t k = 0; k < size; k++) {
-        if (!(a[k * (size + 1)] > 0)) return false;
+        if (!(a[k * (size + 1)] > 0)) return DENSE_NO;
         scale[k] = (float)(1 / sqrt(a[k * (size + 1)]));
     }
     for (int64_t j = 0; j < size; j++) {

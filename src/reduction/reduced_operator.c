@@ -14,12 +14,14 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 
+#include <math.h>
 #include <string.h>
 
 struct ReducedOperator {
     const ReducedBulk *reduced;   // not owned
     double *local[REDUCED_PARTS_MAX], *image[REDUCED_PARTS_MAX];   // [count] of each, work; owned
     double *border;   // [interface + mirrored] work; owned
+    bool rests[REDUCED_PARTS_MAX];   // the part is left out
     bool large;   // a level of it is worth threads
 };
 
@@ -59,7 +61,6 @@ cleanup:
 static void part_apply(const ReducedPart *part, BulkTerm term, const double *x, double *y)
 {
     int32_t m = part->border_count, r = part->interior_count;
-    DenseView border = {term == BULK_MASS ? part->mass : part->stiffness, m, m};
     DenseView coupling = {part->coupling, r, m};
     if (term == BULK_DAMPING) {
         dense_symmetric_apply(part->damping, part->count, x, y);
@@ -90,8 +91,12 @@ void reduced_operator_apply(const ReducedOperator *system, BulkTerm term, const 
                             [BULK_SHAPE] = 1};
     const double by = scale[term < BULK_SHAPE ? term : BULK_SHAPE];
     reduced_bulk_split(reduced, x, system->local);
-    for (int p = 0; p < reduced->part_count; p++)
-        part_apply(&reduced->part[p], term, system->local[p], system->image[p]);
+    for (int p = 0; p < reduced->part_count; p++) {
+        if (system->rests[p])
+            memset(system->image[p], 0, (size_t)reduced->part[p].count * sizeof *y);
+        else
+            part_apply(&reduced->part[p], term, system->local[p], system->image[p]);
+    }
     reduced_bulk_join(reduced, (const double *const *)system->image, y);
     for (int32_t k = 0; k < reduced->count; k++) y[k] *= by;
 }
@@ -104,6 +109,24 @@ void reduced_operator_keep(const ReducedOperator *system, const bool *kept, cons
     for (int p = 0; p < reduced->part_count; p++)
         if (!kept[p]) memset(system->local[p], 0, (size_t)reduced->part[p].count * sizeof *x);
     reduced_bulk_join(reduced, (const double *const *)system->local, out);
+}
+
+double reduced_operator_beside(const ReducedOperator *system, const bool *kept, const double *x)
+{
+    const ReducedBulk *reduced = system->reduced;
+    double beside = 0, all = 0;
+    reduced_bulk_split(reduced, x, system->local);
+    for (int p = 0; p < reduced->part_count; p++) {
+        double own = dense_max_abs(system->local[p], reduced->part[p].count);
+        all = fmax(all, own);
+        if (!kept[p]) beside = fmax(beside, own);
+    }
+    return all > 0 ? beside / all : 0;
+}
+
+void reduced_operator_rest(ReducedOperator *system, const bool *kept)
+{
+    for (int p = 0; p < system->reduced->part_count; p++) system->rests[p] = kept && !kept[p];
 }
 
 // --- A of a part --------------------------------------------------------------------------------
@@ -335,6 +358,7 @@ void condensed_bulk_condense(CondensedBulk *condensed, const double *rhs, double
     reduced_bulk_split(reduced, rhs, system->local);
     memset(pushed, 0, (size_t)(m + n) * sizeof *pushed);
     for (int p = 0; p < reduced->part_count; p++) {
+        if (system->rests[p]) continue;
         condensed_part_condense(&reduced->part[p], &condensed->part[p], system->local[p],
                                 system->image[p]);
         transform_apply(&reduced->part[p].border, system->image[p], pushed);
@@ -355,9 +379,13 @@ void condensed_bulk_expand(CondensedBulk *condensed, const double *interface, do
     memcpy(border + m, condensed->pushed + m, (size_t)n * sizeof *border);
     dense_apply(dense_view(condensed->mirrored.follow, n, m), interface, -1, 1, border + m);
     for (int p = 0; p < reduced->part_count; p++) {
-        transform_apply_transposed(&reduced->part[p].border, border, system->image[p]);
-        condensed_part_expand(&reduced->part[p], &condensed->part[p], system->image[p],
-                              system->local[p]);
+        const ReducedPart *part = &reduced->part[p];
+        if (system->rests[p]) {
+            memset(system->local[p], 0, (size_t)part->count * sizeof *v);
+            continue;
+        }
+        transform_apply_transposed(&part->border, border, system->image[p]);
+        condensed_part_expand(part, &condensed->part[p], system->image[p], system->local[p]);
     }
     reduced_bulk_join(reduced, (const double *const *)system->local, v);
 }

@@ -5,6 +5,7 @@
 #include "fem/mesh.h"
 #include "reduction/mirror.h"
 
+#include <math.h>
 #include <string.h>
 
 enum { ACROSS = 1 };   // axis of the mirror: y
@@ -97,4 +98,17 @@ void symmetric_part_take(const SymmetricPart *part, const double *x, double *out
         double across = dof_axis(system->bulk->dim, k) == ACROSS ? -1 : 1;
         out[k] = 0.5 * (x[k] + across * x[part->image[k]]);
     }
+}
+
+double symmetric_part_lacks(const SymmetricPart *part, const double *x)
+{
+    const BulkOperator *system = part->system;
+    return system->reduced ? reduced_operator_beside(system->small, part->kept, x) : (double)NAN;
+}
+
+void symmetric_part_alone(const SymmetricPart *part, bool alone)
+{
+    const BulkOperator *system = part->system;
+    if (part->exists && system->reduced)
+        reduced_operator_rest(system->small, alone ? part->kept : NULL);
 }

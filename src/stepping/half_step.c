@@ -163,6 +163,14 @@ void half_step_symmetrise(HalfStep *half, State *state, double *bound)
     half->asymmetry = 0;
 }
 
+bool half_step_is_symmetric(const HalfStep *half, const State *state, double limit)
+{
+    const SymmetricPart *bulk = &half->bulk;
+    return bulk->exists && symmetric_part_lacks(bulk, state->displacement) <= limit &&
+           symmetric_part_lacks(bulk, state->velocity) <= limit &&
+           symmetric_part_lacks(bulk, bulk->system->load) <= limit;
+}
+
 bool half_step_solve(HalfStep *half, const ContactProblem *problem, ContactMatrix *antisymmetric,
                      ContactSolution *solution, bool *alike)
 {

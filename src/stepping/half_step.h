@@ -49,6 +49,10 @@ const State *half_step_fold(HalfStep *half, const State *state);
 // where it has more than 1e-18 of the state's energy: ALIKE, squared.
 void half_step_symmetrise(HalfStep *half, State *state, double *bound);
 
+// The bulk's motion in `state` and its load are symmetric, but for `limit` of each; false, too,
+// where the bulk is not reduced.
+bool half_step_is_symmetric(const HalfStep *half, const State *state, double limit);
+
 // Solves `problem`, whose matrix is that of the symmetric part, all else of both sides, from what
 // is in `solution`. antisymmetric: the matrix of that part; NULL: it decays. *alike: whether the
 // problem is its own mirror image; false: it is not solved.

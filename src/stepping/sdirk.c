@@ -223,6 +223,7 @@ bool sdirk_step(Sdirk *scheme, int32_t k, const State *from, State *to, StepOutc
     memcpy(to->slip_rate, from->slip_rate, bytes);
     memcpy(to->reaction, from->reaction, bytes);
     friction_states_begin(&scheme->memory, from);
+    if (scheme->symmetric_alone) symmetric_part_alone(&scheme->half->bulk, true);
     for (int32_t i = 0; i < SDIRK_STAGES; i++) {
         TRY(solve_stage(scheme, k, i, from, to, outcome, err));
         if (!outcome->solved) goto cleanup;
@@ -256,6 +257,7 @@ bool sdirk_step(Sdirk *scheme, int32_t k, const State *from, State *to, StepOutc
         sum[system->interface_dofs[m]] -= to->reaction[m];
     outcome->residual = dense_max_abs(sum, dofs);
 cleanup:
+    if (scheme->symmetric_alone) symmetric_part_alone(&scheme->half->bulk, false);
     return error_is_clean(err);
 }
 

@@ -314,6 +314,9 @@ bool step_control_advance(StepControl *control, double remaining, Error *err)
         control->scheme.part = halved ? PART_SYMMETRIC : PART_WHOLE;
         control->scheme.antisymmetric_acts = !control->antisymmetric_decays ||
                                              control->half.asymmetry > ANTISYMMETRIC_LIMIT;
+        control->scheme.symmetric_alone =
+            halved && !control->scheme.antisymmetric_acts &&
+            half_step_is_symmetric(&control->half, &control->now, ANTISYMMETRIC_LIMIT);
 
         TRY(sdirk_step(&control->scheme, k, &control->now, &control->next, &outcome, err));
         if (outcome.asymmetric) {

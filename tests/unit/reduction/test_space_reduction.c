@@ -159,6 +159,53 @@ static int32_t *nodes_across(const ReducedBlock *block, double breadth)
     return across;
 }
 
+// A v = x for held interface motions of `even`: g and v. [interface_count], [dof_count]
+static void condense_and_expand(InterfaceOperator *condensed, const BulkOperator *system,
+                                const double *x, const double *even, double *g, double *v)
+{
+    Error err = {0};
+    double *border = hand_matrix(system->interface_count, 1);
+    for (int32_t k = 0; k < system->interface_count; k++)
+        border[k] = even[system->interface_dofs[k]];
+    assert_true(interface_operator_condense(condensed, x, g, &err));
+    assert_true(interface_operator_expand(condensed, border, v, &err));
+    free(border);
+}
+
+// With the symmetric part alone what is asked of x is what is asked of `even`, its symmetric part,
+// and all of it again where the others act again. On a mesh nothing changes.
+static void check_alone(const SymmetricPart *part, BulkOperator *system, const double *x,
+                        const double *even)
+{
+    Error err = {0};
+    int32_t size = system->dof_count, m = system->interface_count;
+    double *answers[3][5], lacks = symmetric_part_lacks(part, x);
+    OperatorTerms terms = {.stiffness = 0.7, .damping = 1, .mass = 2};
+    InterfaceOperator *condensed = interface_operator_create(system, terms, &err);
+    assert_non_null(condensed);
+    assert_true(system->reduced ? lacks > 0.1 && lacks <= 1 : isnan(lacks));
+    if (system->reduced) assert_true(symmetric_part_lacks(part, even) < 1e-15);
+    for (int32_t k = 0; k < 3; k++) {   // of x with the symmetric part alone, of even, of x
+        const double *of = k == 1 ? even : x;
+        for (int32_t a = 0; a < 5; a++) answers[k][a] = hand_matrix(size, 1);
+        symmetric_part_alone(part, k == 0);
+        for (BulkTerm term = BULK_STIFFNESS; term <= BULK_MASS; term++)
+            bulk_operator_apply(system, term, of, answers[k][term]);
+        condense_and_expand(condensed, system, of, even, answers[k][3], answers[k][4]);
+    }
+    for (int32_t a = 0; a < 5; a++) {
+        double scale = dense_max_abs(answers[2][a], size), off = 0;
+        for (int32_t i = 0; i < size; i++)
+            off = fmax(off, fabs(answers[1][a][i] - answers[2][a][i]));
+        assert_true(off > 1e-3 * scale);
+        assert_all_near("alone", answers[0][a], answers[system->reduced ? 1 : 2][a],
+                        a == 3 ? m : size, 1e-11 * scale);
+    }
+    for (int32_t k = 0; k < 3; k++)
+        for (int32_t a = 0; a < 5; a++) free(answers[k][a]);
+    interface_operator_destroy(condensed);
+}
+
 // Half of what a node and its image have, node by node of the mesh: on the mesh, and in parts,
 // whose states are recovered. Nothing joins both parts. Blocks that are not their own images have
 // none.
@@ -196,6 +243,7 @@ TEST(test_symmetric_part)
             for (int32_t i = 0; i < size; i++) x[i] = random_between(&random, -1, 1);
             symmetric_part_take(&part[k], x, even);
             bulk_operator_apply(&system[k], BULK_STIFFNESS, even, force);
+            check_alone(&part[k], &system[k], x, even);
             double joined = 0, own = 0;
             for (int32_t i = 0; i < size; i++) joined += force[i] * (x[i] - even[i]);
             for (int32_t i = 0; i < size; i++) own += force[i] * even[i];
