@@ -100,9 +100,27 @@ bool dense_cholesky(double *a, int32_t n)
     return true;
 }
 
+// Where a factor breaks down in column j, L of the columns before and the row l of it give
+// x = (-L^-T l, 1, 0 ...), along which the matrix is not positive. Whether this holds of `a` itself
+// its own x'a x says. (LAPACK promises no l: without it x is some direction, and tells little.)
+static bool breaks_down(const double *a, int64_t n, int64_t j, const float *lower, float *x)
+{
+    const float *scale = lower + n * n;
+    double square = 0;
+    for (int64_t k = 0; k < j; k++) x[k] = -lower[k * n + j];
+    x[j] = 1;
+    cblas_strsv(CblasColMajor, CblasLower, CblasTrans, CblasNonUnit, (int)j, lower, (int)n, x, 1);
+    for (int64_t k = 0; k <= j; k++) {
+        double sum = 0, own = (double)x[k] * scale[k];
+        for (int64_t i = k + 1; i <= j; i++) sum += a[k * n + i] * ((double)x[i] * scale[i]);
+        square += own * (a[k * (n + 1)] * own + 2 * sum);
+    }
+    return square < 0;
+}
+
 // A is scaled to a diagonal of 1 first, so that no entry is too large or too small for single
 // precision, and rounds to a part in 2^24 of it wherever it stands.
-bool dense_exceeds_single(const double *a, int32_t n, double margin, float *work)
+DenseAnswer dense_definite_single(const double *a, int32_t n, double more, float *work)
 {
     int info = 0;
     int64_t size = n;
@@ -114,13 +132,13 @@ bool dense_exceeds_single(const double *a, int32_t n, double margin, float *work
     for (int64_t j = 0; j < size; j++) {
         for (int64_t i = j; i < size; i++)
             work[j * size + i] = (float)a[j * size + i] * scale[i] * scale[j];
-        work[j * (size + 1)] = (float)(1 - margin);
+        work[j * (size + 1)] = (float)(1 + more);
     }
     if (n > 0) spotrf_("L", &n, work, &n, &info, 1);
-    if (info != 0) return false;
-    for (int64_t k = 0; k < size; k++)
-        if (!(work[k * (size + 1)] > 0)) return false;
-    return true;
+    for (int64_t k = 0; k < size && info == 0; k++)
+        if (!(work[k * (size + 1)] > 0)) return DENSE_UNSURE;
+    if (info == 0) return more < 0 ? DENSE_YES : DENSE_UNSURE;
+    return info > 0 && breaks_down(a, size, info - 1, work, scale + size) ? DENSE_NO : DENSE_UNSURE;
 }
 
 // P A = L U by rows (dgetrf). A pivot of exactly 0 is what LAPACK calls singular; a matrix that is

@@ -18,10 +18,12 @@ bool dense_begin(Error *err);
 // Cholesky factor in place of a symmetric `a` [n * n]; the lower triangle is read and written.
 // false: `a` is not positive definite (nothing else can go wrong).
 bool dense_cholesky(double *a, int32_t n);
-// True if `a`, of which the lower triangle is read, stays positive definite without `margin` of
-// each of its diagonal entries, as found in single precision: in half the time of a factor. false
-// says nothing. work: [n * (n + 1)].
-bool dense_exceeds_single(const double *a, int32_t n, double margin, float *work);
+// Is `a`, of which the lower triangle is read, positive definite? As far as single precision tells,
+// in half the time of a factor, by that of `a` with `more` of each of its diagonal entries added to
+// it: yes where there is one and more < 0, no where x'a x < 0 along the direction in which it
+// breaks down (with more = 0 that hardly shows). work: [n * (n + 2)].
+typedef enum DenseAnswer { DENSE_UNSURE, DENSE_YES, DENSE_NO } DenseAnswer;
+DenseAnswer dense_definite_single(const double *a, int32_t n, double more, float *work);
 
 // LU with partial pivoting in place, then one right-hand side in place. pivots: [n].
 // false: singular to working precision.

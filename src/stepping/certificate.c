@@ -24,7 +24,8 @@ static const double BETWEEN_MEMORIES = 1.125;
 static const double SETTLED = 1e-6;
 
 // A matrix of so many rows is first asked about in single precision, which is enough where it stays
-// definite without this part of its diagonal: rounding there is some 1e-6 of it.
+// definite without this part of its diagonal, or does not become so with it: rounding there is some
+// 1e-6 of it.
 enum { SINGLE_ROWS = 128 };
 static const double SINGLE_MARGIN = 1e-4;
 
@@ -37,7 +38,7 @@ static bool create_work(const Block *block, Certificate *certificate, Error *err
     int64_t count = block->interface->count;
     if (!moving_set_create(block, &certificate->moving, err)) return false;
     certificate->matrix = memory_bytes(8 * count * count, err);   // taken up as it is used
-    if (count >= SINGLE_ROWS) certificate->single = memory_bytes(4 * count * (count + 1), err);
+    if (count >= SINGLE_ROWS) certificate->single = memory_bytes(4 * count * (count + 2), err);
     certificate->vector = NEW_ARRAY(double, count, err);
     certificate->pivots = NEW_ARRAY(int32_t, count, err);
     return error_is_clean(err);
@@ -176,13 +177,17 @@ static const double *close_matrix(const Certificate *certificate, const State *s
                                 certificate->moving.interface->dim);
 }
 
-// certificate->matrix, which is overwritten, is positive definite.
-static bool matrix_is_definite(Certificate *certificate)
+// certificate->matrix, which is overwritten, is positive definite; `expected`: presumably, which
+// saves time where it is right.
+static bool matrix_is_definite(Certificate *certificate, bool expected)
 {
     int32_t count = certificate->moving.count;
-    return (count >= SINGLE_ROWS &&
-            dense_exceeds_single(certificate->matrix, count, SINGLE_MARGIN, certificate->single)) ||
-           dense_cholesky(certificate->matrix, count);
+    double *matrix = certificate->matrix;
+    DenseAnswer answer = DENSE_UNSURE;
+    if (count >= SINGLE_ROWS)
+        answer = dense_definite_single(matrix, count, expected ? -SINGLE_MARGIN : SINGLE_MARGIN,
+                                       certificate->single);
+    return answer == DENSE_UNSURE ? dense_cholesky(matrix, count) : answer == DENSE_YES;
 }
 
 // S_C + narrow (S - S_C)/BETWEEN_LEVELS - W - N on F is positive definite; S that of `level` (NULL:
@@ -209,13 +214,13 @@ static bool is_definite(Certificate *certificate, const State *state, ContactMat
     moving_set_subtract_weakening(moving, 0, certificate->matrix);
     moving_set_subtract_memory(moving, reach, narrow, factor, certificate->matrix);
     certificate->checks++;
-    return matrix_is_definite(certificate);
+    return matrix_is_definite(certificate, certificate->held);
 }
 
 bool certificate_holds(Certificate *certificate, const State *state, double reach)
 {
     double started = clock_seconds();
-    bool holds = is_definite(certificate, state, NULL, 0, reach);
+    bool holds = certificate->held = is_definite(certificate, state, NULL, 0, reach);
     certificate->seconds += clock_seconds() - started;
     return holds;
 }
@@ -255,7 +260,7 @@ static bool is_positive(Certificate *certificate, const double *closed, double r
     moving_set_turn(moving, true, certificate->matrix);
     moving_set_add_dampers(moving, 0, certificate->matrix);
     moving_set_subtract_weakening(moving, reach, certificate->matrix);
-    return matrix_is_definite(certificate);
+    return matrix_is_definite(certificate, true);
 }
 
 // det J > 0 at the s of `level`; what moves has been found. false, too: nothing holds the open

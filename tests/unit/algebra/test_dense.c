@@ -85,16 +85,19 @@ TEST(test_cholesky_and_triangles)
 // A chain of springs between walls, 2 on the diagonal and -1 beside it, has the eigenvalues
 // 2 - 2 cos(k pi/(n + 1)); what is taken off its diagonal makes the least of them `least` parts of
 // what is left there. Units of the unknowns range over sixty decades.
-TEST(test_definite_by_a_margin_in_single_precision)
+TEST(test_definite_in_single_precision)
 {
     enum { CHAIN = 300 };
     static double a[CHAIN * CHAIN];
-    static float work[CHAIN * (CHAIN + 1)];
+    static float work[CHAIN * (CHAIN + 2)];
     static const struct {
         double least;
-        bool more;   // than 1e-4 of the diagonal
-    } cases[] = {{1e-2, true}, {1.2e-4, true}, {0.8e-4, false}, {1e-6, false}, {-1e-3, false}};
-    for (int k = 0; k < 5; k++) {
+        DenseAnswer less, more;   // with 1e-4 of the diagonal less, and more
+    } cases[] = {{1e-2, DENSE_YES, DENSE_UNSURE},       {1.2e-4, DENSE_YES, DENSE_UNSURE},
+                 {0.8e-4, DENSE_UNSURE, DENSE_UNSURE},  {1e-6, DENSE_UNSURE, DENSE_UNSURE},
+                 {-0.8e-4, DENSE_UNSURE, DENSE_UNSURE}, {-1e-3, DENSE_UNSURE, DENSE_NO},
+                 {-0.1, DENSE_UNSURE, DENSE_NO}};
+    for (int k = 0; k < 7; k++) {
         double first = 2 - 2 * cos(M_PI / (CHAIN + 1)), least = cases[k].least;
         double off = (first - 2 * least) / (1 - least);
         for (int32_t j = 0; j < CHAIN; j++)
@@ -102,13 +105,15 @@ TEST(test_definite_by_a_margin_in_single_precision)
                 double unit = pow(10, 0.1 * (i + j) - 30);
                 a[j * CHAIN + i] = i < j ? NAN : unit * (i == j ? 2 - off : i == j + 1 ? -1 : 0);
             }
-        assert_int_equal(dense_exceeds_single(a, CHAIN, 1e-4, work), cases[k].more);
+        DenseAnswer less = dense_definite_single(a, CHAIN, -1e-4, work);
+        assert_true(less == cases[k].less || (least < 0 && less == DENSE_NO));
+        assert_int_equal(dense_definite_single(a, CHAIN, 1e-4, work), cases[k].more);
     }
     a[0] = NAN;
-    assert_false(dense_exceeds_single(a, CHAIN, 1e-4, work));
+    assert_int_equal(dense_definite_single(a, CHAIN, -1e-4, work), DENSE_NO);
     a[0] = -1;
-    assert_false(dense_exceeds_single(a, CHAIN, 1e-4, work));
-    assert_true(dense_exceeds_single(a, 0, 1e-4, work));
+    assert_int_equal(dense_definite_single(a, CHAIN, 1e-4, work), DENSE_NO);
+    assert_int_equal(dense_definite_single(a, 0, -1e-4, work), DENSE_YES);
 }
 
 TEST(test_not_definite)
