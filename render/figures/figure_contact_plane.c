@@ -360,8 +360,8 @@ static bool fit_colors(Maps *maps, const PictureStyle *style, Error *err)
     if (maps->quantity == CONTACT_DENSITY) {
         bar->falling = true;
         bar->high = fmin(bar->high, 1);
-        bar->neutral = "open";
     }
+    if (maps->quantity == CONTACT_DENSITY || maps->quantity == CONTACT_RATIO) bar->neutral = "open";
     if (maps->quantity == CONTACT_ARRIVAL) {
         bar->falling = true;
         bar->low = 0;
