@@ -103,7 +103,8 @@ bool dense_cholesky(double *a, int32_t n)
 // Where a factor breaks down in column j, L of the columns before and the row l of it give
 // x = (-L^-T l, 1, 0 ...), along which the matrix is not positive. Whether this holds of `a` itself
 // its own x'a x says. (LAPACK promises no l: without it x is some direction, and tells little.)
-static bool breaks_down(const double *a, int64_t n, int64_t j, const float *lower, float *x)
+static bool is_negative_where_it_breaks_down(const double *a, int64_t n, int64_t j,
+                                             const float *lower, float *x)
 {
     const float *scale = lower + n * n;
     double square = 0;
@@ -120,7 +121,7 @@ static bool breaks_down(const double *a, int64_t n, int64_t j, const float *lowe
 
 // A is scaled to a diagonal of 1 first, so that no entry is too large or too small for single
 // precision, and rounds to a part in 2^24 of it wherever it stands.
-DenseAnswer dense_definite_single(const double *a, int32_t n, double more, float *work)
+DenseAnswer dense_definite_single(const double *a, int32_t n, double shift, float *work)
 {
     int info = 0;
     int64_t size = n;
@@ -132,13 +133,15 @@ DenseAnswer dense_definite_single(const double *a, int32_t n, double more, float
     for (int64_t j = 0; j < size; j++) {
         for (int64_t i = j; i < size; i++)
             work[j * size + i] = (float)a[j * size + i] * scale[i] * scale[j];
-        work[j * (size + 1)] = (float)(1 + more);
+        work[j * (size + 1)] = (float)(1 + shift);
     }
     if (n > 0) spotrf_("L", &n, work, &n, &info, 1);
     for (int64_t k = 0; k < size && info == 0; k++)
         if (!(work[k * (size + 1)] > 0)) return DENSE_UNSURE;
-    if (info == 0) return more < 0 ? DENSE_YES : DENSE_UNSURE;
-    return info > 0 && breaks_down(a, size, info - 1, work, scale + size) ? DENSE_NO : DENSE_UNSURE;
+    if (info == 0) return shift < 0 ? DENSE_YES : DENSE_UNSURE;
+    return info > 0 && is_negative_where_it_breaks_down(a, size, info - 1, work, scale + size)
+               ? DENSE_NO
+               : DENSE_UNSURE;
 }
 
 // P A = L U by rows (dgetrf). A pivot of exactly 0 is what LAPACK calls singular; a matrix that is

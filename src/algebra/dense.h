@@ -18,12 +18,13 @@ bool dense_begin(Error *err);
 // Cholesky factor in place of a symmetric `a` [n * n]; the lower triangle is read and written.
 // false: `a` is not positive definite (nothing else can go wrong).
 bool dense_cholesky(double *a, int32_t n);
-// Is `a`, of which the lower triangle is read, positive definite? As far as single precision tells,
-// in half the time of a factor, by that of `a` with `more` of each of its diagonal entries added to
-// it: yes where there is one and more < 0, no where x'a x < 0 along the direction in which it
-// breaks down (with more = 0 that hardly shows). work: [n * (n + 2)].
+// Is `a` [n * n], of which the lower triangle is read, positive definite? Factors it in single
+// precision, with `shift` times each of its diagonal entries added to it, in half the time of a
+// factor. DENSE_YES: shift < 0 and there is one. DENSE_NO: a diagonal entry is not above 0, or
+// x'a x < 0 along the direction x in which the factor breaks down, which mostly shows where shift >
+// 0. Else DENSE_UNSURE. work: [n * (n + 2)].
 typedef enum DenseAnswer { DENSE_UNSURE, DENSE_YES, DENSE_NO } DenseAnswer;
-DenseAnswer dense_definite_single(const double *a, int32_t n, double more, float *work);
+DenseAnswer dense_definite_single(const double *a, int32_t n, double shift, float *work);
 
 // LU with partial pivoting in place, then one right-hand side in place. pivots: [n].
 // false: singular to working precision.

@@ -177,8 +177,8 @@ static const double *close_matrix(const Certificate *certificate, const State *s
                                 certificate->moving.interface->dim);
 }
 
-// certificate->matrix, which is overwritten, is positive definite; `expected`: presumably, which
-// saves time where it is right.
+// certificate->matrix, which may be overwritten, is positive definite. expected: what the answer is
+// presumably, which saves time where it is right.
 static bool matrix_is_definite(Certificate *certificate, bool expected)
 {
     int32_t count = certificate->moving.count;
@@ -195,7 +195,7 @@ static bool matrix_is_definite(Certificate *certificate, bool expected)
 // less than their parts condensed: with open nodes condensed out the test is a little stricter
 // between its ends.
 static bool is_definite(Certificate *certificate, const State *state, ContactMatrix *level,
-                        double narrow, double reach)
+                        double narrow, double reach, bool expected)
 {
     MovingSet *moving = &certificate->moving;
     find_moving(certificate, state);
@@ -214,13 +214,14 @@ static bool is_definite(Certificate *certificate, const State *state, ContactMat
     moving_set_subtract_weakening(moving, 0, certificate->matrix);
     moving_set_subtract_memory(moving, reach, narrow, factor, certificate->matrix);
     certificate->checks++;
-    return matrix_is_definite(certificate, certificate->held);
+    return matrix_is_definite(certificate, expected);
 }
 
 bool certificate_holds(Certificate *certificate, const State *state, double reach)
 {
     double started = clock_seconds();
-    bool holds = certificate->held = is_definite(certificate, state, NULL, 0, reach);
+    bool holds = is_definite(certificate, state, NULL, 0, reach, certificate->held_last);
+    certificate->held_last = holds;
     certificate->seconds += clock_seconds() - started;
     return holds;
 }
@@ -236,7 +237,8 @@ bool certificate_oscillates_less(Certificate *certificate, const State *state, D
     for (int32_t k = range.first; less && k < range.end; k++) {
         ContactMatrix *level = dt_level_contact(dt_levels, k, certificate->part);
         if (level)
-            less = is_definite(certificate, state, level, narrow, dt_level_reach(dt_levels, k));
+            less =
+                is_definite(certificate, state, level, narrow, dt_level_reach(dt_levels, k), true);
     }
     certificate->seconds += clock_seconds() - started;
     return less;
@@ -354,6 +356,7 @@ void certificate_archive(Certificate *certificate, Archive *archive)
     bool damped = certificate->damping_contact.schur != NULL;
     archive_section(archive, "certificate");
     archive_count(archive, &certificate->checks);
+    archive_flag(archive, &certificate->held_last);
     archive_flag(archive, &damped);
     if (damped && certificate->aside) make_damping(certificate, &(Error){0});
     if (damped != (certificate->damping_contact.schur != NULL)) archive->failed = true;

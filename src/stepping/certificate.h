@@ -57,7 +57,7 @@ typedef struct Certificate {
     double *alone;   // [contact_count] what resists a node that slips alone; NULL: C is singular;
         // S_C[t,t], with branches S[t,t] at the real rate where it is least; owned
     ContactMatrix damping_contact;   // S_C, open nodes condensed out; empty without; owned
-    bool held;   // the last time that it was asked: a state is mostly like the one before
+    bool held_last;   // the last time that it was asked: a state is mostly like the one before
     bool with_open;   // open nodes are counted among what moves
     MovingSet moving;   // F and W of the state asked about; owned, like all that follows
     double *matrix;   // [count^2] work

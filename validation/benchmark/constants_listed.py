@@ -171,7 +171,7 @@ NOT_A_CHOICE = {
                                "BETWEEN_MEMORIES": "proven: 1.1242, dt doubles from level to level",
                                "SETTLED": "digits that tell a ratio from 1, with room",
                                "SINGLE_ROWS": "time alone", "OPEN_PARTS": "memory and time alone: pads have most of their nodes open, blocks a few",
-                               "SINGLE_MARGIN": "4000 matrices of two blocks are as definite in single precision as in double even with 0"},
+                               "SINGLE_MARGIN": "4000 matrices of two blocks are as definite in single precision as in double even with 0; that one is not is never taken from it alone"},
     "contact/contact_solver.c": {
         "STEPS": "with 40 a fifth fewer of 30 000 hard problems is left to sweeps, at one and a half times the steps",
         "HALVINGS": "to and fro over a kink: 1/16 of a step is left; with 8 as many problems are solved",

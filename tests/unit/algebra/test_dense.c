@@ -116,6 +116,36 @@ TEST(test_definite_in_single_precision)
     assert_int_equal(dense_definite_single(a, 0, -1e-4, work), DENSE_YES);
 }
 
+// The unit matrix but for one direction, in which all unknowns have a part: a factor breaks down in
+// one of its last columns.
+TEST(test_definite_in_single_precision_when_all_is_joined)
+{
+    enum { SIZE = 260 };
+    static double a[SIZE * SIZE];
+    static float work[SIZE * (SIZE + 2)];
+    double direction[SIZE], square = 0;
+    Random random = {.state = 77};
+    for (int32_t k = 0; k < SIZE; k++) {
+        direction[k] = random_between(&random, 0.5, 1) * (k % 2 ? 1 : -1);
+        square += direction[k] * direction[k];
+    }
+    static const double least[] = {1e-2, -1e-2, -0.5};
+    for (int32_t k = 0; k < 3; k++) {
+        for (int32_t j = 0; j < SIZE; j++)
+            for (int32_t i = 0; i < SIZE; i++) {
+                double unit = pow(10, 0.1 * (i + j) - 26);
+                double entry = (i == j) - (1 - least[k]) * direction[i] * direction[j] / square;
+                a[j * SIZE + i] = i < j ? NAN : unit * entry;
+            }
+        assert_int_equal(dense_definite_single(a, SIZE, k == 0 ? -1e-4 : 1e-4, work),
+                         k == 0 ? DENSE_YES : DENSE_NO);
+    }
+    a[SIZE - 1] = NAN;
+    assert_true(dense_definite_single(a, SIZE, -1e-4, work) != DENSE_YES);
+    a[SIZE - 1] = INFINITY;
+    assert_true(dense_definite_single(a, SIZE, -1e-4, work) != DENSE_YES);
+}
+
 TEST(test_not_definite)
 {
     for (double least = 1e-9; least > -2e-9; least -= 2e-9) {
@@ -270,23 +300,27 @@ TEST(test_add_nonzero)
     dense_add_nonzero((DenseView){NULL, 0, COLUMNS}, (double[COLUMNS]){1}, 1, NULL);
 }
 
-// Little and most of x is 0: by columns and by the lower triangle the same.
+// Little and most of x is 0: columns that meet a 0, or the upper triangle, are not read.
 TEST(test_add_symmetric)
 {
     enum { ROWS = 2001 };
     Random random = {.state = 33};
-    double *a = malloc(sizeof *a * ROWS * ROWS), x[ROWS], y[ROWS], wanted[ROWS];
+    double *a = hand_matrix(ROWS, ROWS), x[ROWS], y[ROWS], wanted[ROWS];
     const int32_t nonzero[] = {0, 1, ROWS / 2, ROWS / 2 + 1, ROWS};
-    for (int64_t j = 0; j < ROWS; j++)
-        for (int64_t i = 0; i <= j; i++)
-            a[j * ROWS + i] = a[i * ROWS + j] = random_between(&random, -1, 1);
     for (int32_t k = 0; k < 5; k++) {
+        bool many = 2 * nonzero[k] > ROWS;
+        for (int64_t j = 0; j < ROWS; j++)
+            for (int64_t i = 0; i <= j; i++)
+                a[j * ROWS + i] = a[i * ROWS + j] = random_between(&random, -1, 1);
         for (int32_t j = 0; j < ROWS; j++)
             x[j] = j * 2 % ROWS < nonzero[k] ? random_between(&random, 1, 2) : 0;
         for (int32_t i = 0; i < ROWS; i++) {
             y[i] = wanted[i] = i;
             for (int64_t j = 0; j < ROWS; j++) wanted[i] -= 0.5 * a[j * ROWS + i] * x[j];
         }
+        for (int64_t j = 0; j < ROWS; j++)
+            for (int64_t i = 0; i < ROWS; i++)
+                if (many ? i < j : x[j] == 0) a[j * ROWS + i] = NAN;
         dense_add_symmetric(a, ROWS, x, -0.5, y);
         assert_all_near("y - A x/2", y, wanted, ROWS, 1e-11);
     }
