@@ -21,7 +21,7 @@ struct ReducedOperator {
     const ReducedBulk *reduced;   // not owned
     double *local[REDUCED_PARTS_MAX], *image[REDUCED_PARTS_MAX];   // [count] of each, work; owned
     double *border;   // [interface + mirrored] work; owned
-    bool rests[REDUCED_PARTS_MAX];   // the part is left out
+    bool at_rest[REDUCED_PARTS_MAX];   // the part is (reduced_operator_rest)
     bool large;   // a level of it is worth threads
 };
 
@@ -92,7 +92,7 @@ void reduced_operator_apply(const ReducedOperator *system, BulkTerm term, const 
     const double by = scale[term < BULK_SHAPE ? term : BULK_SHAPE];
     reduced_bulk_split(reduced, x, system->local);
     for (int p = 0; p < reduced->part_count; p++) {
-        if (system->rests[p])
+        if (system->at_rest[p])
             memset(system->image[p], 0, (size_t)reduced->part[p].count * sizeof *y);
         else
             part_apply(&reduced->part[p], term, system->local[p], system->image[p]);
@@ -111,7 +111,8 @@ void reduced_operator_keep(const ReducedOperator *system, const bool *kept, cons
     reduced_bulk_join(reduced, (const double *const *)system->local, out);
 }
 
-double reduced_operator_beside(const ReducedOperator *system, const bool *kept, const double *x)
+double reduced_operator_share_beside(const ReducedOperator *system, const bool *kept,
+                                     const double *x)
 {
     const ReducedBulk *reduced = system->reduced;
     double beside = 0, all = 0;
@@ -126,7 +127,7 @@ double reduced_operator_beside(const ReducedOperator *system, const bool *kept, 
 
 void reduced_operator_rest(ReducedOperator *system, const bool *kept)
 {
-    for (int p = 0; p < system->reduced->part_count; p++) system->rests[p] = kept && !kept[p];
+    for (int p = 0; p < system->reduced->part_count; p++) system->at_rest[p] = kept && !kept[p];
 }
 
 // --- A of a part --------------------------------------------------------------------------------
@@ -358,7 +359,7 @@ void condensed_bulk_condense(CondensedBulk *condensed, const double *rhs, double
     reduced_bulk_split(reduced, rhs, system->local);
     memset(pushed, 0, (size_t)(m + n) * sizeof *pushed);
     for (int p = 0; p < reduced->part_count; p++) {
-        if (system->rests[p]) continue;
+        if (system->at_rest[p]) continue;
         condensed_part_condense(&reduced->part[p], &condensed->part[p], system->local[p],
                                 system->image[p]);
         transform_apply(&reduced->part[p].border, system->image[p], pushed);
@@ -380,7 +381,7 @@ void condensed_bulk_expand(CondensedBulk *condensed, const double *interface, do
     dense_apply(dense_view(condensed->mirrored.follow, n, m), interface, -1, 1, border + m);
     for (int p = 0; p < reduced->part_count; p++) {
         const ReducedPart *part = &reduced->part[p];
-        if (system->rests[p]) {
+        if (system->at_rest[p]) {
             memset(system->local[p], 0, (size_t)part->count * sizeof *v);
             continue;
         }

@@ -40,7 +40,8 @@ void reduced_operator_apply(const ReducedOperator *system, BulkTerm term, const 
 void reduced_operator_keep(const ReducedOperator *system, const bool *kept, const double *x,
                            double *out);
 // The largest entry that x [count] has in the other parts, over its largest in all; 0 for x = 0.
-double reduced_operator_beside(const ReducedOperator *system, const bool *kept, const double *x);
+double reduced_operator_share_beside(const ReducedOperator *system, const bool *kept,
+                                     const double *x);
 // From here on the other parts are at rest and nothing pushes them, whatever is asked of the
 // operator or of what is condensed from it: no product with them is made. NULL: all are kept.
 void reduced_operator_rest(ReducedOperator *system, const bool *kept);

@@ -100,10 +100,11 @@ void symmetric_part_take(const SymmetricPart *part, const double *x, double *out
     }
 }
 
-double symmetric_part_lacks(const SymmetricPart *part, const double *x)
+double symmetric_part_antisymmetric(const SymmetricPart *part, const double *x)
 {
     const BulkOperator *system = part->system;
-    return system->reduced ? reduced_operator_beside(system->small, part->kept, x) : (double)NAN;
+    return system->reduced ? reduced_operator_share_beside(system->small, part->kept, x)
+                           : (double)NAN;
 }
 
 void symmetric_part_alone(const SymmetricPart *part, bool alone)

@@ -25,11 +25,11 @@ void symmetric_part_destroy(SymmetricPart *part);
 // out [dof_count] := symmetric part of x [dof_count], distinct.
 void symmetric_part_take(const SymmetricPart *part, const double *x, double *out);
 
-// The antisymmetric part of x [dof_count] over all of it, by the largest entries. NAN on a mesh,
-// where it is not asked for.
-double symmetric_part_lacks(const SymmetricPart *part, const double *x);
-// From here on, or no longer, the antisymmetric parts of a reduced bulk rest: half of what is asked
-// of the system costs nothing. On a mesh they always act.
+// The largest entry of the antisymmetric part of x [dof_count] over that of all of it. NAN on a
+// mesh, where it is not asked for.
+double symmetric_part_antisymmetric(const SymmetricPart *part, const double *x);
+// From here on, or no longer, the antisymmetric parts of a reduced bulk are at rest and nothing
+// pushes them, whatever the system is asked: no product with them is made. On a mesh they act.
 void symmetric_part_alone(const SymmetricPart *part, bool alone);
 
 #endif

@@ -163,12 +163,19 @@ void half_step_symmetrise(HalfStep *half, State *state, double *bound)
     half->asymmetry = 0;
 }
 
+// Forces are looked at, as they say nothing of the way that the block has slid as a whole.
 bool half_step_is_symmetric(const HalfStep *half, const State *state, double limit)
 {
     const SymmetricPart *bulk = &half->bulk;
-    return bulk->exists && symmetric_part_lacks(bulk, state->displacement) <= limit &&
-           symmetric_part_lacks(bulk, state->velocity) <= limit &&
-           symmetric_part_lacks(bulk, bulk->system->load) <= limit;
+    bool symmetric = bulk->exists &&
+                     symmetric_part_antisymmetric(bulk, state->elastic_force) <= limit &&
+                     symmetric_part_antisymmetric(bulk, state->momentum) <= limit &&
+                     symmetric_part_antisymmetric(bulk, bulk->system->load) <= limit;
+    for (int32_t k = 0; k < state->branch_count && symmetric; k++) {
+        const double *pull = state->pull + (int64_t)k * state->dof_count;
+        symmetric = symmetric_part_antisymmetric(bulk, pull) <= limit;
+    }
+    return symmetric;
 }
 
 bool half_step_solve(HalfStep *half, const ContactProblem *problem, ContactMatrix *antisymmetric,

@@ -49,8 +49,8 @@ const State *half_step_fold(HalfStep *half, const State *state);
 // where it has more than 1e-18 of the state's energy: ALIKE, squared.
 void half_step_symmetrise(HalfStep *half, State *state, double *bound);
 
-// The bulk's motion in `state` and its load are symmetric, but for `limit` of each; false, too,
-// where the bulk is not reduced.
+// All that acts on the bulk from `state` on, and its load, is symmetric but for the part `limit` of
+// each; false, too, where the bulk is not reduced.
 bool half_step_is_symmetric(const HalfStep *half, const State *state, double limit);
 
 // Solves `problem`, whose matrix is that of the symmetric part, all else of both sides, from what

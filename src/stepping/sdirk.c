@@ -203,6 +203,19 @@ cleanup:
     return error_is_clean(err);
 }
 
+// All stages, or those up to one that has no solution. Nobody else sees parts of the bulk rest.
+static bool solve_stages(Sdirk *scheme, int32_t k, const State *from, State *to,
+                         StepOutcome *outcome, Error *err)
+{
+    bool alone = scheme->symmetric_alone && scheme->part != PART_WHOLE, done = true;
+    outcome->solved = true;
+    if (alone) symmetric_part_alone(&scheme->half->bulk, true);
+    for (int32_t i = 0; i < SDIRK_STAGES && outcome->solved && done; i++)
+        done = solve_stage(scheme, k, i, from, to, outcome, err);
+    if (alone) symmetric_part_alone(&scheme->half->bulk, false);
+    return done;
+}
+
 bool sdirk_step(Sdirk *scheme, int32_t k, const State *from, State *to, StepOutcome *outcome,
                 Error *err)
 {
@@ -223,11 +236,8 @@ bool sdirk_step(Sdirk *scheme, int32_t k, const State *from, State *to, StepOutc
     memcpy(to->slip_rate, from->slip_rate, bytes);
     memcpy(to->reaction, from->reaction, bytes);
     friction_states_begin(&scheme->memory, from);
-    if (scheme->symmetric_alone) symmetric_part_alone(&scheme->half->bulk, true);
-    for (int32_t i = 0; i < SDIRK_STAGES; i++) {
-        TRY(solve_stage(scheme, k, i, from, to, outcome, err));
-        if (!outcome->solved) goto cleanup;
-    }
+    TRY(solve_stages(scheme, k, from, to, outcome, err));
+    if (!outcome->solved) goto cleanup;
 
     // Size of the local error of u, as stepping/tableau estimates it, and that of friction's
     // states.
@@ -257,7 +267,6 @@ bool sdirk_step(Sdirk *scheme, int32_t k, const State *from, State *to, StepOutc
         sum[system->interface_dofs[m]] -= to->reaction[m];
     outcome->residual = dense_max_abs(sum, dofs);
 cleanup:
-    if (scheme->symmetric_alone) symmetric_part_alone(&scheme->half->bulk, false);
     return error_is_clean(err);
 }
 

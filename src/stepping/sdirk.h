@@ -33,7 +33,7 @@ typedef struct Sdirk {
     ContactPart part;   // of the contact that is solved: the whole or the symmetric part
     bool antisymmetric_acts;   // beside the symmetric part this one is stepped along ...
     ContactMatrix *antisymmetric;   // ... with this matrix; NULL: it is not; not owned
-    bool symmetric_alone;   // the bulk's antisymmetric part is rounding, and is left out
+    bool symmetric_alone;   // the bulk's antisymmetric part is rounding and rests in this step
     ContactSolver solver;   // of the whole; its counters are of all; owned, like all that follows
     Branches branches;   // of the materials; nothing where none has any
     FrictionStates memory;   // of friction; nothing where none remembers

@@ -35,7 +35,8 @@ static const double SMALL_OSCILLATION = 0.01;
 enum { SCANNED_PARTS = 200 };
 
 // The antisymmetric part is stepped along where it is more than this part of the symmetric one:
-// rounding.
+// rounding. Where it is less in the problem and in all that acts on a reduced bulk, and decays, it
+// is no part of the step.
 static const double ANTISYMMETRIC_LIMIT = 1e-12;
 
 // Steps to go, at which a run is given up. A thousand stick-slip cycles on 20 cells are 2e5 steps,

@@ -179,12 +179,12 @@ static void check_alone(const SymmetricPart *part, BulkOperator *system, const d
 {
     Error err = {0};
     int32_t size = system->dof_count, m = system->interface_count;
-    double *answers[3][5], lacks = symmetric_part_lacks(part, x);
+    double *answers[3][5], lacks = symmetric_part_antisymmetric(part, x);
     OperatorTerms terms = {.stiffness = 0.7, .damping = 1, .mass = 2};
     InterfaceOperator *condensed = interface_operator_create(system, terms, &err);
     assert_non_null(condensed);
     assert_true(system->reduced ? lacks > 0.1 && lacks <= 1 : isnan(lacks));
-    if (system->reduced) assert_true(symmetric_part_lacks(part, even) < 1e-15);
+    if (system->reduced) assert_true(symmetric_part_antisymmetric(part, even) < 1e-15);
     for (int32_t k = 0; k < 3; k++) {   // of x with the symmetric part alone, of even, of x
         const double *of = k == 1 ? even : x;
         for (int32_t a = 0; a < 5; a++) answers[k][a] = hand_matrix(size, 1);

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A block in space stepped on one side and as a whole: the same steps; what is certified of the
 // whole is what is certified of both halves; and who pushes it aside gets the whole.
+#include "reduction/mirror.h"
+#include "reduction/reduction.h"
 #include "space_rig.h"
 #include "stepping/step_control.h"
 
 typedef struct Pushed {
     BlockRig rig;
+    ReducedBulk reduced;   // empty: the mesh itself is stepped
+    BulkOperator small;   // of it
     StepControl control;
     FrictionNode *nodes;   // [contact_count]; owned
 } Pushed;
@@ -26,7 +30,41 @@ typedef struct PushedDef {
     SpaceDef shape;
     RigDef rig;
     double pressure, velocity;   // of the load and of the rod
+    bool reduced;
 } PushedDef;
+
+// The rig's block is stepped by the four parts of its mesh.
+static void pushed_reduce(const PushedDef *def, Pushed *pushed)
+{
+    Error err = {0};
+    BlockRig *rig = &pushed->rig;
+    Material material = def->rig.material;
+    double length = def->shape.size[0];
+    int32_t *image[2], dofs = rig->bulk.dof_count;
+    material.plane_strain = true;
+    for (int32_t axis = 0; axis < 2; axis++) {
+        double *position = hand_matrix(dofs, 1);
+        memcpy(position, rig->mesh.position, (size_t)dofs * sizeof *position);
+        assert_true(mirror_nodes_find(3, axis, position, dofs / 3, &image[axis], &err));
+        free(position);
+    }
+    ReductionDef reduction = {.tolerance = 1e-2,
+                              .materials = materials_of(&material),
+                              .no_patches = true,
+                              .node_image = image,
+                              .position = rig->mesh.position,
+                              .scales = {material.young * length,
+                                         (material.eta1 + material.eta2) * length,
+                                         material.density * length * length * length,
+                                         dense_max_abs(rig->bulk.load, dofs)}};
+    assert_true(reduction_build(&rig->bulk, rig->interface.dofs, rig->interface.count, &reduction,
+                                &pushed->reduced, &err));
+    assert_int_equal(pushed->reduced.part_count, 4);
+    assert_true(bulk_operator_reduce(&pushed->reduced, length, rig->system.mass_total,
+                                     &pushed->small, &err));
+    rig->block.system = &pushed->small;
+    for (int32_t axis = 0; axis < 2; axis++) memory_free(image[axis]);
+}
 
 // The rod along the breadth. rise: of friction; NULL: it is the same everywhere.
 static void pushed_build_of(const PushedDef *def, const double *rise, Pushed *pushed)
@@ -41,6 +79,8 @@ static void pushed_build_of(const PushedDef *def, const double *rise, Pushed *pu
     space_rig_build(&def->shape, &def->rig, (double[]){0, 0, -def->pressure}, &pushed->rig);
     BlockRig *rig = &pushed->rig;
     pushed->nodes = NULL;
+    pushed->reduced = (ReducedBulk){0};
+    if (def->reduced) pushed_reduce(def, pushed);
     if (rise) pushed_vary(rise, pushed);
     assert_true(step_control_create(&rig->block, &steps, &pushed->control, &err));
     RelaxationDef relaxation = {.speed_max = 1e-9, .duration_max = 1e5};
@@ -48,7 +88,7 @@ static void pushed_build_of(const PushedDef *def, const double *rise, Pushed *pu
     for (int32_t j = 0; j < rig->interface.rod_count; j++)
         rig->rod.origin[j] =
             pushed->control.now
-                .displacement[rig->interface.dofs[interface_rod(&rig->interface, j)]];
+                .displacement[rig->block.system->interface_dofs[interface_rod(&rig->interface, j)]];
     assert_true(rig->interface.rod_count > 1);
     rig->rod.kind = ROD_PUSHES;
     rig->rod.velocity = def->velocity;
@@ -56,22 +96,31 @@ static void pushed_build_of(const PushedDef *def, const double *rise, Pushed *pu
 }
 
 // Half as high as long.
-static void pushed_build(const int32_t cells[3], const double *rise, Pushed *pushed)
+static void pushed_build_by(const int32_t cells[3], const double *rise, bool reduced,
+                            Pushed *pushed)
 {
     PushedDef def = {.shape = {.kind = ELEMENT_HEX8,
                                .cells = {cells[0], cells[1], cells[2]},
                                .size = {0.5, 0.5, 0.25}},
                      .rig = rig_def(),
                      .pressure = 0.003,
-                     .velocity = 1e-4};
+                     .velocity = 1e-4,
+                     .reduced = reduced};
     def.rig.rod_kind = ROD_AWAY;
     def.rig.rod_width = 0.13;
     pushed_build_of(&def, rise, pushed);
 }
 
+static void pushed_build(const int32_t cells[3], const double *rise, Pushed *pushed)
+{
+    pushed_build_by(cells, rise, false, pushed);
+}
+
 static void pushed_destroy(Pushed *pushed)
 {
     step_control_destroy(&pushed->control);
+    if (pushed->reduced.part_count > 0) bulk_operator_destroy(&pushed->small);
+    reduced_bulk_destroy(&pushed->reduced);
     rig_destroy(&pushed->rig);
     memory_free(pushed->nodes);
 }
@@ -84,15 +133,42 @@ static void compare_certificates(StepControl *control)
     assert_int_equal(certificate_holds(&control->certificate, now, 0), even && odd);
 }
 
-static void same_steps(const int32_t cells[3], const double *rise)
+// [dof_count] a motion or force that is opposite on both sides, largest entry 1.
+static double *antisymmetric_vector(const Pushed *pushed)
+{
+    const SymmetricPart *part = &pushed->control.half.bulk;
+    int32_t dofs = part->system->dof_count;
+    double *x = hand_matrix(dofs, 1), *even = hand_matrix(dofs, 1);
+    Random random = {.state = 5};
+    for (int32_t k = 0; k < dofs; k++) x[k] = random_between(&random, -1, 1);
+    symmetric_part_take(part, x, even);
+    for (int32_t k = 0; k < dofs; k++) x[k] -= even[k];
+    double largest = dense_max_abs(x, dofs);
+    for (int32_t k = 0; k < dofs; k++) x[k] /= largest;
+    free(even);
+    return x;
+}
+
+// Whoever asks between steps finds the whole bulk acting.
+static void check_all_acts(const Pushed *pushed, const double *odd)
+{
+    const BulkOperator *system = pushed->rig.block.system;
+    double *force = hand_matrix(system->dof_count, 1);
+    bulk_operator_apply(system, BULK_STIFFNESS, odd, force);
+    assert_true(dense_max_abs(force, system->dof_count) > 1e-3);
+    free(force);
+}
+
+static void same_steps(const int32_t cells[3], const double *rise, bool reduced)
 {
     Error err = {0};
     Pushed half, whole;
-    int32_t halved = 0, certified = 0, count = 0, slipping = 0;
-    pushed_build(cells, rise, &half);
-    pushed_build(cells, rise, &whole);
+    int32_t halved = 0, certified = 0, count = 0, slipping = 0, alone = 0;
+    pushed_build_by(cells, rise, reduced, &half);
+    pushed_build_by(cells, rise, reduced, &whole);
     whole.control.asymmetric = true;
     assert_true(half.control.half.exists);
+    double *odd = antisymmetric_vector(&half);
     for (; half.control.now.time < 45; count++) {
         assert_true(step_control_advance(&half.control, INFINITY, &err));
         assert_true(step_control_advance(&whole.control, INFINITY, &err));
@@ -104,13 +180,19 @@ static void same_steps(const int32_t cells[3], const double *rise)
         assert_memory_equal(one->status, other->status, (size_t)one->contact_count);
         assert_int_equal(half.control.certified, whole.control.certified);
         halved += half.control.scheme.part == PART_SYMMETRIC;
+        alone += half.control.scheme.symmetric_alone;
+        assert_false(whole.control.scheme.symmetric_alone);
+        check_all_acts(&half, odd);
         certified += half.control.certified;
         slipping += one->status[one->contact_count / 2] != CONTACT_STICK;
         compare_certificates(&half.control);
     }
     assert_false(half.control.asymmetric);
-    print_message("%d steps, %d on one side, %d certified\n", count, halved, certified);
+    print_message("%d steps, %d on one side, %d without the other part of the bulk, %d certified\n",
+                  count, halved, alone, certified);
     assert_true(halved > 0.8 * count && certified < count && slipping > 10);
+    assert_true(reduced ? alone > 0.5 * count && alone < count : alone == 0);
+    free(odd);
     pushed_destroy(&half);
     pushed_destroy(&whole);
 }
@@ -118,15 +200,16 @@ static void same_steps(const int32_t cells[3], const double *rise)
 // With nodes on the middle line, and without.
 TEST(test_same_steps)
 {
-    same_steps((int32_t[]){4, 4, 2}, NULL);
-    same_steps((int32_t[]){4, 3, 2}, NULL);
+    same_steps((int32_t[]){4, 4, 2}, NULL, false);
+    same_steps((int32_t[]){4, 3, 2}, NULL, false);
+    same_steps((int32_t[]){4, 4, 2}, NULL, true);
 }
 
 TEST(test_friction_that_differs)
 {
     Error err = {0};
     Pushed across;
-    same_steps((int32_t[]){4, 4, 2}, (double[]){0.4, 0});
+    same_steps((int32_t[]){4, 4, 2}, (double[]){0.4, 0}, false);
     pushed_build((int32_t[]){4, 4, 2}, (double[]){0.4, 1e-12}, &across);
     assert_true(step_control_advance(&across.control, INFINITY, &err));
     assert_true(across.control.half.exists);
@@ -151,20 +234,36 @@ static void push_aside(double way, Pushed *pushed)
     bulk_operator_apply(pushed->control.scheme.system, BULK_MASS, now->velocity, now->momentum);
 }
 
+// The bulk gets velocities that are opposite on both sides.
+static void push_bulk_aside(double way, Pushed *pushed)
+{
+    State *now = &pushed->control.now;
+    const BulkOperator *system = pushed->rig.block.system;
+    double *odd = antisymmetric_vector(pushed);
+    for (int32_t k = 0; k < now->dof_count; k++) now->velocity[k] += way * odd[k];
+    for (int32_t k = 0; k < now->interface_count; k++)
+        now->slip_rate[k] = now->velocity[system->interface_dofs[k]];
+    bulk_operator_apply(system, BULK_MASS, now->velocity, now->momentum);
+    free(odd);
+}
+
 // An antisymmetric part above rounding is found at once; later steps are those of the whole.
-TEST(test_pushed_aside)
+static void pushed_aside(bool reduced)
 {
     Error err = {0};
     Pushed half, whole;
     const int32_t cells[] = {4, 4, 2};
-    pushed_build(cells, NULL, &half);
-    pushed_build(cells, NULL, &whole);
+    pushed_build_by(cells, NULL, reduced, &half);
+    pushed_build_by(cells, NULL, reduced, &whole);
     whole.control.asymmetric = true;
     Pushed *both[] = {&half, &whole};
     for (int32_t k = 0; k < 2; k++) {
         while (both[k]->control.now.time < 12)
             assert_true(step_control_advance(&both[k]->control, INFINITY, &err));
-        push_aside(1e-6, both[k]);
+        if (reduced)
+            push_bulk_aside(1e-6, both[k]);
+        else
+            push_aside(1e-6, both[k]);
     }
     assert_false(half.control.asymmetric);
     for (int32_t k = 0; k < 40; k++) {
@@ -179,6 +278,12 @@ TEST(test_pushed_aside)
         assert_null(half.control.dt_levels.contact[PART_SYMMETRIC][k].schur);
     pushed_destroy(&half);
     pushed_destroy(&whole);
+}
+
+TEST(test_pushed_aside)
+{
+    pushed_aside(false);
+    pushed_aside(true);
 }
 
 // A disturbance to one side below what counts as such (1e-9 of 1e-4) and above rounding (1e-12), in
