@@ -6,10 +6,10 @@ area that slips before and grooves, with error bars.
     validation/space/papers.py [--seconds S] [--cells N] [--only STUDY [--points KEY ...]] [--page] [-o FOLDER]
 
 Each point is run on meshes of 8 to 40 cells to the height, as long as one may be expected to take S seconds of processor time (default
-40; it goes up with the sixth power). From 20 on rows get higher towards the top; `even rows` has some of these blocks with rows of one
+40; it goes up with the sixth power), but for those that are there. From 20 on rows get higher towards the top; `even rows` has some of these blocks with rows of one
 height, to see what that changes. A line of FOLDER/papers.jsonl (default validation/space) is one run, and a call that was stopped goes on
-behind the last one. Bars are those of the program's rule (src/answers/error_bars.c) on these meshes: of blocks
-in space 98 of 100 held (priors.md). Writes papers.md and its two figures beside it."""
+with those that lack: `-o` an empty folder computes all anew. Bars are those of the program's rule (src/answers/error_bars.c) on these
+meshes: how many hold stands in priors.md and in papers.md. Writes papers.md and its three figures beside it."""
 import argparse
 import json
 import math
@@ -28,7 +28,7 @@ from priors import STUDENT, Constants, bar_of   # noqa: E402
 
 # Cells to the height. From GRADED_FROM on cells of that length stand at the contact, and rows get higher towards the top, GRADE times the
 # lowest: 1/2.16 of the rows.
-MESHES, GRADED_FROM, GRADE = (8, 10, 12, 14, 16, 20, 28, 40), 20, 4
+MESHES, GRADED_FROM, GRADE = (8, 10, 12, 14, 16, 20, 24, 28, 32, 36, 40), 20, 4
 EVEN = (20, 28, 40)               # of these, with rows of one height, to see what grading does
 PRESSURES, BREADTHS = (0.002, 0.003, 0.006, 0.012), (0.5, 1, 2)
 
@@ -69,6 +69,10 @@ STUDIES = {
 # All that is run: these, on MESHES, and what only shows what grading changes, on meshes of EVEN cells.
 RUNS = STUDIES | {"even rows": ("W/H with rows of one height, at L/H = 1 and P/E = 0.006",
                                 {f"{breadth:g}": block(1, breadth, graded=False) for breadth in BREADTHS})}
+# The same block in two studies: it is run in the second one named.
+SAME = {("length", "1"): ("breadth", "1, P 0.006")}
+CHECKED = 16                      # bars of meshes to so many cells are held against those from 3/2 as many on
+RESOLVED = 8                      # cells that slip where slip turns fast, below which the program calls it not resolved
 ANSWERS = ("mu_M", "mu_hold", "A_c_over_A", "l_c_over_L", "slip_cells")
 
 
@@ -97,16 +101,21 @@ def compute(words):
         rows.setdefault((row["study"], row["key"]), []).append(row)
     for study in () if words.page else words.only or RUNS:
         for key in words.points or RUNS[study][1]:
+            if (study, key) in SAME:
+                continue
             have = rows.setdefault((study, key), [])
-            for cells in (MESHES if study in STUDIES else EVEN)[len(have):]:
-                if cells > words.cells:
+            for cells in (MESHES if study in STUDIES else EVEN):
+                coarser = [row for row in have if row["cells"] < cells]
+                if cells > words.cells or coarser and coarser[-1]["cpu_s"] * (cells / coarser[-1]["cells"])**6 > words.seconds:
                     break
-                if have and have[-1]["cpu_s"] * (cells / have[-1]["cells"])**6 > words.seconds:
-                    break
+                if any(row["cells"] == cells for row in have):
+                    continue
                 have.append(run(study, key, cells, words.output))
                 with path.open("a") as out:
                     out.write(json.dumps(have[-1]) + "\n")
-    return rows
+                have.sort(key=lambda row: row["cells"])
+    rows |= {at: rows[same] for at, same in SAME.items() if same in rows}
+    return {at: sorted(have, key=lambda row: row["cells"]) for at, have in rows.items()}
 
 
 def with_bar(rows, name):
@@ -139,9 +148,12 @@ def paired(rows, first, last, what):
     differences = [by_cells[1][cells] - by_cells[0][cells] for cells in sorted(by_cells[0].keys() & by_cells[1].keys())]
     if len(differences) < 3:
         return f"{what}: fewer than three meshes in common."
-    mean = statistics.fmean(differences)
-    known = STUDENT[min(len(differences) - 1, len(STUDENT)) - 1] * statistics.stdev(differences) / math.sqrt(len(differences))
-    return f"{what}, mesh by mesh: {mean:+.4f} ± {known:.4f} in the mean of {len(differences)}, {sum(d < 0 for d in differences)} of them below 0."
+    def mean_of(part):
+        known = STUDENT[min(len(part) - 1, len(STUDENT)) - 1] * statistics.stdev(part) / math.sqrt(len(part))
+        return f"{statistics.fmean(part):+.4f} ± {known:.4f} in the mean of {len(part)}"
+    fine = differences[len(differences) // 2:]
+    finer = f", {mean_of(fine)} of the finer half" if len(fine) > 2 else ""
+    return f"{what}, mesh by mesh: {mean_of(differences)}, {sum(d < 0 for d in differences)} of them below 0{finer}; {differences[-1]:+.4f} on the finest."
 
 
 def table_of(study, rows):
@@ -150,10 +162,26 @@ def table_of(study, rows):
         have = [row for row in rows.get((study, key), []) if "error" not in row]
         if have:
             finest = have[-1]
-            lines.append([key, told(with_bar(have, "mu_M")), told(with_bar(have, "mu_hold")), ", ".join(number(row, "mu_M", 4) for row in have),
-                          number(finest, "A_c_over_A", 2), number(finest, "l_c_over_L", 2), number(finest, "slip_cells", 1),
-                          str(finest["cells"]), f"{sum(row['cpu_s'] for row in have):.0f}"])
-    return markdown_table([study, "mu_M", "mu_hold", "mu_M mesh by mesh", "A_c/A", "l_c/L", "cells that slip", "finest: cells to H", "s"], lines)
+            slip = number(finest, "slip_cells", 1) + (", not resolved" if (finest["slip_cells"] or RESOLVED) < RESOLVED else "")
+            lines.append([key, told(with_bar(have, "mu_M")), told(with_bar(have, "mu_hold")),
+                          ", ".join(f"{row['cells']}: {number(row, 'mu_M', 4) or 'none'}" for row in have),
+                          number(finest, "A_c_over_A", 2), number(finest, "l_c_over_L", 2), slip,
+                          " to ".join(sorted({str(f(row["slidings"] or 0 for row in have)) for f in (min, max)}, key=int)),
+                          f"{sum(row['cpu_s'] for row in have):.0f}"])
+    return markdown_table([study, "mu_M", "mu_hold", "mu_M on each mesh, by its cells to H", "A_c/A", "l_c/L", "cells that slip", "peaks of a run", "s"], lines)
+
+
+def bars_checked(rows):
+    """Bars of the meshes to CHECKED cells, of points that have three and more from 3/2 of it on: against the mean of these."""
+    lines = []
+    for (study, key), have in rows.items():
+        fine = [row["mu_M"] for row in have if row.get("mu_M") is not None and row["cells"] >= 1.5 * CHECKED]
+        found = with_bar([row for row in have if row["cells"] <= CHECKED], "mu_M")
+        if study in STUDIES and (study, key) not in SAME and found and len(fine) > 2:
+            off = found[0] - statistics.fmean(fine)
+            lines.append([f"{study} {key}", told(found), f"{statistics.fmean(fine):.4f}, {len(fine)} meshes scattered by {statistics.stdev(fine):.4f}",
+                          f"{off:+.4f}", f"{abs(off) / found[1]:.2f}"])
+    return markdown_table(["point", f"mu_M by meshes to {CHECKED} cells", f"mean of those from {1.5 * CHECKED:.0f} on", "difference", "in bars"], lines)
 
 
 def graded_or_not(rows):
@@ -194,7 +222,7 @@ def verdicts(study, rows):
 def points(rows):
     """(A_c/A of the finest mesh, mu_M, bar, study, key)"""
     for (study, key), have in rows.items():
-        if study not in STUDIES:
+        if study not in STUDIES or (study, key) in SAME:
             continue
         found, good = with_bar(have, "mu_M"), [row for row in have if row.get("A_c_over_A") is not None]
         if found and good:
@@ -202,24 +230,35 @@ def points(rows):
 
 
 def draw(rows, folder):
-    """The two figures: mu_M against breadth at each pressure, and against the critical area."""
-    def series(number, label, places, found):
-        return {"label": label, "x": places, "y": [f[0] for f in found], "low": [f[0] - f[1] for f in found], "high": [f[0] + f[1] for f in found],
-                "color": number + 1, "marker": ("circle", "square", "triangle", "down", "cross")[number]}
+    """The figures: mu_M against breadth at each pressure, what breadth changes against cells, and mu_M against the critical area."""
+    def series(number, label, points):
+        """points: (x, value) or (x, value, bar)"""
+        found = {"label": label, "x": [p[0] for p in points], "y": [p[1] for p in points], "color": number + 1,
+                 "marker": ("circle", "square", "triangle", "down", "cross")[number % 5]}
+        if points and len(points[0]) > 2:
+            found |= {"low": [p[1] - p[2] for p in points], "high": [p[1] + p[2] for p in points]}
+        return found
+
+    def mu_on(study, key):
+        return {row["cells"]: row["mu_M"] for row in rows.get((study, key), []) if row.get("mu_M") is not None}
     mu = {"label": "~{μ}_{M}"}
-    across = []
+    across, differences = [], []
     for study, name, keys in [("breadth", f"~{{P}}/~{{E}} = {p:g}", [f"{w:g}, P {p:g}" for w in BREADTHS]) for p in PRESSURES] + [
             ("small rod", "~{P}/~{E} = 0.006, rod ~{H}/10 broad", [f"{w:g}" for w in BREADTHS])]:
-        found = [(w, with_bar(rows.get((study, key), []), "mu_M")) for w, key in zip(BREADTHS, keys)]
-        found = [(w, f) for w, f in found if f]
-        if found:
-            across.append(series(len(across), name, [w for w, _ in found], [f for _, f in found]))
-    plots = {"papers-breadth": {"x": {"label": "~{W}/~{H}", "scale": "log", "range": [0.4, 2.5]}, "y": mu, "series": across}}
+        beside = 1 + 0.03 * (len(across) - 2)   # so that bars do not hide each other
+        found = [(w * beside, *bar) for w, key in zip(BREADTHS, keys) if (bar := with_bar(rows.get((study, key), []), "mu_M"))]
+        across.append(series(len(across), name, found))
+        narrow, broad = mu_on(study, keys[0]), mu_on(study, keys[-1])
+        differences.append(series(len(differences), name, [(cells, broad[cells] - narrow[cells]) for cells in sorted(narrow.keys() & broad.keys())]))
     kinds = {}
-    for area, value, bar, study, _ in points(rows):
-        kinds.setdefault(study, []).append((area, value, bar))
-    plots["papers-area"] = {"x": {"label": "~{A}_{c}/~{A}"}, "y": mu, "series": [
-        series(k, study, [p[0] for p in at], [p[1:] for p in at]) | {"line": "none"} for k, (study, at) in enumerate(kinds.items())]}
+    for area, *value, study, key in points(rows):
+        kinds.setdefault("rod over the face, or low" if study == "rod" else " ".join([study, key.split()[0]]) if study == "grooves" else study, []).append((area, *value))
+    cells = {"label": "cells to ~{H} at the contact", "scale": "log", "range": [7, 45]}
+    plots = {"papers-breadth": {"x": {"label": "~{W}/~{H}", "scale": "log", "range": [0.4, 2.5]}, "y": mu, "series": across},
+             "papers-cells": {"x": cells, "y": {"label": "~{μ}_{M}: ~{W}/~{H} = 2 less 0.5"},
+                              "series": differences[:-1] + [{"x": [7, 45], "y": [0, 0], "line": "dashed", "color": 0}]},
+             "papers-area": {"x": {"label": "~{A}_{c}/~{A}"}, "y": mu,
+                             "series": [series(k, kind, at) | {"line": "none"} for k, (kind, at) in enumerate(kinds.items())]}}
     for name, plot in plots.items():
         path = folder / f"{name}.yaml"
         path.write_text(json.dumps(plot, ensure_ascii=False))
@@ -230,17 +269,28 @@ def draw(rows, folder):
 def page(rows, words):
     parts = [f"""# The papers of 2023 and 2024, in space
 
-`validation/space/papers.py` ([script](papers.py), [scene](papers.yaml), [every run](papers.jsonl)). Parameters as corrected in 2024; lengths over H. Of the meshes of
-{MESHES[0]} to {MESHES[-1]} cells to the height a point is run on as many as its time allowed (`--seconds`, `--cells`; the column `finest`); its bar is that of the program's rule on these
-meshes. Their cells are H/40, their steps 1e-6. From {GRADED_FROM} cells on only those at the contact are so small: rows get higher towards the top, the last {GRADE} times
-the first ([what that changes](#even-rows-wh-with-rows-of-one-height-at-lh--1-and-pe--0006)). What we have of the papers are abstracts and captions: statements are judged, no number of a figure could be read.
-Where and how broad their rod is is not known to us: a strip H/10 wide at half of the height over the whole breadth, but where a table says otherwise.
-s: processor time of all meshes of a point. What it means: [README.md](README.md#the-papers-of-2023-and-2024)."""]
+`validation/space/papers.py` ([script](papers.py), [scene](papers.yaml) with all parameters, [every run](papers.jsonl)). What the numbers mean for the papers' statements:
+[README.md](README.md#the-papers-of-2023-and-2024).
+
+- **Parameters** as corrected in 2024; lengths over H, P and stress over E. The rod is a strip H/10 wide at half of the height, over the whole breadth, but where a table says otherwise:
+  where and how broad theirs is is not known to us. Of the papers we have abstracts and captions: statements are judged, no number of a figure could be read.
+- **mu_M** is the mean of the peaks of F_T/F_N before bulk slidings, the first loading left out (how many peaks: last column but one); ± is the bar of the program's rule
+  ([accuracy](../../docs/accuracy.md)), 95 %, on these meshes, one run each: the value for infinitely small cells lies within.
+- **Meshes** of {", ".join(map(str, MESHES))} cells to the height, up to what time allowed (`--seconds`, `--points`; papers.jsonl says how long each took). Theirs have 40, and explicit steps
+  of 1e-6. From {GRADED_FROM} cells on only those at the contact are so small: rows get higher towards the top, the last {GRADE} times the first
+  ([what that changes](#even-rows-wh-with-rows-of-one-height-at-lh--1-and-pe--0006)). A mesh's own value is off by some 1 %.
+- **A_c/A** and **l_c/L**: the part of the contact that has slipped, and how far the front has come, when slow slip turns fast; **cells that slip** is the length of the slipping part in
+  cells. All three on the finest mesh; below {RESOLVED} cells slip is not resolved.
+- s: processor time of all meshes of a point.
+- All computed by version {", ".join(sorted({row["version"] for have in rows.values() for row in have if "version" in row}))}. A call computes only what papers.jsonl lacks: `-o` an empty folder computes all anew."""]
     for study, (title, _) in STUDIES.items():
         parts.append(f"## {study.capitalize()}: {title}\n\n{table_of(study, rows)}\n\n{verdicts(study, rows)}")
         if study == "breadth":
-            parts.append("![mu_M against breadth at four pressures](papers-breadth.png)")
+            parts += ["![mu_M against breadth at four pressures, and pushed by a small rod](papers-breadth.png)",
+                      "What breadth changes on meshes of the same cells, a rod over the whole breadth:\n\n"
+                      "![mu_M of W/H = 2 less that of 0.5 against cells, at four pressures](papers-cells.png)"]
     parts.append(f"## Even rows: {RUNS['even rows'][0]}\n\n{graded_or_not(rows)}")
+    parts.append(f"## Did bars hold?\n\nOf points with three and more meshes from {1.5 * CHECKED:.0f} cells on: a bar by the meshes to {CHECKED} cells, against the mean of those.\n\n{bars_checked(rows)}")
     lines = [[f"{area:.2f}", f"{value:.3f} ± {bar:.3f}", f"{study} {key}"] for area, value, bar, study, key in sorted(points(rows))]
     parts.append("## mu_M against A_c/A\n\nIn order of the area that slips before bulk sliding, on the finest mesh.\n\n![mu_M against the critical area](papers-area.png)\n\n"
                  + markdown_table(["A_c/A", "mu_M", "point"], lines))
