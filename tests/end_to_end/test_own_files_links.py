@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Results, sweeps and pages that somebody sent: a link in them, or a name that their files give, leads to no file of the
+user's, neither to be written nor to be read (src/io/files/folder.h). The folder of a result itself may be a link."""
+import csv
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+SOURCE = Path(os.environ["AMONTONS_SOURCE"])
+sys.path.insert(0, str(SOURCE / "validation/hostile"))
+import cases  # noqa: E402
+from sanitizer_fixture import preload  # noqa: E402
+
+PROGRAM = Path(os.environ["AMONTONS_BIN"], "amontons")
+LIST = "amontons.files"
+SECRET = "machine example.org login me password hunter2"
+SCENE = cases.SCENE.replace("history: true", "history: false")
+INPUTS = {"scene.yaml": cases.SCENE.replace("figures: []", "figures: [force]\n  fields: {every_U: 4e-4}"), "plain.yaml": SCENE,
+          "study.yaml": cases.STUDY.replace("scene.yaml", "plain.yaml") + "plot: {x: load.pressure, y: results.mu_max, compare: seen.csv}\n",
+          "table.yaml": cases.STUDY.replace("scene.yaml", "plain.yaml") + "keep: table\n",
+          "seen.csv": "load.pressure,results.mu_max\n0.0035,0.3\n", "block.geo": cases.ROOT / "meshes/block.geo"}
+RUN = ["run", "scene.yaml", "-o", "out", "-q"]
+SWEEP = ["sweep", "study.yaml", "-o", "many", "-q"]
+TABLE = ["sweep", "table.yaml", "-o", "table", "-q"]
+IS_LINK = "is a symbolic link, and inside of a result none is followed"
+
+
+class Links(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.stock = Path(tempfile.mkdtemp(prefix="amontons_links_"))
+        cases.put(cls.stock, INPUTS)
+        cls.cache = {"AMONTONS_CACHE": str(cls.stock / "cache")}
+        for words in (RUN, SWEEP):
+            cls.words(cls.stock, *words)
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.stock)
+
+    @classmethod
+    def words(cls, folder, *words, status=0):
+        done = subprocess.run([PROGRAM, *words], cwd=folder, env=os.environ | cls.cache, stdin=subprocess.DEVNULL,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=120)
+        if done.returncode != status:
+            raise AssertionError(f"{words}: {done.returncode}: {done.stdout}")
+        return done.stdout
+
+    def setUp(self):
+        self.folder = Path(tempfile.mkdtemp(prefix="amontons_links_"))
+        self.addCleanup(shutil.rmtree, self.folder)
+        shutil.copytree(self.stock, self.folder, dirs_exist_ok=True, ignore=shutil.ignore_patterns("cache"))
+        self.home = self.folder / "home"
+        cases.put(self.home, {"keys": "mine", "netrc": SECRET + "\n", "run.json": '{"name": "mine"}', "force.png": "mine",
+                              "force.csv": "mine", "share-0.points": "mine", LIST: "# a list\nrun.json\nforce.png\nforce.csv\nkeys\n"})
+        self.before = self.at_home()
+
+    def at_home(self):
+        return {path.relative_to(self.home): path.read_bytes() for path in self.home.rglob("*") if path.is_file()}
+
+    def refused(self, *words, says=IS_LINK):
+        """The command ends with status 2 and says why; the user's folder is as it was."""
+        done = subprocess.run([PROGRAM, *words], cwd=self.folder, env=os.environ | self.cache, stdin=subprocess.DEVNULL,
+                              capture_output=True, text=True, timeout=120)
+        self.assertEqual(self.at_home(), self.before, words)
+        self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
+        self.assertIn(says, done.stderr)
+
+    def linked(self, name, target=None):
+        """A link in the place of `name`."""
+        path = self.folder / name
+        if path.is_dir() and not path.is_symlink():
+            shutil.rmtree(path)
+        path.unlink(missing_ok=True)
+        path.symlink_to(target or self.home)
+
+    def test_files_set_aside_are_put_back_inside(self):
+        """The first command of whoever was sent a scene with its result beside it."""
+        cases.put(self.folder, {"scene-result/amontons.aside/d/keys": "theirs", f"scene-result/amontons.aside/{LIST}": "d/keys\n"})
+        self.linked("scene-result/d")
+        self.refused("run", "scene.yaml", "-q")
+
+    def test_a_folder_that_is_a_link_serves_as_before(self):
+        """results -> /big/disk/results: run, again, pictures, page, sweep, again."""
+        for name in ("out", "many"):
+            shutil.rmtree(self.folder / name)
+            (self.folder / f"disk/{name}").mkdir(parents=True)
+            (self.folder / name).symlink_to(f"disk/{name}")
+        for words in (RUN, [*RUN, "--overwrite"], ["render", "out"], ["report", "out"], ["report", "out"], ["info", "out"], SWEEP,
+                      [*SWEEP, "--fresh"], ["render", "many"], ["report", "many"], ["report", "many"]):
+            self.words(self.folder, *words)
+        self.assertTrue((self.folder / "disk/out/figures/force.png").is_file())
+        for words in (RUN, [*RUN, "--overwrite"]):
+            self.words(self.folder, *words, status=2 if words is RUN else 0)
+        (self.folder / "project").symlink_to(self.folder / "disk")
+        self.words(self.folder, "run", "scene.yaml", "-o", "project/out", "-q", "--overwrite")
+
+
+if __name__ == "__main__":
+    unittest.main()
