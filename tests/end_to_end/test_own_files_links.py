@@ -85,6 +85,21 @@ class Links(unittest.TestCase):
         self.linked("scene-result/d")
         self.refused("run", "scene.yaml", "-q")
 
+    def test_figures_and_fields_are_made_inside(self):
+        for name, words in (("figures", ["render", "out"]), ("figures", ["render", "out", "--figure", "force", "--overwrite"]),
+                            ("figures", [*RUN, "--overwrite"]), ("fields", [*RUN, "--overwrite"]), ("figures", ["compare", "out", "seen.csv"])):
+            with self.subTest(name=name, words=words[:2]):
+                shutil.rmtree(self.folder / "out")
+                shutil.copytree(self.stock / "out", self.folder / "out")
+                self.linked(f"out/{name}")
+                if words[0] == "compare":
+                    (self.folder / "seen.csv").write_text("U,F_T/F_N\n4e-4,0.1\n")
+                self.refused(*words)
+        shutil.copy(self.folder / "many/figures/plot.json", self.home)   # of a sweep each is drawn beside itself
+        self.before = self.at_home()
+        self.linked("many/figures")
+        self.refused("render", "many")
+
     def test_a_folder_that_is_a_link_serves_as_before(self):
         """results -> /big/disk/results: run, again, pictures, page, sweep, again."""
         for name in ("out", "many"):
