@@ -100,6 +100,31 @@ class Links(unittest.TestCase):
         self.linked("many/figures")
         self.refused("render", "many")
 
+    def test_folders_of_a_sweep_lie_inside(self):
+        point = next((self.folder / "many/points").iterdir()).name
+        for name in ("points", f"points/{point}", "figures", "slurm"):
+            for more in ([], ["--fresh"], ["--retry"]):
+                with self.subTest(name=name, more=more):
+                    shutil.rmtree(self.folder / "many")
+                    shutil.copytree(self.stock / "many", self.folder / "many")
+                    self.linked(f"many/{name}")
+                    if name == "points":
+                        shutil.copytree(self.stock / f"many/points/{point}", self.home / point, dirs_exist_ok=True)
+                        self.before = self.at_home()
+                    self.refused(*SWEEP, *more)
+        self.linked("many/slurm")
+        self.refused("sweep", "table.yaml", "-o", "many", "-q")   # which looks for shares, and removes them
+
+    def test_a_point_of_somebodys_is_not_removed(self):
+        """A run.json that no list has, in the place of a point's."""
+        path = next((self.folder / "many/points").iterdir()) / "run.json"
+        (path.parent / LIST).write_text("# nothing\n")
+        path.write_text('{"name": "mine"}')
+        for more in ([], ["--fresh"]):
+            said = self.words(self.folder, *SWEEP, *more, status=2)
+            self.assertIn("is not in the list of what amontons wrote", said)
+            self.assertEqual(path.read_text(), '{"name": "mine"}')
+
     def test_a_folder_that_is_a_link_serves_as_before(self):
         """results -> /big/disk/results: run, again, pictures, page, sweep, again."""
         for name in ("out", "many"):
