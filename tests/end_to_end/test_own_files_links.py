@@ -125,6 +125,76 @@ class Links(unittest.TestCase):
             self.assertIn("is not in the list of what amontons wrote", said)
             self.assertEqual(path.read_text(), '{"name": "mine"}')
 
+    def test_pages_show_nothing_from_outside(self):
+        """Links in the places of all that the page of a sweep, or of a run, reads."""
+        for name in ("answer.txt", "sweep.csv", "sweep.h5", "ranking.csv", "figures/best.png", "figures"):
+            with self.subTest(name):
+                shutil.rmtree(self.folder / "many")
+                shutil.copytree(self.stock / "many", self.folder / "many")
+                if name == "figures/best.png":
+                    (self.folder / "many/answer.txt").write_text("best")
+                self.linked(f"many/{name}", None if name == "figures" else self.home / "netrc")
+                self.refused("report", "many")
+                self.assertFalse((self.folder / "many/report.html").exists())
+        for name in ("run.json", "history.h5", "fields", "fields.pvd"):
+            self.linked(f"out/{name}", self.home if name == "fields" else self.home / "netrc")
+            self.refused("report", "out")
+            (self.folder / "out" / name).unlink()
+
+    def test_a_figure_of_a_page_lies_inside(self):
+        self.linked("many/figures/a.json", self.home / "netrc")
+        self.words(self.folder, "report", "many")
+        page = (self.folder / "many/report.html").read_text()
+        self.assertNotIn("hunter2", page)
+        self.assertIn("figures/a.json is a symbolic link", page)
+
+    def test_tables_of_a_figure_lie_inside(self):
+        """Absolute, above the folder, and through a link; that of the sweep is drawn."""
+        shutil.copy(self.folder / "many/sweep.h5", self.home / "own.h5")
+        self.linked("many/near.h5", self.home / "own.h5")
+        column = "result/results.mu_max"
+        for table, good in (("../sweep.h5", True), (str(self.home / "own.h5"), False), ("../../home/own.h5", False), ("../near.h5", False)):
+            with self.subTest(table):
+                data = f"{table}:{column}"
+                (self.folder / "many/figures/plot.json").write_text(json.dumps({"x": {"label": "a"}, "y": {"label": "b"}, "series": [{"x": data, "y": data}]}))
+                self.words(self.folder, "report", "many", "--overwrite")
+                page = (self.folder / "many/report.html").read_text()
+                self.assertEqual("leads out of" in page or "is a symbolic link" in page, not good)
+                self.assertEqual("The points of the sweep." in page, good)
+        (self.folder / "plot.yaml").write_text(f"x: {{label: a}}\ny: {{label: b}}\nseries: [{{x: 'home/own.h5:{column}', y: 'home/own.h5:{column}'}}]\n")
+        self.words(self.folder, "render", "plot.yaml")   # a file that the user names may name any
+
+    def test_measurements_of_a_sweep_stay_in_its_page(self):
+        """They lie where the study has them; a page takes them from beside the figure, or says that it has none."""
+        self.words(self.folder, "report", "many")
+        page = (self.folder / "many/report.html").read_text()
+        self.assertNotIn("Without the measurements", page)
+        (self.folder / "many/figures/plot-compared.csv").unlink()
+        self.words(self.folder, "report", "many", "--overwrite")
+        less = (self.folder / "many/report.html").read_text()
+        self.assertRegex(less, "Without the measurements many/figures/[./]*/seen.csv")
+        self.assertLess(len(less), len(page))
+
+    def test_the_run_of_a_page_lies_inside(self):
+        cases.put(self.folder, {"private/run/run.json": (self.folder / "out/run.json").read_text().replace("Hostile", SECRET)})
+        path = self.folder / "many/sweep.csv"
+        rows = list(csv.reader(path.read_text().splitlines()))
+        for run in ("../private/run", str(self.folder / "private/run")):
+            for row in rows[1:]:
+                row[rows[0].index("run")] = run
+            with open(path, "w", newline="") as file:
+                csv.writer(file).writerows(rows)
+            self.refused("report", "many", says="leads out of")
+
+    def test_what_else_reads_a_result(self):
+        self.linked("out/run.json", self.home / "netrc")
+        self.refused("info", "out")
+        self.linked("out/history.h5", self.home / "netrc")
+        for words in (["render", "out"], ["film", "out", "--seconds", "0.1"]):
+            self.refused(*words)
+        self.linked("many/sweep.h5", self.home / "netrc")
+        self.refused("render", "many", "--plot", "{x: load.pressure, y: results.mu_max, name: two}")
+
     def test_a_folder_that_is_a_link_serves_as_before(self):
         """results -> /big/disk/results: run, again, pictures, page, sweep, again."""
         for name in ("out", "many"):
