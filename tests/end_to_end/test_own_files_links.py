@@ -210,6 +210,30 @@ class Links(unittest.TestCase):
         (self.folder / "project").symlink_to(self.folder / "disk")
         self.words(self.folder, "run", "scene.yaml", "-o", "project/out", "-q", "--overwrite")
 
+    def test_notebooks_show_nothing_from_outside(self):
+        pictures = self.folder / "out/figures"
+        script = "import amontons, sys\nresult = amontons.open_result('out')\n" + "{}\n"
+
+        def python(line):
+            env = os.environ | {"PYTHONPATH": str(PROGRAM.resolve().parent.parent / "python")} | preload(PROGRAM.parent / "libamontons.so")
+            return subprocess.run([sys.executable, "-c", script.format(line)], cwd=self.folder, env=env, capture_output=True, text=True)
+
+        show = "print(result._repr_html_().count('<img'), result._repr_png_())"
+        self.assertTrue(python(show).stdout.startswith("1 b'"), python(show).stderr)
+        self.linked("out/figures/force.png", self.home / "netrc")
+        self.assertEqual(python(show).stdout, "0 None\n")
+        shutil.copytree(self.stock / "out/figures", self.home / "figures")
+        shutil.rmtree(pictures)
+        pictures.symlink_to(self.home / "figures")
+        self.assertEqual(python(show).stdout, "0 None\n")
+        self.assertIn("bulk_000000.vtu", python("print(result.fields[0].bulk)").stdout)
+        for name in ("../home/bulk.vtu", str(self.home / "bulk.vtu")):
+            (self.folder / "out/fields.pvd").write_text(f'<VTKFile><DataSet timestep="0" file="{name}"/></VTKFile>')
+            self.assertIn("leads out of out", python("result.fields").stderr)
+        for name, line in (("run.json", "result.report"), ("history.h5", "result.history"), ("fields.pvd", "result.fields")):
+            self.linked(f"out/{name}", self.home / "netrc")
+            self.assertIn(IS_LINK, python(line).stderr)
+
 
 if __name__ == "__main__":
     unittest.main()
