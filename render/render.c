@@ -123,10 +123,7 @@ __attribute__((visibility("default"))) bool amontons_render(const char *folder,
     TRY(check_compare(request, &view, err));
     if (request->style.line) TRY(result_view_choose_line(&view, request->style.line, err));
     if (request->style.cycle) TRY(zoom_choose_cycle(&view, request->style.cycle, err));
-    char figures[PATH_MAX];   // folder of the pictures
-    int length = snprintf(figures, sizeof figures, "%s/figures", folder);
-    TRY((length >= 0 && length < PATH_MAX) || REFUSE(err, "the result folder's path is too long"));
-    TRY(folder_make(figures, err));
+    TRY(folder_make_inside(folder, "figures", err));
     for (int32_t k = 0; k < picture_count(request); ++k) {
         bool drawn = true;
         TRY(find_picture(request, k, &picture, err));

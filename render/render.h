@@ -59,10 +59,12 @@ typedef bool (*RenderFiguresFunction)(const char *folder, const char *cycle, Tex
                                       Error *err);
 bool amontons_render_figures(const char *folder, const char *cycle, TextWriter *html, Error *err);
 
-// The same of a plot that a file describes; `caption` is ours, without markup.
-typedef bool (*RenderPlotHtmlFunction)(const char *plot, const char *caption, TextWriter *html,
-                                       Error *err);
-bool amontons_render_plot_html(const char *plot, const char *caption, TextWriter *html, Error *err);
+// The same of a plot that the file `name` inside of the result `folder` describes
+// (plot_file_read_inside); `caption` is ours, without markup.
+typedef bool (*RenderPlotHtmlFunction)(const char *folder, const char *name, const char *caption,
+                                       TextWriter *html, Error *err);
+bool amontons_render_plot_html(const char *folder, const char *name, const char *caption,
+                               TextWriter *html, Error *err);
 
 enum { RENDER_FRAMES_MAX = 40, RENDER_CURVES_MAX = 8 };
 

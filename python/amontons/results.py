@@ -6,7 +6,7 @@ import ctypes
 import json
 import xml.etree.ElementTree
 from collections.abc import Iterator, Mapping
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -23,6 +23,20 @@ _NUMBERS = ("mu_M", "mu_hold", "mu_max", "l_c_over_L")
 # Components of a probe's values by how many these are: a vector has as many as there are axes, a strain 3 in the plane.
 _VECTORS = {2: ("x", "z"), 3: ("x", "y", "z")}
 _STRAINS = {3: ("xx", "zz", "xz"), 6: ("xx", "yy", "zz", "xy", "yz", "xz")}
+
+
+def _inside(folder: Path, name: str) -> Path:
+    """The path of a file in a result folder, which somebody may have sent; ValueError where a link leads out of it, or a
+    name that one of its files gives. The folder itself may be a link."""
+    parts, path = PurePosixPath(name).parts, folder
+    if name.startswith("/") or ".." in parts:
+        raise ValueError(f"{name} leads out of {folder}, whose files name it: only what lies inside is read")
+    for part in parts:
+        path = path / part
+        if path.is_symlink():
+            raise ValueError(f"{path} is a symbolic link, and inside of a result none is followed: put in its place what it leads "
+                             "to, or move it away")
+    return path
 
 
 def _open_arrays(path: Path) -> Any:
@@ -155,26 +169,26 @@ class Result:
     @property
     def report(self) -> dict[str, Any]:
         """All of run.json; docs/results.md says what it holds."""
-        path = self.folder / "run.json"
+        path = _inside(self.folder, "run.json")
         return json.loads(path.read_text()) if path.is_file() else {}
 
     @property
     def history(self) -> History:
         """Every accepted step; opened when first asked for."""
         if self._history is None:
-            path = self.folder / "history.h5"
-            self._history = History(path if path.is_file() else path.with_suffix(".h5.part"))
+            path = _inside(self.folder, "history.h5")
+            self._history = History(path if path.is_file() else _inside(self.folder, "history.h5.part"))
         return self._history
 
     @property
     def fields(self) -> list[Field]:
         """The times at which output.fields wrote the whole block."""
-        path = self.folder / "fields.pvd"
+        path = _inside(self.folder, "fields.pvd")
         if not path.is_file():
             return []
         times: dict[float, dict[str, Path]] = {}
         for entry in xml.etree.ElementTree.parse(path).iter("DataSet"):
-            file = self.folder / entry.attrib["file"]
+            file = _inside(self.folder, entry.attrib["file"])
             times.setdefault(float(entry.attrib["timestep"]), {})[file.suffix] = file
         return [Field(t, files[".vtu"], files.get(".vtp")) for t, files in sorted(times.items())]
 
@@ -190,8 +204,12 @@ class Result:
         return _pandas().DataFrame(self.report.get("results", {}).get(table) or [])
 
     def _pictures(self) -> list[Path]:
-        found = {path.stem: path for path in sorted((self.folder / "figures").glob("*.png"))}
-        return [found[name] for name in _SHOWN if name in found]
+        """Those that it has drawn; what is no file in its own folder of figures is none of them."""
+        figures = self.folder / "figures"
+        if figures.is_symlink():
+            return []
+        paths = (figures / f"{name}.png" for name in _SHOWN)
+        return [path for path in paths if path.is_file() and not path.is_symlink()]
 
     def _repr_png_(self) -> bytes | None:
         """The first of its pictures; a run that has drawn none has no picture."""

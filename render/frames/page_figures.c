@@ -96,14 +96,22 @@ static bool draw_plot(void *context, const PictureStyle *style, Page *page, Erro
     return plot_draw(page, context, style, NULL, err);
 }
 
-__attribute__((visibility("default"))) bool
-amontons_render_plot_html(const char *path, const char *caption, TextWriter *html, Error *err)
+__attribute__((visibility("default"))) bool amontons_render_plot_html(const char *folder,
+                                                                      const char *name,
+                                                                      const char *caption,
+                                                                      TextWriter *html, Error *err)
 {
     Plot *plot = NEW_ARRAY(Plot, 1, err);
     TRY(plot);
-    TRY(plot_file_read(path, plot, err));
+    TRY(plot_file_read_inside(folder, name, plot, err));
     const Drawing drawing = {draw_plot, plot, "svg", caption, caption};
     TRY(write_figure(html, &drawing, err));
+    if (plot->left_out) {
+        html_markup(html, "<p class='note'>Without the measurements ");
+        html_text(html, plot->left_out);
+        html_markup(html, ", which lie outside of the result, where a page reads nothing; "
+                          "<code>amontons render</code> draws them.</p>\n");
+    }
 cleanup:
     if (plot) plot_destroy(plot);
     memory_free(plot);

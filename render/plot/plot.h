@@ -63,6 +63,8 @@ typedef struct Plot {
     double height_over_width;
     PictureStyle style;   // what its `page` says; texts in `words`
     char words[PLOT_WORDS][PLOT_WORD_SIZE];   // [word_count]
+    char measured[PLOT_LABEL_SIZE];   // name of the measurements in the legend; empty: their file's
+    const char *left_out;   // measurements that the plot must not read, among `words`; NULL: none
     int32_t word_count;
     char column[2][PLOT_LABEL_SIZE];   // of a table of measurements: those of x and y; may be empty
     PlotPanel main;

@@ -249,7 +249,8 @@ static bool compare_draw(Plot *plot, const char *path, Error *err)
 
     // Name of the file and misfit, where there is one curve.
     const char *slash = strrchr(path, '/');
-    int length = snprintf(series->label, sizeof series->label, "%.40s", slash ? slash + 1 : path);
+    const char *name = plot->measured[0] ? plot->measured : slash ? slash + 1 : path;
+    int length = snprintf(series->label, sizeof series->label, "%.40s", name);
     if (curve) {
         double sum = 0, parts = 0;
         int32_t count = 0;

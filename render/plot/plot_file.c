@@ -5,6 +5,7 @@
 #include "render/plot/plot_file.h"
 
 #include "base/memory.h"
+#include "io/files/folder.h"
 #include "io/hdf5/array_file.h"
 #include "io/text/yaml_document.h"
 #include "render/picture_options.h"
@@ -15,6 +16,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 enum { UNIT_SIZE = 16 };
 
@@ -29,6 +31,7 @@ static const char *const SCALES[] = {"linear", "log", NULL};
 typedef struct PlotReader {
     YamlDocument *file;   // owned
     const char *path;   // of the file: names of tables are seen from its folder
+    const char *root;   // the path's beginning, inside of which all tables must lie; NULL: anywhere
     Error *err;
 } PlotReader;
 
@@ -122,6 +125,16 @@ static bool read_numbers(const PlotReader *reader, YamlNode list, const char *wh
     return true;
 }
 
+// Checks that a file that the plot names may be opened; `path` is that of the plot's folder and the
+// name, or the name where it is absolute.
+static bool check_place(const PlotReader *reader, const char *path, Error *err)
+{
+    if (!reader->root) return true;
+    size_t length = strlen(reader->root);
+    bool below = strncmp(path, reader->root, length) == 0 && path[length] == '/';
+    return folder_check_inside(reader->root, below ? path + length + 1 : path, err);
+}
+
 // The column of a table: "../sweep.h5:result/mu_M", as seen from the plot's folder.
 static bool read_column(const PlotReader *reader, const char *place, int32_t *count,
                         double **values)
@@ -136,6 +149,7 @@ static bool read_column(const PlotReader *reader, const char *place, int32_t *co
     if (snprintf(path, sizeof path, "%.*s%.*s", folder, reader->path, (int)(colon - place),
                  place) >= (int)sizeof path)
         FAIL(err, ERROR_INPUT, "the path of a table is too long");
+    TRY(check_place(reader, path, err));
     TRY(file = array_file_open(path, err));
     TRY(array_file_read(file, colon + 1, values, &rows, &width, err));
     if (width != 1 || rows > INT32_MAX || (*count >= 0 && rows != *count))
@@ -329,11 +343,27 @@ static bool read_page(const PlotReader *reader, Plot *plot)
 
         // A file is named as seen from the plot's folder.
         const char *text = yaml_text(reader->file, item), *slash = strrchr(reader->path, '/');
-        bool beside = strcmp(yaml_key(reader->file, item), "compare") == 0 && text[0] != '/' &&
-                      slash;
+        bool measured = strcmp(yaml_key(reader->file, item), "compare") == 0;
+        bool beside = measured && text[0] != '/' && slash;
         snprintf(word, PLOT_WORD_SIZE, "%.*s%s", beside ? (int)(slash - reader->path) + 1 : 0,
                  reader->path, text);
 
+        if (measured && !check_place(reader, word, &why)) {
+            // Measurements lie where their user has them, and PICTURE-compared.csv, which was
+            // written with the picture, has the same ones.
+            char file[PLOT_WORD_SIZE];
+            const char *dot = strrchr(reader->path, '.');
+            int length = snprintf(file, sizeof file, "%.*s-compared.csv",
+                                  dot > slash ? (int)(dot - reader->path) : 0, reader->path);
+            error_clear(&why);
+            if (length >= (int)sizeof file || access(file, R_OK) != 0 ||
+                !check_place(reader, file, &why)) {
+                plot->left_out = word;
+                continue;
+            }
+            snprintf(plot->measured, sizeof plot->measured, "%s", strrchr(word, '/') + 1);
+            memcpy(word, file, (size_t)length + 1);
+        }
         if (picture_option_set(&plot->style, yaml_key(reader->file, item), word, &why)) continue;
         yaml_error(reader->file, item, reader->err, "page: %s", why.message);
         return false;
@@ -507,9 +537,9 @@ static bool read_unit(const PlotReader *reader, YamlNode panel, const char *name
 }
 
 // plot is half filled after a failure: plot_destroy frees it.
-bool plot_file_read(const char *path, Plot *plot, Error *err)
+static bool read_file(const char *path, const char *root, Plot *plot, Error *err)
 {
-    PlotReader reader = {.path = path, .err = err};
+    PlotReader reader = {.path = path, .root = root, .err = err};
     *plot = (Plot){0};
     TRY(yaml_read(path, &reader.file, err));
     TRY(read_plot(&reader, plot));
@@ -532,6 +562,20 @@ bool plot_file_read(const char *path, Plot *plot, Error *err)
 cleanup:
     yaml_destroy(reader.file);
     return error_is_clean(err);
+}
+
+bool plot_file_read(const char *path, Plot *plot, Error *err)
+{
+    return read_file(path, NULL, plot, err);
+}
+
+bool plot_file_read_inside(const char *root, const char *name, Plot *plot, Error *err)
+{
+    char path[PATH_MAX];
+    *plot = (Plot){0};
+    if (snprintf(path, sizeof path, "%s/%s", root, name) >= (int)sizeof path)
+        return REFUSE(err, "the path of a plot is too long");
+    return folder_check_inside(root, name, err) && read_file(path, root, plot, err);
 }
 
 static void panel_destroy(PlotPanel *panel)

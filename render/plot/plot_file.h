@@ -48,6 +48,11 @@
 // ERROR_INPUT gives file:line:column, the key and what is allowed.
 bool plot_file_read(const char *path, Plot *plot, Error *err);
 
+// The same of the file `name` inside of the folder `root`, which may be a stranger's: neither it
+// nor its tables may lie elsewhere (io/files/folder). Measurements that lie elsewhere are read
+// from NAME-compared.csv beside it, or left out: plot->left_out.
+bool plot_file_read_inside(const char *root, const char *name, Plot *plot, Error *err);
+
 void plot_destroy(Plot *plot);   // zeroed is fine
 
 #endif

@@ -5,6 +5,7 @@
 #include "render/view/block.h"
 
 #include "base/memory.h"
+#include "io/files/folder.h"
 #include "io/mesh/shape_functions.h"
 
 #include <limits.h>
@@ -243,6 +244,7 @@ bool block_read(const BlockSource *source, int32_t index, Block *block, Error *e
     *block = (Block){.t = source->times[index].t, .row = source->row[index]};
     block->U = source->view->U[block->row];
     snprintf(path, sizeof path, "%s/%s", source->folder, source->times[index].file);
+    TRY(folder_check_inside(source->folder, source->times[index].file, err));
     TRY(field_frame_read(path, &block->frame, err));
     if (source->depth > 0) TRY(field_frame_crop(&block->frame, source->depth, err));
     TRY(block->value = NEW_ARRAY(double, block->frame.node_count, err));

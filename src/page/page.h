@@ -34,7 +34,8 @@ bool run_warning(const RunSource *source, int32_t k, char *words, int32_t size);
 // Number of events of this kind, "leading rapid".
 int32_t run_events(const RunSource *source, const char *kind);
 
-// True if `folder` holds `name`; the path, where one is wanted, has PATH_MAX bytes.
+// True if `folder` holds `name`, and no link leads there; the path, where one is wanted, has
+// PATH_MAX bytes.
 bool folder_holds(const char *folder, const char *name, char *path);
 // The last part of a path: "fig1" of "results/fig1/".
 void folder_name(const char *folder, char name[RUN_NAME_SIZE]);

@@ -4,6 +4,7 @@
 
 #include "base/child_process.h"
 #include "base/decimal_point.h"
+#include "io/files/folder.h"
 #include "io/files/open_file.h"
 #include "io/files/part_file.h"
 #include "render/picture_options.h"
@@ -24,11 +25,19 @@ static bool write_file(void *context, FILE *reply, Error *err)
 {
     const ReportRequest *request = context;
     TextWriter *html = NULL;
+
+    // All that a page reads of a folder; the figures of a sweep are looked at one by one.
+    static const char *const read[] = {
+        "sweep.csv",  "sweep.h5",         "ranking.csv", "answer.txt",
+        "figures",    "figures/best.png", "run.json",    "figures/accuracy.json",
+        "history.h5", "history.h5.part",  "fields.pvd",  "fields"};
     int32_t count = request->count;
     (void)reply;   // the page is a file
     for (int32_t k = 0; k < count; ++k) {
         const char *folder = request->results[k];
         TRY(pictures_check_folder(folder, err));
+        for (size_t i = 0; i < sizeof read / sizeof *read; ++i)
+            TRY(folder_check_inside(folder, read[i], err));
         if (count > 1 && folder_holds(folder, "sweep.csv", NULL))
             FAIL(err, ERROR_INPUT,
                  "%s is a sweep: only runs are compared; a sweep has its own page", folder);

@@ -32,18 +32,20 @@ static bool go_on_without(TextWriter *html, const char *what, Error *err)
 
 static bool write_figures(TextWriter *html, PageSource *source, Error *err)
 {
+    static const char name[] = "figures/accuracy.json";
     const char *folder = source->runs->folder;
-    char path[PATH_MAX];
     RenderFiguresFunction render =
         (RenderFiguresFunction)module_function("render", "amontons_render_figures", err);
     if (render) render(folder, source->cycle, html, err);
     if (!go_on_without(html, "figures", err)) return false;
 
     // Draw runs over contact nodes where an error bar was asked for.
-    if (!folder_holds(folder, "figures/accuracy.json", path)) return true;
+    if (!folder_holds(folder, name, NULL)) return true;
     RenderPlotHtmlFunction plot =
         (RenderPlotHtmlFunction)module_function("render", "amontons_render_plot_html", err);
-    if (plot) plot(path, "How the error bar was found: runs on finer and finer meshes.", html, err);
+    if (plot)
+        plot(folder, name, "How the error bar was found: runs on finer and finer meshes.", html,
+             err);
     return go_on_without(html, "figure of the error bar", err);
 }
 

@@ -2,6 +2,7 @@
 #include "page/page.h"
 
 #include "base/memory.h"
+#include "io/files/folder.h"
 #include "io/files/text_file.h"
 #include "io/text/json_reader.h"
 #include "run/result/result_folder.h"
@@ -17,7 +18,9 @@ enum { REPORT_BYTES_MAX = 1 << 28, WORD_SIZE = 40 };
 bool folder_holds(const char *folder, const char *name, char *path)
 {
     char here[PATH_MAX];
+    Error outside = {0};
     int length = snprintf(here, sizeof here, "%s/%s", folder, name);
+    if (!folder_check_inside(folder, name, &outside)) return false;
     if (length < 0 || length >= (int)sizeof here || access(here, R_OK) != 0) return false;
     if (path) memcpy(path, here, (size_t)length + 1);
     return true;

@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "base/module.h"
 #include "base/text.h"
+#include "io/files/folder.h"
 #include "io/files/text_file.h"
 #include "io/hdf5/array_file.h"
 #include "io/text/csv_reader.h"
@@ -86,6 +87,7 @@ static bool sweep_open(const char *folder, SweepSource *sweep, Error *err)
         sweep->done += done;
         if (!done || sweep->run.json) continue;
         snprintf(path, sizeof path, "%.200s", csv_cell(&sweep->table, row, run));
+        TRY(folder_check_inside(folder, path, err));
         if (!folder_holds(folder, path, NULL)) continue;   // `keep: table`
         snprintf(path, sizeof path, "%s/%.200s", folder, csv_cell(&sweep->table, row, run));
         TRY(run_source_open(path, &sweep->run, err));
@@ -142,11 +144,12 @@ static bool write_figures(TextWriter *html, PageSource *source, Error *err)
         Error here = {0};
         const char *name = sweep->figures[k]->d_name;
         bool ranking = strcmp(name, "ranking.json") == 0;
-        snprintf(path, sizeof path, "%s/figures/%s", sweep->folder, name);
+        snprintf(path, sizeof path, "figures/%s", name);
         snprintf(caption, sizeof caption, "%s",
                  ranking ? "The ranking. Bars: 95 %. Open marks: see the legend."
                          : "The points of the sweep. Bars: 95 %. Open marks: see the legend.");
-        if (!render(path, caption, html, &here)) sheet_box(html, "failure", here.message);
+        if (!render(sweep->folder, path, caption, html, &here))
+            sheet_box(html, "failure", here.message);
     }
     return error_is_clean(err);
 }

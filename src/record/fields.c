@@ -82,13 +82,11 @@ cleanup:
 bool fields_create(const FieldsDef *def, const char *folder, const Mesh *mesh,
                    const Interface *interface, Fields *fields, Error *err)
 {
-    char path[PATH_SIZE];
     *fields = (Fields){.def = *def, .folder = folder, .room = FIRST_ROOM};
     fields->next_U = fields->next_t = -INFINITY;   // the start is written in any case
     if (!field_files_create(mesh, interface, &fields->files, err)) return false;
     if (!(fields->times = NEW_ARRAY(double, FIRST_ROOM, err))) return false;
-    snprintf(path, sizeof path, "%s/fields", folder);
-    return folder_make(path, err);
+    return folder_make_inside(folder, "fields", err);
 }
 
 void fields_destroy(Fields *fields)

@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "base/module.h"
 #include "friction/friction.h"
+#include "io/files/folder.h"
 #include "io/files/open_file.h"
 #include "run/result/pictures.h"
 #include "run/warnings.h"
@@ -158,6 +159,9 @@ bool output_open(Simulation *simulation, Error *err)
     WindowDef def = window->def = scene_window(scene);
     const char *compared = scene->output.compare;   // not found out when all is computed
     if (*compared && !scene_blame(scene, "output.compare", open_check(compared, err), err))
+        return false;
+    if (scene->output.figures.count > 0 && simulation->folder.path[0] &&
+        !folder_check_inside(simulation->folder.path, "figures", err))
         return false;
     if (scene->output.history) {
         if (!open_history(simulation, err)) return false;

@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "base/module.h"
 #include "io/fields/field_file.h"
+#include "io/files/folder.h"
 #include "io/files/open_file.h"
 
 #include <errno.h>
@@ -28,6 +29,7 @@ bool field_times_read(const char *folder, FieldTime **times, int32_t *count, Err
         FAIL(err, ERROR_INPUT,
              "%s has no fields of the block (%s): a scene stores them with output.fields", folder,
              strerror(errno));
+    TRY(folder_check_inside(folder, "fields.pvd", err));
     TRY(list = open_stream(path, err));
     while (fgets(line, sizeof line, list)) {
         // A line as io/fields/field_file writes it; others name no block.

@@ -44,8 +44,9 @@ bool own_list_is_in(const char *folder)
 }
 
 // The folder whose list is asked about `path`: its own, or the one above that. Returns how that
-// list names the path, a part of `path`; NULL: neither has a list. A link between them leads
-// elsewhere.
+// list names the path, a part of `path`; NULL: neither has a list. The folder of a result may be a
+// link, and its list counts. A link in a folder that has a list leads elsewhere: no list counts
+// there, not even the one behind it.
 static const char *find_list(const char *path, char folder[PATH_SIZE])
 {
     struct stat status;
@@ -55,12 +56,17 @@ static const char *find_list(const char *path, char folder[PATH_SIZE])
         return !slash && own_list_is_in(folder) ? name : NULL;
     }
     snprintf(folder, PATH_SIZE, "%.*s", slash > path ? (int)(slash - path) : 1, path);
-    if (own_list_is_in(folder)) return name;
-    char *above = strrchr(folder, '/'), *last = above ? above + 1 : folder;
-    if (!is_a_name(last) || lstat(folder, &status) != 0 || S_ISLNK(status.st_mode)) return NULL;
-    name = path + (last - folder);
-    snprintf(folder, PATH_SIZE, "%.*s", above ? (int)(above - folder) + 1 : 1, above ? path : ".");
-    return own_list_is_in(folder) ? name : NULL;
+    bool own = own_list_is_in(folder);
+    char outer[PATH_SIZE], *above = strrchr(folder, '/'), *last = above ? above + 1 : folder;
+    bool link = lstat(folder, &status) == 0 && S_ISLNK(status.st_mode);
+    if (own && !link) return name;
+    const char *name_above = path + (last - folder);
+    snprintf(outer, sizeof outer, "%.*s", above ? (int)(above - folder) + 1 : 1,
+             above ? path : ".");
+    bool in_ours = is_a_name(last) && own_list_is_in(outer);
+    if (link) return own && !in_ours ? name : NULL;
+    memcpy(folder, outer, sizeof outer);
+    return in_ours ? name_above : NULL;
 }
 
 bool own_list_check(const char *folder, Error *err)

@@ -4,6 +4,7 @@
 #include "io/hdf5/result_file.h"
 
 #include "base/memory.h"
+#include "io/files/folder.h"
 
 #include <limits.h>
 #include <math.h>
@@ -248,7 +249,9 @@ bool result_file_write_table(ArrayFile *file, ResultTable table, const double *v
 ArrayFile *result_file_open(const char *folder, Error *err)
 {
     char path[PATH_MAX];
-    if (!history_path(folder, path, err)) return NULL;
+    if (!history_path(folder, path, err) || !folder_check_inside(folder, "history.h5", err) ||
+        !folder_check_inside(folder, "history.h5.part", err))
+        return NULL;
     ArrayFile *file = array_file_open(path, err);
     if (!file && err->code == ERROR_FILE) {
         err->code = ERROR_INPUT;   // the folder is what the user gave

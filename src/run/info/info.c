@@ -6,6 +6,7 @@
 #include "base/module.h"
 #include "base/text.h"
 #include "fem/mesh_parts.h"
+#include "io/files/folder.h"
 #include "io/files/text_file.h"
 #include "io/text/json_reader.h"
 #include "model/model.h"
@@ -267,6 +268,7 @@ static bool info_result(const char *folder, FILE *out, Error *err)
     bool there = false;
     for (int32_t k = 0; k < 3; k++) {
         char path[PATH_SIZE];
+        if (!folder_check_inside(folder, files[k], err)) return false;
         snprintf(path, sizeof path, "%s/%s", folder, files[k]);
         there = there || access(path, F_OK) == 0;
     }

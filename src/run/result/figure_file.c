@@ -24,7 +24,7 @@ bool figure_begin(Figure *figure, Error *err)
     char path[AMONTONS_PATH_SIZE], name[AMONTONS_PATH_SIZE];
     if (snprintf(path, sizeof path, "%s/figures", figure->folder) >= (int)sizeof path)
         return REFUSE(err, "the path of the folder %s is too long", figure->folder);
-    if (!folder_make(path, err)) return false;
+    if (!folder_make_inside(figure->folder, "figures", err)) return false;
     if (!figure_path(figure, "json", name, err)) return false;
     if (!(figure->json = json_create(name, err))) return false;
     json_begin_object(figure->json, NULL);

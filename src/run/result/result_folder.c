@@ -13,6 +13,7 @@
 #include "io/files/own_list.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <limits.h>
 #include <stdio.h>
 #include <string.h>
@@ -32,8 +33,59 @@ static const char ASIDE[] = "amontons.aside", EARLIER[] = "amontons.earlier",
 static const char *const ENDINGS[] = {"", ".part", ".part.part"};
 enum { ENDING_COUNT = sizeof ENDINGS / sizeof *ENDINGS };
 
+// Moves the file `name` from one folder into another, or for good where `to` is negative. What is
+// not there is no failure, and a folder is no file that a list could name.
+static bool move_file(int from, const char *name, int to, const char *folder, Error *err)
+{
+    struct stat status;
+    if (fstatat(from, name, &status, AT_SYMLINK_NOFOLLOW) == 0 && S_ISDIR(status.st_mode))
+        return true;
+    int failed = to >= 0 ? renameat(from, name, to, name) : unlinkat(from, name, 0);
+    if (failed && errno != ENOENT)
+        return FAULT(err, ERROR_FILE, "cannot remove the earlier result %s/%s: %s", folder, name,
+                     strerror(errno));
+    return true;
+}
+
+// All files that the list of the folder `list` names, from the folder `from` into `to`, or for good
+// where that is empty; folders in `from` that are empty then go, too. A list may be a stranger's,
+// and so may be what lies in either folder: no link is followed (io/files/folder).
+static bool move_listed(const char *list, const char *from, const char *to, Error *err)
+{
+    char name[OWN_NAME_SIZE], inner[OWN_NAME_SIZE], file[OWN_NAME_SIZE + 16], path[PATH_SIZE];
+    int source = -1, target = -1;
+    FILE *names = own_list_open(list, err);
+    while (names && own_list_next(names, name)) {
+        // The folder of the file: `from` itself, or one in it.
+        const char *slash = strchr(name, '/'), *last = slash ? slash + 1 : name;
+        snprintf(inner, sizeof inner, "%.*s", slash ? (int)(slash - name) : 0, name);
+        source = folder_open_inside(from, inner, false);
+        if (source < 0) continue;
+        if (*to && (target = folder_open_inside(to, inner, true)) < 0) {
+            int cause = errno;
+            TRY(folder_check_inside(to, inner, err));
+            FAIL(err, ERROR_FILE, "cannot move %s/%s into %s: %s", from, name, to, strerror(cause));
+        }
+
+        for (int k = 0; k < ENDING_COUNT; k++) {
+            snprintf(file, sizeof file, "%s%s", last, ENDINGS[k]);
+            TRY(move_file(source, file, target, from, err));
+        }
+        close(source);
+        if (target >= 0) close(target);
+        source = target = -1;
+        snprintf(path, sizeof path, "%s/%s", from, inner);
+        if (slash) rmdir(path);
+    }
+cleanup:
+    if (source >= 0) close(source);
+    if (target >= 0) close(target);
+    if (names) fclose(names);
+    return error_is_clean(err);
+}
+
 // `to` empty: it is removed. What is not there is no failure.
-static bool move_file(const char *from, const char *to, Error *err)
+static bool move_path(const char *from, const char *to, Error *err)
 {
     int failed = *to ? rename(from, to) : unlink(from);
     if (failed && errno != ENOENT)
@@ -42,41 +94,12 @@ static bool move_file(const char *from, const char *to, Error *err)
     return true;
 }
 
-// All files that the list of the folder `list` names, from the folder `from` into `to`, or for good
-// where that is empty; folders in `from` that are empty then go, too. A link in the place of one of
-// them is not followed.
-static bool move_listed(const char *list, const char *from, const char *to, Error *err)
-{
-    char path[PATH_SIZE], target[PATH_SIZE] = "", inner[PATH_SIZE];
-    char name[OWN_NAME_SIZE];
-    struct stat status;
-    FILE *names = own_list_open(list, err);
-    while (names && own_list_next(names, name)) {
-        int inside = strchr(name, '/') ? (int)(strchr(name, '/') - name) : 0;
-        snprintf(inner, sizeof inner, "%s/%.*s", from, inside, name);
-        if (inside && (lstat(inner, &status) != 0 || !S_ISDIR(status.st_mode))) continue;
-        if (inside && *to) {
-            snprintf(target, sizeof target, "%s/%.*s", to, inside, name);
-            mkdir(target, 0777);   // a failure shows at the first file
-        }
-        for (int k = 0; k < ENDING_COUNT; k++) {
-            snprintf(path, sizeof path, "%s/%s%s", from, name, ENDINGS[k]);
-            if (*to) snprintf(target, sizeof target, "%s/%s%s", to, name, ENDINGS[k]);
-            TRY(move_file(path, target, err));
-        }
-        if (inside) rmdir(inner);
-    }
-cleanup:
-    if (names) fclose(names);
-    return error_is_clean(err);
-}
-
 static bool move_list(const char *from, const char *to, Error *err)
 {
     char path[PATH_SIZE], target[PATH_SIZE] = "";
     snprintf(path, sizeof path, "%s/" OWN_LIST_NAME, from);
     if (*to) snprintf(target, sizeof target, "%s/" OWN_LIST_NAME, to);
-    return move_file(path, target, err);
+    return move_path(path, target, err);
 }
 
 static bool rename_aside(const char *folder, const char *from, const char *to, Error *err)
@@ -84,7 +107,7 @@ static bool rename_aside(const char *folder, const char *from, const char *to, E
     char path[PATH_SIZE], target[PATH_SIZE];
     snprintf(path, sizeof path, "%s/%s", folder, from);
     snprintf(target, sizeof target, "%s/%s", folder, to);
-    return move_file(path, target, err);
+    return move_path(path, target, err);
 }
 
 // Empties folder/name into `to`, or for good, and removes it. Its list is there, or still, or

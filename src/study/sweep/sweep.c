@@ -29,6 +29,7 @@ static const double LOCK_WAIT = 1;
 static bool make_folder(Sweep *sweep, Error *err)
 {
     static const char *const tables[] = {"sweep.csv", "sweep.h5", "ranking.csv", "reports"};
+    static const char *const inner[] = {"points", "figures", "slurm"};
     const Study *study = &sweep->study;
     char path[POINT_PATH_SIZE + STUDY_NAME_SIZE];
     if (snprintf(sweep->folder, sizeof sweep->folder, "%s", sweep->options->folder) >=
@@ -53,8 +54,10 @@ static bool make_folder(Sweep *sweep, Error *err)
     }
     if (!own_list_check(sweep->folder, err) || !own_list_make(sweep->folder, err)) return false;
 
-    snprintf(path, sizeof path, "%s/points", sweep->folder);
-    if (!study->keep_table && !folder_make(path, err)) return false;
+    // The folders in it, which are written into and removed from, before any of that.
+    for (size_t k = 0; k < sizeof inner / sizeof inner[0]; k++)
+        if (!folder_check_inside(sweep->folder, inner[k], err)) return false;
+    if (!study->keep_table && !folder_make_inside(sweep->folder, "points", err)) return false;
     if (!slurm_end_leftovers(sweep, err)) return false;
     snprintf(path, sizeof path, "%s/reports", sweep->folder);
     return !study->keep_table || reports_open(&sweep->reports, path, sweep->options->fresh, err);

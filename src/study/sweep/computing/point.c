@@ -4,6 +4,7 @@
 
 #include "base/computation.h"
 #include "base/memory.h"
+#include "io/files/folder.h"
 #include "io/files/own_list.h"
 #include "io/files/text_file.h"
 #include "io/mesh/mesh_cache.h"
@@ -167,17 +168,28 @@ const char *point_status_name(PointStatus status)
     return names[status];
 }
 
-// run.json, which alone makes a point finished; anew: and what it could be gone on with from.
-void point_remove(Sweep *sweep, int32_t point, bool anew)
+bool point_check_place(const Sweep *sweep, int32_t point, Error *err)
 {
-    sweep->points[point].place = (ReportPlace){0};
-    if (sweep->reports.open) return;
+    char name[POINT_PATH_SIZE];
+    if (sweep->reports.open) return true;
+    snprintf(name, sizeof name, "points/%s/%s", sweep->points[point].hash, RUN_REPORT);
+    return folder_check_inside(sweep->folder, name, err);
+}
+
+// run.json, which alone makes a point finished; anew: and what it could be gone on with from. The
+// rest is the next run's to overwrite.
+bool point_remove(Sweep *sweep, int32_t point, bool anew, Error *err)
+{
+    const char *const files[] = {RUN_REPORT, CHECKPOINT};
     char path[POINT_PATH_SIZE + 16];
-    point_path(sweep, point, RUN_REPORT, path);
-    unlink(path);   // the rest is the next run's to overwrite
-    if (!anew) return;
-    point_path(sweep, point, CHECKPOINT, path);
-    unlink(path);
+    sweep->points[point].place = (ReportPlace){0};
+    if (sweep->reports.open) return true;
+    for (int k = 0; k < (anew ? 2 : 1); k++) {
+        point_path(sweep, point, files[k], path);
+        if (!own_list_refuse_taken(path, err)) return false;
+        unlink(path);
+    }
+    return true;
 }
 
 // This is a ReportCallback: the text is the point's only where there is memory for it.

@@ -231,8 +231,7 @@ bool slurm_run(Sweep *sweep, Error *err)
     TRY(list_elements(&run, err));
     if (run.count == 0) goto cleanup;
 
-    slurm_path(&run.jobs, "", path, sizeof path);
-    TRY(folder_make(path, err));
+    TRY(folder_make_inside(run.jobs.folder, "slurm", err));
     slurm_path(&run.jobs, "running", path, sizeof path);
     int file = open_to_write(path, OPEN_KEPT, why);
     if (file < 0) FAIL(err, ERROR_FILE, "cannot write %s: %s", path, why);

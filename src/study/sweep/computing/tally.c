@@ -87,6 +87,7 @@ bool sweep_take_finished(Sweep *sweep, int32_t first, Error *err)
     for (int32_t k = first; k < sweep->study.point_count; k++) {
         SweepPoint *point = &sweep->points[k];
         if (point->same_as < k) continue;
+        if (!point_check_place(sweep, k, err)) return false;
         char *report = point_report(sweep, k, err), failure[40] = "";
         if (!error_is_clean(err)) return false;
         point->status = point_status(report);
@@ -103,7 +104,7 @@ bool sweep_take_finished(Sweep *sweep, int32_t first, Error *err)
             report_point(sweep, k, report);
             check_records(sweep, k, report, err);
         } else {
-            point_remove(sweep, k, sweep->options->fresh);
+            point_remove(sweep, k, sweep->options->fresh, err);
         }
         memory_free(report);
         if (!error_is_clean(err)) return false;

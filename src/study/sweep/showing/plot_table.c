@@ -5,6 +5,7 @@
 #include "base/formula.h"
 #include "base/memory.h"
 #include "base/text.h"
+#include "io/files/folder.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -51,6 +52,7 @@ bool plot_table_open(const char *folder, PlotTable *table, Error *err)
     *table = (PlotTable){0};
     if (snprintf(table->path, sizeof table->path, "%s/sweep.h5", folder) >= (int)sizeof table->path)
         return REFUSE(err, "the path of the sweep is too long");
+    if (!folder_check_inside(folder, "sweep.h5", err)) return false;
     if (access(table->path, R_OK) != 0)
         return REFUSE(err, "%s: there is no sweep.h5 in it: no sweep has ended there", folder);
     if (!(table->file = array_file_open(table->path, err))) return false;

@@ -5,6 +5,7 @@
 #include "base/child_process.h"
 #include "base/decimal_point.h"
 #include "base/text.h"
+#include "io/files/folder.h"
 #include "io/text/yaml_document.h"
 #include "study/sweep/reading/study.h"
 #include "study/sweep/showing/sweep_plot.h"
@@ -50,6 +51,7 @@ static bool draw_in_child(void *context, FILE *reply, Error *err)
             snprintf(picture, sizeof picture, "%s/figures/%.*s.%s", draw->folder, stem,
                      entry->d_name, ending) >= (int)sizeof picture)
             FAIL(err, ERROR_INPUT, "the path of the sweep is too long");
+        TRY(folder_check_inside(draw->folder, path + strlen(draw->folder) + 1, err));
         TRY(amontons_render_plot_file(path, picture, draw->style, err));
     }
 cleanup:

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "io/files/folder.h"
 
-#include "near.h"
+#include "place_fixture.h"
 
+#include <errno.h>
 #include <limits.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 static void assert_makes(const char *path)
 {
@@ -78,4 +77,100 @@ TEST(test_files_seen_from_a_folder)
     assert_int_equal(chdir("/"), 0);
     snprintf(path, sizeof path, "rm -rf %s", root);
     assert_int_equal(system(path), 0);
+}
+
+// --- inside of a folder that somebody sent: nothing outside is opened or made --------------------
+
+static void expect(const char *root, const char *name, const char *words)
+{
+    Error err = {0};
+    bool good = folder_check_inside(root, name, &err);
+    if (!words && !good) fail_msg("%s: %s", name, err.message);
+    if (!words) return;
+    if (good) fail_msg("%s is let through", name);
+    assert_int_equal(err.code, ERROR_INPUT);
+    if (!strstr(err.message, words)) fail_msg("'%s' is not in: %s", words, err.message);
+}
+
+TEST_BETWEEN(test_no_link_is_followed, begin, end)
+{
+    char elsewhere[PLACE_SIZE], linked[PLACE_SIZE + 32];
+    place_make(elsewhere);
+    place_write(elsewhere, "secret", "s");
+    mkdir(place_path(place, "figures"), 0777);
+    place_write(place, "figures/force.png", "p");
+    assert_int_equal(symlink(elsewhere, place_path(place, "fields")), 0);
+    assert_int_equal(symlink("figures", place_path(place, "near")), 0);
+    assert_int_equal(symlink("nowhere", place_path(place, "figures/lost")), 0);
+    snprintf(linked, sizeof linked, "%s/../%s-link", place, strrchr(place, '/') + 1);
+    assert_int_equal(symlink(place, linked), 0);
+    const char *const roots[] = {place, linked};   // the root itself may be a link
+    for (int k = 0; k < 2; k++) {
+        expect(roots[k], "", NULL);
+        expect(roots[k], "figures", NULL);
+        expect(roots[k], "figures/force.png", NULL);
+        expect(roots[k], "./figures//force.png", NULL);
+        expect(roots[k], "figures/../figures/force.png", NULL);
+        expect(roots[k], "none/at/all", NULL);
+        expect(roots[k], "figures/force.png/below", NULL);   // who opens it says so
+        expect(roots[k], "fields", "fields is a symbolic link");
+        expect(roots[k], "fields/secret", "fields is a symbolic link");
+        expect(roots[k], "fields/../run.json", "fields is a symbolic link");
+        expect(roots[k], "near/force.png", "near is a symbolic link");
+        expect(roots[k], "figures/lost", "figures/lost is a symbolic link");
+        expect(roots[k], "..", "leads out of");
+        expect(roots[k], "figures/../../x", "leads out of");
+        expect(roots[k], "/etc/passwd", "leads out of");
+    }
+    expect("/proc/none", "x", NULL);
+    unlink(linked);
+    place_remove(elsewhere);
+}
+
+TEST_BETWEEN(test_folders_are_made_inside, begin, end)
+{
+    Error err = {0};
+    char elsewhere[PLACE_SIZE], root[PLACE_SIZE + 32];
+    place_make(elsewhere);
+    snprintf(root, sizeof root, "%s/new/root", place);
+    assert_true(folder_make_inside(root, "points/0", &err));
+    assert_true(folder_make_inside(root, "points/0", &err));   // it is there
+    assert_true(place_has(place, "new/root/points/0"));
+    assert_int_equal(symlink(elsewhere, place_path(place, "figures")), 0);
+    place_write(place, "file", "x");
+    static const char *const wrong[] = {"figures", "figures/below", "../out", "file", "file/below"};
+    static const char *const words[] = {"is a symbolic link", "is a symbolic link", "leads out of",
+                                        "is a file", "is a file"};
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
+        assert_false(folder_make_inside(place, wrong[k], &err));
+        assert_int_equal(err.code, ERROR_INPUT);
+        if (!strstr(err.message, words[k])) fail_msg("%s", err.message);
+        error_clear(&err);
+    }
+    assert_false(place_has(elsewhere, "below"));
+    place_remove(elsewhere);
+}
+
+TEST_BETWEEN(test_open_folders, begin, end)
+{
+    char lengthy[400];
+    memset(lengthy, 'x', sizeof lengthy);
+    lengthy[sizeof lengthy - 1] = 0;
+    mkdir(place_path(place, "figures"), 0777);
+    assert_int_equal(symlink("figures", place_path(place, "near")), 0);
+    int folder = folder_open_inside(place, "figures", false);
+    assert_true(folder >= 0);
+    close(folder);
+    const struct {
+        const char *name;
+        int cause;
+    } wrong[] = {
+        {"near", ELOOP}, {"none", ENOENT}, {"..", EXDEV}, {"/", EXDEV}, {lengthy, ENAMETOOLONG}};
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
+        assert_int_equal(folder_open_inside(place, wrong[k].name, false), -1);
+        assert_int_equal(errno, wrong[k].cause);
+    }
+    folder = folder_open_inside(place, "made/here", true);
+    assert_true(folder >= 0 && place_has(place, "made/here"));
+    close(folder);
 }

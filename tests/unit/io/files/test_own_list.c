@@ -90,6 +90,28 @@ TEST_BETWEEN(test_a_strangers_list, begin, end)
     place_remove(elsewhere);
 }
 
+// A link in a folder of ours leads to another folder with a list, which is somebody else's. The
+// folder of a result itself may be a link.
+TEST_BETWEEN(test_a_list_behind_a_link, begin, end)
+{
+    Error err = {0};
+    char elsewhere[PLACE_SIZE], link[PLACE_SIZE + 40];
+    place_make(elsewhere);
+    assert_true(own_list_make(elsewhere, &err));
+    snprintf(link, sizeof link, "%s/force.png", elsewhere);
+    assert_true(own_list_add(link, &err));
+    assert_int_equal(symlink(elsewhere, place_path(place, "figures")), 0);
+    assert_true(has("figures/force.png"));
+    add("figures/new.png");
+    assert_true(has("figures/new.png"));
+    assert_true(own_list_make(place, &err));
+    assert_false(has("figures/force.png"));
+    add("figures/newer.png");
+    unlink(place_path(place, OWN_LIST_NAME));
+    assert_false(has("figures/newer.png"));
+    place_remove(elsewhere);
+}
+
 // Names without a slash, and folders that end in one.
 TEST_BETWEEN(test_from_the_working_folder, begin, end)
 {

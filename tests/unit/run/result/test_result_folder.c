@@ -213,6 +213,48 @@ TEST_BETWEEN(test_back_until_settled, begin, end)
     }
 }
 
+// A result that somebody sent, with files set aside: what is put back comes into its own folder,
+// not through a link in it, and a folder is never moved in a file's stead.
+TEST_BETWEEN(test_back_inside_of_the_folder, begin, end)
+{
+    Error err = {0};
+    char elsewhere[PLACE_SIZE], text[16];
+    static const char *const moments[] = {"amontons.aside", "amontons.earlier"};
+    for (size_t k = 0; k < 2; k++) {
+        place_make(elsewhere);
+        place_write(elsewhere, "keys", "mine");
+        assert_true(own_list_make(place, &err));
+        assert_int_equal(mkdir(place_path(place, "amontons.aside"), 0777), 0);
+        assert_int_equal(mkdir(place_path(place, "amontons.aside/d"), 0777), 0);
+        place_write(place, "amontons.aside/" OWN_LIST_NAME, "d/keys\nd/more\n");
+        place_write(place, "amontons.aside/d/keys", "theirs");
+        assert_int_equal(mkdir(place_path(place, "amontons.aside/d/more"), 0777), 0);
+        assert_int_equal(symlink(elsewhere, place_path(place, "d")), 0);
+        if (k > 0) {
+            char now[2 * PLACE_SIZE];
+            snprintf(now, sizeof now, "%s", place_path(place, "amontons.aside"));
+            assert_int_equal(rename(now, place_path(place, moments[k])), 0);
+        }
+        expect_error(place, false, ERROR_INPUT, "d is a symbolic link");
+        place_read(elsewhere, "keys", text, sizeof text);
+        assert_string_equal(text, "mine");
+        assert_false(place_has(elsewhere, "more"));
+
+        // With a folder in the link's place the file is back, and the folder is not.
+        unlink(place_path(place, "d"));
+        ResultFolder folder;
+        result_folder_claim(place, true, &folder, &err);
+        result_folder_release(&folder);
+        error_clear(&err);
+        place_read(place, "d/keys", text, sizeof text);
+        assert_string_equal(text, "theirs");
+        assert_false(place_has(place, "d/more"));
+        place_remove(elsewhere);
+        place_remove(place);
+        assert_int_equal(mkdir(place, 0777), 0);
+    }
+}
+
 // The second of two is told who holds the folder; when that has let go, it may.
 TEST_BETWEEN(test_one_computation_at_a_time, begin, end)
 {
