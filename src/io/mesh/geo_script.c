@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "base/text.h"
+#include "io/files/open_file.h"
 #include "io/files/text_file.h"
 #include "io/mesh/geo_parameters.h"
 
@@ -331,12 +332,30 @@ static bool holds_skip_word(const char *text, int32_t length)
     return false;
 }
 
+// Why a path must not stand between quotes in the text that gmsh is given; NULL: it may.
+static const char *path_fault(const char *path)
+{
+    size_t length = strlen(path);
+    if (strpbrk(path, "\"\n%\\")) return "has a quote or percent in its path";
+    if (length > STRING_MAX) return "has a path that is longer than gmsh reads";
+    if (holds_skip_word(path, (int32_t)length))
+        return "has a word in its path that ends what gmsh skips";
+    return NULL;
+}
+
 static bool read_file(Reading *reading, const char *path, Error *err);
 
 static bool is_regular(const char *path)
 {
     struct stat status;
     return stat(path, &status) == 0 && S_ISREG(status.st_mode);
+}
+
+// Goes by the last dot, as gmsh does.
+static bool has_shape_ending(const char *path)
+{
+    const char *dot = strrchr(path, '.');
+    return dot && is_listed(SHAPES, dot + 1, (int32_t)strlen(dot + 1));
 }
 
 // The last three tokens, `Include "name";` or `Merge "name";`, become what is in the file. Shapes
@@ -348,17 +367,15 @@ static bool take_in(Reading *reading, const char *path, int32_t file, int32_t fi
     char other[GEO_PATH_SIZE];
     bool merges = !token_is(reading, reading->token_count - 3, "Include");
     geo_included_path(path, reading->raw + name->at + 1, name->length - 2, other);
-    const char *dot = strrchr(other, '.');
-    if (merges && dot && is_listed(SHAPES, dot + 1, (int32_t)strlen(dot + 1))) return true;
+    if (merges && has_shape_ending(other)) return true;
     for (int32_t k = begin; k < reading->size; k++)
         if (reading->raw[k] != '\n') reading->raw[k] = ' ';
     reading->token_count -= 3;
     if (access(other, F_OK) != 0) {
         char missing[GEO_PATH_SIZE + 32];
         int length = snprintf(missing, sizeof missing, "Error(\"cannot open '%.800s'\");", other);
-        return strpbrk(other, "\"\n%")
-                   ? REFUSE(err, "%s:%d: cannot open %s", path, file_line, other)
-                   : put(reading, missing, length, err);
+        return path_fault(other) ? REFUSE(err, "%s:%d: cannot open %s", path, file_line, other)
+                                 : put(reading, missing, length, err);
     }
     if (!put(reading, "\n", 1, err)) return false;
     if (!read_file(reading, other, err)) {
@@ -576,11 +593,27 @@ static int32_t behind_statement(const Reading *reading, int32_t k, bool block)
     return -1;
 }
 
+// Puts the working folder before a relative path, and changes nothing else of it. false: there is
+// no room.
+static bool make_absolute(char path[GEO_PATH_SIZE])
+{
+    char folder[PATH_MAX], whole[GEO_PATH_SIZE];
+    if (path[0] == '/') return true;
+    if (!getcwd(folder, sizeof folder)) return false;
+    if (snprintf(whole, sizeof whole, "%s/%s", folder, path) >= (int)sizeof whole) return false;
+    strcpy(path, whole);
+    return true;
+}
+
 // `Merge "part.step";` with the path that it means in this file; the name alone would be looked for
 // beside the text that gmsh reads. *from is behind it then.
+//
+// gmsh goes by the ending of the path that it is given, and by what stands beside it: so it is
+// given the very path that is checked here. A link is left for it to follow. The path that the link
+// leads to may end otherwise, and is nowhere used.
 static bool merge(Reading *reading, int32_t k, int32_t *from, Error *err)
 {
-    char other[GEO_PATH_SIZE], words[GEO_PATH_SIZE + 8], real[PATH_MAX], begin[16] = "";
+    char other[GEO_PATH_SIZE], words[GEO_PATH_SIZE + 8], begin[16] = "";
     const Token *name = &reading->tokens[k + 1];
     const char *path;
     int32_t file_line;
@@ -588,26 +621,26 @@ static bool merge(Reading *reading, int32_t k, int32_t *from, Error *err)
         return refuse_at(reading, k, "opens a file whose name is not written out", err);
     find_place(reading, name->at, &path, &file_line);
     geo_included_path(path, reading->raw + name->at + 1, name->length - 2, other);
+    if (!make_absolute(other)) return refuse_at(reading, k + 1, "has too long a path", err);
 
     // The file is one that gmsh reads itself: it holds no statements, and has none beside it.
-    const char *dot = strrchr(other, '.');
+    const char *dot = strrchr(other, '.'), *fault = path_fault(other);
     bool is_there = access(other, F_OK) == 0;
-    if (strpbrk(other, "\"\n%\\"))
-        return refuse_at(reading, k + 1, "has a quote or percent in its path", err);
+    if (fault) return refuse_at(reading, k + 1, fault, err);
+    if (!has_shape_ending(other)) return refuse_at(reading, k + 1, "is no shape or mesh", err);
     if (is_there && !is_regular(other)) return refuse_at(reading, k + 1, "is no file", err);
     snprintf(words, sizeof words, "%s.opt", other);
-    if (access(words, F_OK) == 0)
+    if (open_is_there(words))
         return refuse_at(reading, k + 1, "has options beside it (.opt), which gmsh would read",
                          err);
-    if (is_there && dot && strcmp(dot, ".msh") == 0) {
+    if (is_there && strcmp(dot, ".msh") == 0) {
         int file = open(other, O_RDONLY | O_CLOEXEC);
         ssize_t count = file < 0 ? 0 : read(file, begin, sizeof begin - 1);
         if (file >= 0) close(file);
         if (count <= 0 || strncmp(begin, "$MeshFormat", strlen("$MeshFormat")) != 0)
             return refuse_at(reading, k + 1, "is no mesh", err);
     }
-    if (!realpath(other, real)) snprintf(real, sizeof real, "%.4000s", other);
-    snprintf(words, sizeof words, "\"%s\"", real);
+    snprintf(words, sizeof words, "\"%s\"", other);
     return copy_to(reading, from, name->at, false, err) && say(reading, words, err) &&
            (*from = name->at + name->length) > 0;
 }
@@ -615,22 +648,22 @@ static bool merge(Reading *reading, int32_t k, int32_t *from, Error *err)
 // `ShapeFromFile(file)`: the path, which may be any text, is relative to the folder of this file.
 static bool shape(Reading *reading, int32_t k, int32_t *from, Error *err)
 {
-    char folder[PATH_MAX] = "", *slash;
-    const char *path;
+    char folder[GEO_PATH_SIZE];   // with a slash at its end
+    const char *path, *fault;
     int32_t file_line, end = behind_bracket(reading, k + 1);
     if (!token_is(reading, k + 1, "(") || end - k < 4 || !is_close(reading, end - 1))
         return refuse_at(reading, k, "is not followed by (a name)", err);
     find_place(reading, reading->tokens[k].at, &path, &file_line);
-    if (!realpath(path, folder) || strpbrk(folder, "\"\n%\\"))
-        return refuse_at(reading, k, "stands in a file with a quote or percent in its path", err);
-    if ((slash = strrchr(folder, '/'))) *slash = 0;
+    geo_included_path(path, "", 0, folder);
+    fault = make_absolute(folder) ? path_fault(folder) : "stands in a file with too long a path";
+    if (fault) return refuse_at(reading, k, fault, err);
     int32_t begin = reading->tokens[k + 2].at;
     int32_t behind = reading->tokens[end - 1].at;
     const char *parts[] = {"StrChoice(StrCmp(StrSub(",
                            NULL,
                            ", 0, 1), \"/\"), StrCat(\"",
                            folder,
-                           "/\", ",
+                           "\", ",
                            NULL,
                            "), ",
                            NULL,
@@ -749,6 +782,11 @@ static bool judge(Reading *reading, Error *err)
         int32_t behind = left_out(reading, k, err);
         if (behind < 0) return false;
         bool leaves = token_is(reading, k, "Exit") && !token_is(reading, k - 1, ".");
+        bool opens = token_is(reading, k, "Merge") || token_is(reading, k, "MergeWithBoundingBox");
+        bool is_shape = token_is(reading, k, "ShapeFromFile");
+        // The argument of ShapeFromFile is in the text already: nothing of it can be changed.
+        if (reading->tokens[k].at < from && (behind > k || leaves || opens || is_shape))
+            return refuse_at(reading, k, "stands inside the brackets of ShapeFromFile", err);
         if (leaves) behind = behind_statement(reading, k, false);
         if (leaves && behind < 0)
             return refuse_at(reading, k, "begins a statement that has no end", err);
@@ -762,10 +800,9 @@ static bool judge(Reading *reading, Error *err)
             k = behind - 1;
             continue;
         }
-        bool opens = token_is(reading, k, "Merge") || token_is(reading, k, "MergeWithBoundingBox");
         if (!check_word(reading, k, err)) return false;
         if (opens && !merge(reading, k, &from, err)) return false;
-        if (token_is(reading, k, "ShapeFromFile") && !shape(reading, k, &from, err)) return false;
+        if (is_shape && !shape(reading, k, &from, err)) return false;
     }
     return copy_to(reading, &from, reading->size, false, err);
 }
