@@ -291,23 +291,31 @@ static bool hdf5_append(ArrayFile *file, const char *name, const double *values,
     return false;
 }
 
-// A series of a reopened file is opened when it is first cut.
-static bool hdf5_cut(ArrayFile *file, const char *name, int64_t rows, Error *err)
+static bool hdf5_take_up(ArrayFile *file, const ArraySeries *series, int32_t components, Error *err)
 {
-    SeriesWriter opened = {0}, *series = find_series(file, name);
+    SeriesWriter opened = {0};
     TRY(may_change(file, err));
-    if (!series) {
-        TRY(memory_grow(&file->series, file->series_count, &file->series_capacity,
-                        sizeof *file->series, err));
-        TRY(series_open(&opened, file->id, name, err));
-        series = &file->series[file->series_count++];
-        *series = opened;
-        opened = (SeriesWriter){0};   // the list owns it now
+    if (find_series(file, series->name))
+        FAIL(err, ERROR_LIBRARY, "%s has taken up %s already", file->path, series->name);
+    TRY(memory_grow(&file->series, file->series_count, &file->series_capacity, sizeof *file->series,
+                    err));
+    if (!series_open(&opened, file->id, series, components, err)) {
+        error_context(err, "%s", file->part.part);
+        goto cleanup;
     }
-    TRY(series_cut(series, file->part.part, rows, err));
+    file->series[file->series_count++] = opened;
+    opened = (SeriesWriter){0};   // the list owns it now
 cleanup:
     series_destroy(&opened);
     return error_is_clean(err);
+}
+
+static bool hdf5_cut(ArrayFile *file, const char *name, int64_t rows, Error *err)
+{
+    SeriesWriter *series = find_series(file, name);
+    if (!may_change(file, err)) return false;
+    if (!series) return FAULT(err, ERROR_FILE, "%s has no series %s to cut", file->path, name);
+    return series_cut(series, file->part.part, rows, err);
 }
 
 // Removes a table or an attribute. A series that is being written must not be removed.
