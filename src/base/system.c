@@ -9,6 +9,7 @@
 #include <sched.h>
 #include <stdio.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/vfs.h>
 #include <unistd.h>
@@ -69,6 +70,14 @@ int64_t system_address_space(void)
     if (fscanf(file, "%ld", &pages) != 1) pages = 0;
     fclose(file);
     return (int64_t)pages * sysconf(_SC_PAGESIZE);
+}
+
+double system_memory(void)
+{
+    struct rlimit room;
+    double have = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
+    bool limited = getrlimit(RLIMIT_AS, &room) == 0 && room.rlim_cur != RLIM_INFINITY;
+    return limited && (double)room.rlim_cur < have ? (double)room.rlim_cur : have;
 }
 
 bool system_has_room(size_t bytes)

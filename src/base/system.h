@@ -22,6 +22,7 @@ bool system_folder(char *folder, size_t size, Error *err);
 bool system_find(const char *const *names, int32_t count, char *path, size_t size);
 
 int64_t system_address_space(void);   // bytes that this process has mapped; 0: not known
+double system_memory(void);   // bytes of this computer, or what a limit leaves of them
 // True if so many more bytes could be mapped (ulimit -v, vm.overcommit_memory).
 bool system_has_room(size_t bytes);
 void system_use_large_pages(void *array, size_t bytes);   // where there are some

@@ -7,6 +7,7 @@
 #include "io/hdf5/array_file.h"
 
 #include "base/memory.h"
+#include "base/system.h"
 #include "base/transfer.h"
 #include "io/files/file_lock.h"
 #include "io/files/part_file.h"
@@ -155,6 +156,10 @@ static ArrayFile *hdf5_reopen(const char *path, Error *err)
     if (fstat(file->part.descriptor, &status) != 0)
         FAIL(err, ERROR_FILE, "cannot read %s: %s", part, strerror(errno));
     file->flushed = status.st_size;
+    // HDF5 takes a copy, and whoever wrote it had it in memory beside the run itself.
+    if ((double)file->flushed > system_memory() / 2)
+        FAIL(err, ERROR_INPUT, "%s has %.3g GB, and this computer %.3g GB of memory for two copies",
+             part, (double)file->flushed / 1e9, system_memory() / 1e9);
     TRY(bytes = memory_bytes(file->flushed, err));
     if (transfer_read(file->part.descriptor, bytes, file->flushed, 0) != file->flushed) {
         error_set(err, ERROR_FILE, __FILE__, __LINE__, "cannot read %s: %s", part,

@@ -354,6 +354,24 @@ TEST(test_refused)
     place_remove(place);
 }
 
+// A whole file with a hole behind it that is larger than any memory.
+TEST(test_larger_than_memory)
+{
+    Error err = {0};
+    char place[PLACE_SIZE], path[2 * PLACE_SIZE];
+    place_make(place);
+    assert_true(own_list_make(place, &err));
+    snprintf(path, sizeof path, "%s", place_path(place, "file.h5"));
+    ArrayFile *file = array_file_create(path, &err);
+    add_series(file, &err);
+    assert_true(array_file_close(file, &err));
+    assert_int_equal(truncate(path, (off_t)1 << 42), 0);
+    assert_null(array_file_reopen(path, &err));
+    assert_int_equal(err.code, ERROR_INPUT);
+    assert_non_null(strstr(err.message, "of memory for two copies"));
+    place_remove(place);
+}
+
 // A file may be anybody's: a series that is wider than the rows that are appended, or otherwise
 // another one, is not taken up.
 TEST(test_other_shapes)
