@@ -6,6 +6,7 @@
 #include "base/decimal_point.h"
 #include "base/text.h"
 #include "io/text/yaml_document.h"
+#include "run/result/pictures.h"
 #include "study/sweep/reading/study.h"
 #include "study/sweep/showing/sweep_plot.h"
 
@@ -50,7 +51,7 @@ static bool draw_in_child(void *context, FILE *reply, Error *err)
             snprintf(picture, sizeof picture, "%s/figures/%.*s.%s", draw->folder, stem,
                      entry->d_name, ending) >= (int)sizeof picture)
             FAIL(err, ERROR_INPUT, "the path of the sweep is too long");
-        TRY(amontons_render_plot_file(path, picture, draw->style, err));
+        TRY(pictures_draw_plot(path, picture, draw->style, err));
     }
 cleanup:
     if (listing) closedir(listing);
