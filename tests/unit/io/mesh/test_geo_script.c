@@ -57,6 +57,36 @@ TEST(test_tenfold)
     place_remove(place);
 }
 
+// Texts that keep the reader busy for ever if a search begins at each of their words, as the clock
+// of ctest tells: 2 MB each.
+TEST(test_endless)
+{
+    static const char *const cases[] = {"x(",          "x[0](",  "x.",   "x~{", "DefineConstant[a,",
+                                        "Field[1",     "x~",     "(",    "{",   "x = ((",
+                                        "x = {1}; x(", "Max(1,", "View["};
+    enum { SIZE = 1 << 21 };
+    char place[PLACE_SIZE], *text = malloc(SIZE + 100);
+    place_make(place);
+    assert_non_null(text);
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        Error err = {0};
+        GeoScript script = {0};
+        char *at = text;
+        while (at < text + SIZE) at = stpcpy(at, cases[k]);
+        strcpy(at, ";\nx = 1;\n");
+        place_write(place, "a.geo", text);
+        geo_script_read(place_path(place, "a.geo"), &script, &err);   // refused or not
+        geo_script_destroy(&script);
+    }
+    char *at = text;
+    while (at < text + SIZE / 4) at = stpcpy(at, "Merge \"absent.step\";\n");
+    place_write(place, "a.geo", text);
+    GeoScript script = read_script(place);
+    geo_script_destroy(&script);
+    free(text);
+    place_remove(place);
+}
+
 // Itself: as deep as files may include each other.
 TEST(test_itself)
 {
