@@ -5,6 +5,7 @@
 #include "render/plot/plot_file.h"
 
 #include "base/memory.h"
+#include "base/system.h"
 #include "io/hdf5/array_file.h"
 #include "io/text/yaml_document.h"
 #include "render/picture_options.h"
@@ -331,6 +332,11 @@ static bool read_page(const PlotReader *reader, Plot *plot)
         const char *text = yaml_text(reader->file, item), *slash = strrchr(reader->path, '/');
         bool beside = strcmp(yaml_key(reader->file, item), "compare") == 0 && text[0] != '/' &&
                       slash;
+        if (system_is_descriptor(text))
+            return refuse(
+                reader, item, "page",
+                "a file by its own path: what is open already may be named on the command "
+                "line alone");
         snprintf(word, PLOT_WORD_SIZE, "%.*s%s", beside ? (int)(slash - reader->path) + 1 : 0,
                  reader->path, text);
 

@@ -8,6 +8,7 @@
 #include <linux/magic.h>
 #include <sched.h>
 #include <stdio.h>
+#include <string.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -94,8 +95,20 @@ void system_use_large_pages(void *array, size_t bytes)
     madvise(array, bytes, MADV_HUGEPAGE);
 }
 
+bool system_is_descriptor(const char *path)
+{
+    static const char *const folders[] = {"/dev/fd/", "/proc/self/fd/"};
+    for (size_t k = 0; k < sizeof folders / sizeof *folders; k++) {
+        size_t length = strlen(folders[k]);
+        if (strncmp(path, folders[k], length) != 0) continue;
+        return path[length] && !path[length + strspn(path + length, "0123456789")];
+    }
+    return strcmp(path, "/dev/stdin") == 0;
+}
+
 bool system_is_shell_pipe(const char *path, mode_t mode)
 {
     struct statfs system;
-    return S_ISFIFO(mode) && statfs(path, &system) == 0 && system.f_type == PIPEFS_MAGIC;
+    return S_ISFIFO(mode) && system_is_descriptor(path) && statfs(path, &system) == 0 &&
+           system.f_type == PIPEFS_MAGIC;
 }

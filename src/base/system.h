@@ -27,8 +27,11 @@ double system_memory(void);   // bytes of this computer, or what a limit leaves 
 bool system_has_room(size_t bytes);
 void system_use_large_pages(void *array, size_t bytes);   // where there are some
 
-// True if the open or named `path` is a pipe that has no name in a folder (of a shell's `<(...)`):
-// its other end is open. `mode`: of stat().
+// True if `path` is what a shell calls a descriptor of this process: /dev/fd/63, /proc/self/fd/63,
+// /dev/stdin. By its letters: a link that leads there is none.
+bool system_is_descriptor(const char *path);
+// True if `path` is such a name of a pipe that has no name in a folder (of a shell's `<(...)`): its
+// other end is open. `mode`: of stat().
 bool system_is_shell_pipe(const char *path, mode_t mode);
 
 #endif

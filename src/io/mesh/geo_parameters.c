@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "base/text.h"
+#include "io/files/open_file.h"
 #include "io/files/text_file.h"
 
 #include <ctype.h>
@@ -146,7 +147,7 @@ static bool scan_file(const char *path, int32_t depth, Scan *scan, Error *err)
         } else if (includes && *next == '"') {
             char other[GEO_PATH_SIZE];
             geo_included_path(path, next + 1, (int)strcspn(next + 1, "\""), other);
-            if (!scan_file(other, depth + 1, scan, err)) {
+            if (!open_check_named(other, err) || !scan_file(other, depth + 1, scan, err)) {
                 error_context(err, "included by %s", path);
                 goto cleanup;
             }
