@@ -46,21 +46,21 @@ def _open_arrays(path: Path) -> Any:
         raise FileNotFoundError(f"{path} is not a file")
     file = h5py.File(path, "r")
 
-    def check(group: Any, prefix: str) -> None:
-        for name in group:
-            where = f"{path}: {prefix}{name}"
-            if not isinstance(group.get(name, getlink=True), h5py.HardLink):
-                raise ValueError(f"{where} is a link by name, which is not followed")
-            item = group[name]
-            if isinstance(item, h5py.Group):
-                check(item, f"{prefix}{name}/")
-            elif not isinstance(item, h5py.Dataset):
-                raise ValueError(f"{where} is neither array nor group")
-            elif item.external or item.is_virtual:
-                raise ValueError(f"the data of {where} lie in another file, which is not read")
-
+    # HDF5 goes through each group once, however many links lead to it, and follows none by name.
+    links: list[tuple[bytes, int]] = []
     try:
-        check(file, "")
+        file.id.links.visit(lambda name, link: links.append((name, link.type)), info=True)
+        for name, kind in links:
+            where = f"{path}: {name.decode(errors='replace')}"
+            if kind != h5py.h5l.TYPE_HARD:
+                raise ValueError(f"{where} is a link by name, which is not followed")
+            item = file[name]
+            if isinstance(item, h5py.Group):
+                continue
+            if not isinstance(item, h5py.Dataset):
+                raise ValueError(f"{where} is neither array nor group")
+            if item.external or item.is_virtual:
+                raise ValueError(f"the data of {where} lie in another file, which is not read")
     except BaseException:
         file.close()
         raise

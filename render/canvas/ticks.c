@@ -30,6 +30,7 @@ Ticks ticks_choose(double low, double high, int32_t wanted)
         power += 1;
     }
     ticks.step = nice * pow(10, power);
+    if (!(ticks.step > 0) || !isfinite(ticks.step)) return (Ticks){0};
     ticks.minor = nice == 2 ? 4 : 5;
     ticks.first = (int64_t)ceil(low / ticks.step - END_SLACK);
     ticks.count = (int32_t)(floor(high / ticks.step + END_SLACK) - (double)ticks.first) + 1;
@@ -80,8 +81,11 @@ Ticks ticks_choose_thirds(double low, double high)
     if (!(low > 0) || !(high > low) || !isfinite(high)) return ticks;
     ticks.first = 3 * (int64_t)floor(log10(low));
     while (third_value(ticks.first) < low * (1 - END_SLACK)) ++ticks.first;
-    while (third_value(ticks.first + ticks.count) <= high * (1 + END_SLACK)) ++ticks.count;
-    return ticks;
+    for (;;) {
+        double value = third_value(ticks.first + ticks.count);   // infinite beyond the largest
+        if (!isfinite(value) || value > high * (1 + END_SLACK)) return ticks;
+        ++ticks.count;
+    }
 }
 
 double ticks_minor_log(const Ticks *ticks, int32_t k)

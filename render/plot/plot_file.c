@@ -5,6 +5,7 @@
 #include "render/plot/plot_file.h"
 
 #include "base/memory.h"
+#include "base/system.h"
 #include "io/files/folder.h"
 #include "io/hdf5/array_file.h"
 #include "io/text/yaml_document.h"
@@ -345,6 +346,11 @@ static bool read_page(const PlotReader *reader, Plot *plot)
         const char *text = yaml_text(reader->file, item), *slash = strrchr(reader->path, '/');
         bool measured = strcmp(yaml_key(reader->file, item), "compare") == 0;
         bool beside = measured && text[0] != '/' && slash;
+        if (system_is_descriptor(text))
+            return refuse(
+                reader, item, "page",
+                "a file by its own path: what is open already may be named on the command "
+                "line alone");
         snprintf(word, PLOT_WORD_SIZE, "%.*s%s", beside ? (int)(slash - reader->path) + 1 : 0,
                  reader->path, text);
 

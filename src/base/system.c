@@ -8,7 +8,9 @@
 #include <linux/magic.h>
 #include <sched.h>
 #include <stdio.h>
+#include <string.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/vfs.h>
 #include <unistd.h>
@@ -71,6 +73,14 @@ int64_t system_address_space(void)
     return (int64_t)pages * sysconf(_SC_PAGESIZE);
 }
 
+double system_memory(void)
+{
+    struct rlimit room;
+    double have = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
+    bool limited = getrlimit(RLIMIT_AS, &room) == 0 && room.rlim_cur != RLIM_INFINITY;
+    return limited && (double)room.rlim_cur < have ? (double)room.rlim_cur : have;
+}
+
 bool system_has_room(size_t bytes)
 {
     void *room = mmap(NULL, bytes, PROT_READ | PROT_WRITE,
@@ -85,8 +95,20 @@ void system_use_large_pages(void *array, size_t bytes)
     madvise(array, bytes, MADV_HUGEPAGE);
 }
 
+bool system_is_descriptor(const char *path)
+{
+    static const char *const folders[] = {"/dev/fd/", "/proc/self/fd/"};
+    for (size_t k = 0; k < sizeof folders / sizeof *folders; k++) {
+        size_t length = strlen(folders[k]);
+        if (strncmp(path, folders[k], length) != 0) continue;
+        return path[length] && !path[length + strspn(path + length, "0123456789")];
+    }
+    return strcmp(path, "/dev/stdin") == 0;
+}
+
 bool system_is_shell_pipe(const char *path, mode_t mode)
 {
     struct statfs system;
-    return S_ISFIFO(mode) && statfs(path, &system) == 0 && system.f_type == PIPEFS_MAGIC;
+    return S_ISFIFO(mode) && system_is_descriptor(path) && statfs(path, &system) == 0 &&
+           system.f_type == PIPEFS_MAGIC;
 }

@@ -22,12 +22,16 @@ bool system_folder(char *folder, size_t size, Error *err);
 bool system_find(const char *const *names, int32_t count, char *path, size_t size);
 
 int64_t system_address_space(void);   // bytes that this process has mapped; 0: not known
+double system_memory(void);   // bytes of this computer, or what a limit leaves of them
 // True if so many more bytes could be mapped (ulimit -v, vm.overcommit_memory).
 bool system_has_room(size_t bytes);
 void system_use_large_pages(void *array, size_t bytes);   // where there are some
 
-// True if the open or named `path` is a pipe that has no name in a folder (of a shell's `<(...)`):
-// its other end is open. `mode`: of stat().
+// True if `path` is what a shell calls a descriptor of this process: /dev/fd/63, /proc/self/fd/63,
+// /dev/stdin. By its letters: a link that leads there is none.
+bool system_is_descriptor(const char *path);
+// True if `path` is such a name of a pipe that has no name in a folder (of a shell's `<(...)`): its
+// other end is open. `mode`: of stat().
 bool system_is_shell_pipe(const char *path, mode_t mode);
 
 #endif

@@ -8,8 +8,6 @@
 #include "reduction/far_patches.h"
 
 #include <math.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
 // Bytes in the plane, for each unknown of the mesh and for each entry of a response: 4.5e9 at 480 x
 // 480 cells, 1.9e9 at 320 x 320 and at 800 contact nodes on 60 rows.
@@ -31,15 +29,6 @@ static const double SPACE_FACTORS = 11;   // step sizes of a run with a sliding,
 // Unknowns of a reduced block over those of its interface. Each is a mode of the mesh, which is
 // kept where fields or probes are asked for.
 static const double SPACE_MODES = 1.55, PLANE_MODES = 3.1;
-
-double memory_there(void)
-{
-    struct rlimit room;
-    double have = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
-    if (getrlimit(RLIMIT_AS, &room) == 0 && room.rlim_cur != RLIM_INFINITY)
-        have = fmin(have, (double)room.rlim_cur);
-    return have;
-}
 
 double memory_expected(const MemorySizes *sizes, bool reduced)
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Memory: what a computer has, and what a run takes at most. Called by model/scene_mesh,
-// model/obtain and run/info/forecast.
+// Memory that a run takes at most; what a computer has, base/system says. Called by model/obtain
+// and run/info/forecast.
 #ifndef AMONTONS_MODEL_MEMORY_H
 #define AMONTONS_MODEL_MEMORY_H
 
@@ -15,8 +15,6 @@ typedef struct MemorySizes {
     bool one_by_one;   // they are built one after another
     bool modes;   // they are kept, for fields and probes
 } MemorySizes;
-
-double memory_there(void);   // of this computer, or what a limit leaves of it, bytes
 
 // Estimate of the largest memory that a run takes, bytes: on the reduced block and its reduction,
 // or on the whole mesh. 0: not known, as on the whole mesh in the plane.

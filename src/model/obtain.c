@@ -5,6 +5,7 @@
 
 #include "base/clock.h"
 #include "base/computation.h"
+#include "base/system.h"
 #include "contact/contact_half.h"
 #include "fem/floor.h"
 #include "fem/mesh_locate.h"
@@ -155,7 +156,7 @@ static bool check_memory(Model *model, int32_t parts, Error *err)
     ContactHalf half = {0};
     TRY(contact_half_find(&model->interface, &half, err));
     sizes.one_side = half.interface.contact_count > 0;
-    double have = memory_there(), whole = memory_expected(&sizes, false);
+    double have = system_memory(), whole = memory_expected(&sizes, false);
     model->memory = memory_expected(&sizes, model->is_reduced);
     sizes.one_by_one = true;
     double less = memory_expected(&sizes, model->is_reduced);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "model/scene_mesh.h"
 
+#include "base/system.h"
 #include "io/mesh/mesh_pick.h"
-#include "model/memory.h"
 
 #include <string.h>
 
@@ -32,7 +32,7 @@ bool scene_mesh_read(const Scene *scene, const ChildWatch *watch, Mesh *mesh, Me
     if (origin) *origin = file.origin;
 
     // Said before the memory is full: then the system would end this or another program.
-    double needed = file.node_count * NODE_BYTES, have = memory_there();
+    double needed = file.node_count * NODE_BYTES, have = system_memory();
     if (done && needed > have)
         done = REFUSE(
             err,

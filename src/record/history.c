@@ -43,7 +43,7 @@ bool history_create(const char *folder, ResultHead *head, const Interface *inter
     head->nodes[NODES_LINE] = history->line;
     head->nodes[NODES_WEIGHT] = interface->weight;
     head->nodes[NODES_PAD] = history->pad;
-    history->file = head->goes_on ? result_file_reopen(folder, err)
+    history->file = head->goes_on ? result_file_reopen(folder, head, err)
                                   : result_file_create(folder, head, err);
     history->end.kept = history->file != NULL;
     return history->file != NULL;
@@ -176,7 +176,7 @@ bool history_take_back(History *history, const HistoryEnd *end, Error *err)
     if (!history->file) return true;
     if (!end->kept) return REFUSE(err, "the saved state is that of a run without a history");
     if (!history_has_end(history->file, end, err)) return false;
-    if (!result_file_cut(history->file, end->rows, err)) return false;
+    if (!result_file_cut(history->file, history->written, end->rows, err)) return false;
     history->end = *end;
     return true;
 }

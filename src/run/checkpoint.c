@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "run/simulation_state.h"
 
+#include "base/child_process.h"
 #include "base/clock.h"
 #include "run/warnings.h"
 
@@ -11,7 +12,8 @@
 static const double EVERY = 10;   // s of wall time
 static const double SHARE = 0.01;   // of the time that checkpoints may take, where they are large
 
-enum { PATH_SIZE = AMONTONS_PATH_SIZE + 32 };
+// CHECK_SECONDS: of processor time to read a history's single numbers, far above what it takes.
+enum { PATH_SIZE = AMONTONS_PATH_SIZE + 32, CHECK_SECONDS = 600 };
 
 static void find_path(const char *folder, char path[PATH_SIZE])
 {
@@ -79,12 +81,33 @@ bool checkpoint_read(const char *folder, SavedState *state, Error *err)
     return amontons_state_read(path, state, err);
 }
 
+typedef struct HistoryCheck {
+    const char *folder;
+    const HistoryEnd *end;
+} HistoryCheck;
+
+static bool check_history(void *context, FILE *reply, Error *err)
+{
+    const HistoryCheck *check = context;
+    (void)reply;   // it says no more than its error
+    ArrayFile *file = result_file_open(check->folder, err);
+    bool fits = file && history_has_end(file, check->end, err);
+    array_file_abandon(file);
+    return fits;
+}
+
+// In a child process, as the history may be a stranger's, and one that HDF5 crashes on. What the
+// child has read is then opened here, to be gone on with.
 bool checkpoint_check_history(const char *folder, const HistoryEnd *end, Error *err)
 {
-    ArrayFile *file = result_file_open(folder, err);
-    bool fits = file && history_has_end(file, end, err);
-    array_file_abandon(file);
-    if (fits) return true;
+    HistoryCheck check = {folder, end};
+    ChildWork work = {.path = folder,
+                      .reader = "HDF5",
+                      .seconds = CHECK_SECONDS,
+                      .advice = "its history is damaged",
+                      .read = check_history,
+                      .context = &check};
+    if (child_do(&work, err)) return true;
     err->code = ERROR_INPUT;
     error_context(err, "the history cannot be gone on with (--overwrite begins anew)");
     return false;

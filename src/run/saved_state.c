@@ -15,6 +15,7 @@
 #include "base/computation.h"
 #include "base/decimal_point.h"
 #include "base/memory.h"
+#include "base/system.h"
 #include "base/transfer.h"
 #include "io/files/open_file.h"
 #include "io/files/part_file.h"
@@ -259,7 +260,13 @@ bool amontons_state_read(const char *path, SavedState *state, Error *err)
     TRY(descriptor >= 0);
     if (fstat(descriptor, &status) != 0)
         FAIL(err, ERROR_FILE, "cannot read %s: %s", path, strerror(errno));
+    // The run that wrote it had all of it in memory, beside the run itself.
     state->size = status.st_size;
+    if ((double)state->size > system_memory() / 2)
+        FAIL(err, ERROR_INPUT,
+             "%s has %.3g GB, more than the state of a run can have on a computer with %.3g GB: it "
+             "is damaged, or the run was one of a larger computer",
+             path, (double)state->size / 1e9, system_memory() / 1e9);
     TRY((state->bytes = memory_bytes(state->size, err)));
     if (transfer_read(descriptor, state->bytes, state->size, -1) < state->size)
         FAIL(err, ERROR_FILE, "cannot read %s: %s", path, strerror(errno));

@@ -13,6 +13,7 @@
 #include "scene/scene.h"
 
 #include "base/memory.h"
+#include "io/files/open_file.h"
 #include "scene/check.h"
 #include "scene/formulas.h"
 #include "scene/friction_law.h"
@@ -343,12 +344,16 @@ static bool work_out_formulas(SceneSource *source, Scene *scene, Error *err)
 
 // --- reading ------------------------------------------------------------------------------------
 
-// A file named by `key`, relative to the folder of the scene `path`, becomes relative to the
-// current one. An empty name stays.
-static bool resolve_file(const char *path, const char *key, char *name, Error *err)
+// A file named by `key`, relative to the folder of the scene, becomes relative to the current one.
+// An empty name stays.
+static bool resolve_file(const SceneSource *source, const Scene *scene, const char *key, char *name,
+                         Error *err)
 {
-    const char *slash = strrchr(path, '/');
+    const SceneValue *place = &source->places[scene_key_index(key)];
+    const char *path = source->path, *slash = strrchr(path, '/');
     char file[SCENE_TEXT_SIZE];
+    bool in_file = place->document && yaml_is_file(place->document);
+    if (in_file && !scene_blame(scene, key, open_check_named(name, err), err)) return false;
     memcpy(file, name, sizeof file);
     if (!file[0] || file[0] == '/' || !slash) return true;
     int length = snprintf(name, SCENE_TEXT_SIZE, "%.*s/%s", (int)(slash - path), path, file);
@@ -400,25 +405,24 @@ bool scene_source_open(const char *path, bool trusted, SceneSource **out, Error 
 // Is called when everything is stored.
 static bool finish_reading(SceneSource *source, Scene *scene, Error *err)
 {
-    const char *path = scene->path;
     char key[SCENE_KEY_SIZE];
     const char *word = NULL;
     SceneProfile profile;   // read again when the contact is known
     bool done;
-    if (!resolve_file(path, "material.from", scene->material.from, err)) return false;
+    if (!resolve_file(source, scene, "material.from", scene->material.from, err)) return false;
     for (int32_t k = 0; k < scene->materials.count; k++)
         if (scene->materials.region[k].has_from &&
-            !resolve_file(path, "materials", scene->materials.region[k].from, err))
+            !resolve_file(source, scene, "materials", scene->materials.region[k].from, err))
             return false;
     done = scene_material_files(scene, &word, err);
     if (!done) return scene_blame(scene, word, false, err);
     if (!scene_check(scene, source->places, source->file, err)) return false;
     if (!friction_has_drop(&scene->friction))
         scene->friction.mu_kinetic = scene->friction.mu_static;
-    if (!resolve_file(path, "mesh.file", scene->mesh.file, err)) return false;
-    if (!resolve_file(path, "friction.file", scene->friction_keys.file, err)) return false;
-    if (!resolve_file(path, "contact.profile", scene->contact.profile, err)) return false;
-    if (!resolve_file(path, "output.compare", scene->output.compare, err)) return false;
+    if (!resolve_file(source, scene, "mesh.file", scene->mesh.file, err)) return false;
+    if (!resolve_file(source, scene, "friction.file", scene->friction_keys.file, err)) return false;
+    if (!resolve_file(source, scene, "contact.profile", scene->contact.profile, err)) return false;
+    if (!resolve_file(source, scene, "output.compare", scene->output.compare, err)) return false;
     done = scene_profile_read(scene, &profile, err);
     scene_profile_destroy(&profile);
     if (!scene_blame(scene, "contact.profile", done, err)) return false;

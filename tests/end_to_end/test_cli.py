@@ -238,6 +238,14 @@ class Misuse(InFolder):
         mesh.write_text(f"// \n{touch}\n/*\n$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$EndElements\n*/\n")
         self.assert_refused(["info", mesh], "does not begin with $MeshFormat")
         self.assertFalse((self.folder / "ran").exists())
+        for name, text in (("evil.geo", touch), ("real.step", "ISO"), ("real.step.opt", touch)):
+            (self.folder / name).write_text(text)
+        geo.write_text(block + 'Merge "part.step";\n')
+        for target in ("evil.geo", "real.step"):        # in one process, where no filter stops a command
+            (self.folder / "part.step").symlink_to(target)
+            amontons("info", geo, cwd=self.folder, AMONTONS_APART="")
+            self.assertFalse((self.folder / "ran").exists(), target)
+            (self.folder / "part.step").unlink()
         geo.write_text(block + touch + "\n")
         done = amontons("info", geo, "--trust", cwd=self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)

@@ -13,6 +13,8 @@ from pathlib import Path
 SOURCE = Path(os.environ["AMONTONS_SOURCE"])
 sys.path.insert(0, str(SOURCE / "validation/hostile"))
 import cases  # noqa: E402
+from preload_fixture import preload  # noqa: E402
+from sanitizer_fixture import runtime as sanitizer_runtime  # noqa: E402
 
 PROGRAM = Path(os.environ["AMONTONS_BIN"], "amontons")
 PATIENCE = 60 * float(os.environ.get("AMONTONS_PATIENCE", 1))
@@ -26,6 +28,12 @@ double amontons_friction_coefficient(const AmontonsFriction *given, double speed
 { static int calls; if (++calls > 300) exit(0); (void)given; (void)speed; return 0.3; }
 double amontons_friction_slope(const AmontonsFriction *given, double speed) { (void)given; (void)speed; return 0; }
 """
+# HDF5 as it is with a file that it crashes on.
+CRASHES = "#include <signal.h>\nlong H5Fopen(const char *name, unsigned flags, long access) { (void)name, (void)flags, (void)access; return raise(SIGSEGV); }\n"
+PLOT = """x: {label: x}
+y: {label: y}
+series: [{label: mu, x: "out/history.h5:series/time", y: "out/history.h5:series/mu"}]
+"""
 AT_ONCE = "#include <stdlib.h>\n__attribute__((constructor)) static void go(void) { exit(0); }\n"
 
 
@@ -35,8 +43,8 @@ class OddEnds(unittest.TestCase):
         self.addCleanup(shutil.rmtree, self.folder)
         cases.put(self.folder, {"scene.yaml": cases.SCENE, "block.geo": cases.ROOT / "meshes/block.geo", "fit.yaml": FIT})
 
-    def call(self, *words):
-        done = subprocess.run([PROGRAM, *words], cwd=self.folder, env=os.environ | {"AMONTONS_CACHE": ""}, stdin=subprocess.DEVNULL,
+    def call(self, *words, **environment):
+        done = subprocess.run([PROGRAM, *words], cwd=self.folder, env=os.environ | {"AMONTONS_CACHE": ""} | environment, stdin=subprocess.DEVNULL,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=PATIENCE)
         return done.returncode, done.stdout
 
@@ -108,6 +116,23 @@ class OddEnds(unittest.TestCase):
             self.assertEqual(status, wanted, said)
             self.assertIn(words, said)
             self.assertFalse((self.folder / name / "amontons.lock").exists())
+
+    @unittest.skipIf(sanitizer_runtime(PROGRAM), "a library before the sanitizer's")
+    def test_histories_that_crash_hdf5(self):
+        """Are read in a child process first, also where a plot file names one and where a run goes on with one."""
+        few = ("--set", "output.figures=[]", "output.fields=none")
+        self.assertEqual(self.call("run", "scene.yaml", "-o", "out", "-q", *few, "time.until.U=0.0005")[0], 0)
+        self.build("crashes", CRASHES)
+        (self.folder / "plot.yaml").write_text(PLOT)
+        self.assertEqual(self.call("render", "plot.yaml")[0], 0)
+        before = (self.folder / "out/history.h5").read_bytes()
+        crashing = preload(self.folder / "crashes.so")
+        for words, path in ((("render", "plot.yaml", "--overwrite"), "plot.yaml"),
+                            (("run", "scene.yaml", "-o", "out", "-q", *few, "time.until.U=0.0006", "--resume"), "out")):
+            status, said = self.call(*words, **crashing)
+            self.assertEqual(status, 2, said)
+            self.assertIn(f"{path}: HDF5 crashes while reading it", said)
+        self.assertEqual((self.folder / "out/history.h5").read_bytes(), before)
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 """Every file that any command writes or reads: what somebody has put in its place, a file, a link or a pipe, is neither lost nor
 waited for. What is ours is in the list of its folder (src/io/files/own_list.h); a command that lists less fails here."""
 import os
+import re
 import shutil
 import stat
 import subprocess
@@ -75,11 +76,11 @@ def listed(folder, path):
     return False
 
 
-def call(folder, words):
+def call(folder, words, stdin=subprocess.DEVNULL):
     """Status and words; a status of None: it did not end."""
     env = os.environ | {"AMONTONS_CACHE": str(folder / "cache")}
     try:
-        done = subprocess.run([PROGRAM, *words], cwd=folder, env=env, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+        done = subprocess.run([PROGRAM, *words], cwd=folder, env=env, stdin=stdin, stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, timeout=PATIENCE)
     except subprocess.TimeoutExpired:
         return None, "no end"
@@ -247,6 +248,45 @@ class OwnFiles(unittest.TestCase):
                     # What the list has is ours, whatever lies there: --overwrite and a picture drawn anew replace it.
                     ours = path.startswith("cache/") or listed(folder, Path(path))
                     self.assertTrue(stands(folder / path, "pipe") or status == 0 and ours, said)
+
+    def test_open_pipes_are_for_the_command_line(self):
+        """A shell's pipe that never ends: no file names it, and no link leads there. A command may, and finds what is in it."""
+        folder = self.fresh()
+        plain = INPUTS["plain.yaml"]
+        law = "friction: {law: table, file: /dev/stdin}"
+        files = {
+            "friction.yaml": re.sub("(?m)^friction:.*", law, plain),
+            "gap.yaml": plain + "contact: {profile: /dev/fd/0}\n",
+            "moduli.yaml": plain.replace("young: 1, poisson: 0.34", "from: /proc/self/fd/0, poisson: 0.34"),
+            "compare.yaml": INPUTS["scene.yaml"].replace("figures: [force]", "figures: [force]\n  compare: /dev/stdin"),
+            "named.yaml": INPUTS["study.yaml"].replace("scene: plain.yaml", "scene: /dev/stdin"),
+            "measured.yaml": INPUTS["fit.yaml"].replace("measured.csv", "/dev/stdin"),
+            "page.yaml": cases.PLOT + "page: {compare: /dev/stdin}\n",
+            "included.geo": 'Printf(Include "/dev/stdin");\n' + (SOURCE / "meshes/block.geo").read_text()}
+        cases.put(folder, files)
+        ends = os.pipe()
+        try:
+            for words in (["info", "friction.yaml"], ["info", "gap.yaml"], ["info", "moduli.yaml"], ["run", "compare.yaml", "-o", "new"],
+                          ["sweep", "named.yaml", "-o", "many"], ["fit", "measured.yaml", "-o", "fitted"], ["render", "page.yaml", "--overwrite"],
+                          ["info", "included.geo"], ["info", "included.geo", "--trust"]):
+                with self.subTest(words):
+                    status, said = call(folder, words, ends[0])
+                    self.assertEqual(status, 2, said)
+                    self.assertIn("may be named on the command line alone", said)
+            for path in ("out/run.json", "out/history.h5", "out/checkpoint.bin", "scene.yaml"):
+                with self.subTest(path):
+                    (folder / path).unlink(missing_ok=True)
+                    (folder / path).symlink_to("/dev/stdin")
+                    for words in (["info", "out"], ["render", "out"], [*COMMANDS["run"], "--resume"]):
+                        self.assertIsNotNone(call(folder, words, ends[0])[0], words)
+            os.write(ends[1], plain.replace("block.msh", f"{folder}/block.msh").encode())
+            os.close(ends[1])
+            ends = ends[:1]
+            status, said = call(folder, ["run", "/dev/stdin", "-o", "piped", "--quiet"], ends[0])
+            self.assertEqual(status, 0, said)
+        finally:
+            for end in ends:
+                os.close(end)
 
     def test_named_files_give_way_to_overwrite_alone(self):
         for words, named in ((["film", "out", *FILM], "mine.mp4"), (["report", "out"], "mine.html")):

@@ -175,6 +175,36 @@ class Run(InFolder):
                 call()
         self.assertEqual([path.name for path in self.folder.iterdir()], ["run"])
 
+    @unittest.skipUnless(has("h5py"), "no h5py here")
+    def test_histories_of_strangers(self):
+        """Forty groups in one another, each with two links to the next: 2^40 ways, of which one is gone; links that leave the file."""
+        import h5py
+        path = self.folder / "history.h5"
+        with h5py.File(path, "w") as file:
+            file["series/time"] = [0.0, 1.0]
+            group = file
+            for _ in range(40):
+                inner = group.create_group("a")
+                group["b"] = inner
+                group = inner
+            group["last"] = [2.0]
+        history = amontons.open_result(self.folder).history
+        self.assertEqual(list(history["series/time"]), [0, 1])
+        self.assertEqual(len(history), 2)
+        del history
+        for link in (h5py.SoftLink("/series/time"), h5py.ExternalLink("/etc/passwd", "/x")):
+            path.unlink()
+            with h5py.File(path, "w") as file:
+                file["series/time"] = [0.0, 1.0]
+                file["series/mu"] = link
+            with self.assertRaisesRegex(ValueError, "history.h5: series/mu is a link by name"):
+                amontons.open_result(self.folder).history
+        path.unlink()
+        with h5py.File(path, "w") as file:
+            file.create_dataset("x", (2,), "f8", external=[(str(self.folder / "other"), 0, 16)])
+        with self.assertRaisesRegex(ValueError, "the data of .*history.h5: x lie in another file"):
+            amontons.open_result(self.folder).history
+
     def test_odd_calls(self):
         """Each crashed, or took None for a name."""
         simulation = amontons.Simulation(FIG1, SMALL)

@@ -117,6 +117,18 @@ class Resume(OwnCache):
         self.expect(self.run_scene("full", f"time.until.U={END}", "--resume"), 0)
         self.expect_whole("full")
 
+    def test_history_of_another_shape(self):
+        """Rows are copied from arrays that are as long as the run's own series are wide."""
+        import h5py
+        for name, width in (("interface/slip_rate", 1000000), ("interface/status", 3), ("pads/slip", 1000)):
+            result = name.replace("/", "-")
+            shutil.copytree(self.whole, self.folder / result)
+            with h5py.File(self.folder / result / "history.h5", "r+") as file:
+                rows, kind = file[name].shape[0], file[name].dtype
+                del file[name]
+                file.create_dataset(name, (rows, width), kind, maxshape=(None, width), chunks=(1, width))
+            self.expect(self.run_scene(result, "--extend", f"U={END + 0.001}"), 2, f"{name} is not as this run writes it: it has {width} numbers")
+
     def test_misuse(self):
         for words, said in ((["--resume", "--overwrite"], "removes what"), (["--extend", "V=1"], "U=0.02 or t=500"),
                             (["--checkpoint", "soon"], "such as 30s"), (["--resume"], "no checkpoint.bin"),

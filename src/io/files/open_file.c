@@ -34,6 +34,15 @@ static bool is_of_shell(const char *path, const struct stat *status)
     return system_is_shell_pipe(path, status->st_mode);
 }
 
+bool open_check_named(const char *path, Error *err)
+{
+    if (!system_is_descriptor(path)) return true;
+    return REFUSE(err,
+                  "%s is a pipe or file that is open already, which may be named on the command "
+                  "line alone; a file names others by their own paths",
+                  path);
+}
+
 bool open_check(const char *path, Error *err)
 {
     struct stat status;

@@ -11,9 +11,13 @@
 
 // A descriptor for reading; -1 and an error: ERROR_FILE where the system refuses, ERROR_INPUT where
 // nothing is there, and for a named pipe, a device or a folder, none of which is opened. A pipe of
-// the shell, <(command), may be read.
+// the shell, <(command), may be read by the name that the shell gives it.
 int open_to_read(const char *path, Error *err);
 FILE *open_stream(const char *path, Error *err);   // the same; NULL and an error
+
+// Checks a path that stands in a file, which may be a stranger's. ERROR_INPUT: it is a descriptor
+// of this process (base/system), as a command line alone may name one: a pipe may never end.
+bool open_check_named(const char *path, Error *err);
 
 // Checks that `path` may be handed to a library that opens it itself; ERROR_INPUT: it is no file.
 bool open_check(const char *path, Error *err);

@@ -34,7 +34,7 @@ ArrayFile *array_file_create(const char *path, Error *err);
 // Opens `path` for reading; where only `path`.part stands, that. Errors name the file.
 ArrayFile *array_file_open(const char *path, Error *err);
 // Opens a file of array_file_create to go on with, finished or not: it is called `path`.part again.
-// Its series are to be cut (array_file_cut) before more is appended to them.
+// A series of it can be cut and appended to when it is taken up (array_file_take_up).
 ArrayFile *array_file_reopen(const char *path, Error *err);
 // Closes; a created file gets its final name, unless a write failed: then the .part stays. Frees
 // `file` either way. NULL is fine.
@@ -59,7 +59,11 @@ bool array_file_write(ArrayFile *file, const ArraySeries *series, const double *
 // A reader finds all that was appended so far, also after a kill or a power cut. It takes as long
 // as the whole file needs to reach the disk; where nothing has changed since, no time.
 bool array_file_flush(ArrayFile *file, Error *err);
-// Keeps only the first `rows` rows of the series. ERROR_FILE: it has fewer, or there is none.
+// Takes up a series that a reopened file has, which may be anybody's. ERROR_INPUT: its type, width
+// or components are not these. ERROR_FILE: there is none.
+bool array_file_take_up(ArrayFile *file, const ArraySeries *series, int32_t components, Error *err);
+// Keeps only the first `rows` rows of a series that was added or taken up. ERROR_FILE: it has
+// fewer, or there is none.
 bool array_file_cut(ArrayFile *file, const char *name, int64_t rows, Error *err);
 // The array or attribute `name`, where there is one; no series that was appended to.
 bool array_file_remove(ArrayFile *file, const char *name, Error *err);
@@ -89,6 +93,8 @@ bool array_file_has(ArrayFile *file, const char *name);
       (ArrayFile * file, const char *name, const double *values, int64_t rows, Error *err),        \
       (file, name, values, rows, err))                                                             \
     X(flush, (ArrayFile * file, Error * err), (file, err))                                         \
+    X(take_up, (ArrayFile * file, const ArraySeries *series, int32_t components, Error *err),      \
+      (file, series, components, err))                                                             \
     X(cut, (ArrayFile * file, const char *name, int64_t rows, Error *err),                         \
       (file, name, rows, err))                                                                     \
     X(remove, (ArrayFile * file, const char *name, Error *err), (file, name, err))                 \

@@ -7,6 +7,7 @@
 #include "io/hdf5/array_file.h"
 
 #include "base/memory.h"
+#include "base/system.h"
 #include "base/transfer.h"
 #include "io/files/file_lock.h"
 #include "io/files/part_file.h"
@@ -155,6 +156,10 @@ static ArrayFile *hdf5_reopen(const char *path, Error *err)
     if (fstat(file->part.descriptor, &status) != 0)
         FAIL(err, ERROR_FILE, "cannot read %s: %s", part, strerror(errno));
     file->flushed = status.st_size;
+    // HDF5 takes a copy, and whoever wrote it had it in memory beside the run itself.
+    if ((double)file->flushed > system_memory() / 2)
+        FAIL(err, ERROR_INPUT, "%s has %.3g GB, and this computer %.3g GB of memory for two copies",
+             part, (double)file->flushed / 1e9, system_memory() / 1e9);
     TRY(bytes = memory_bytes(file->flushed, err));
     if (transfer_read(file->part.descriptor, bytes, file->flushed, 0) != file->flushed) {
         error_set(err, ERROR_FILE, __FILE__, __LINE__, "cannot read %s: %s", part,
@@ -291,23 +296,31 @@ static bool hdf5_append(ArrayFile *file, const char *name, const double *values,
     return false;
 }
 
-// A series of a reopened file is opened when it is first cut.
-static bool hdf5_cut(ArrayFile *file, const char *name, int64_t rows, Error *err)
+static bool hdf5_take_up(ArrayFile *file, const ArraySeries *series, int32_t components, Error *err)
 {
-    SeriesWriter opened = {0}, *series = find_series(file, name);
+    SeriesWriter opened = {0};
     TRY(may_change(file, err));
-    if (!series) {
-        TRY(memory_grow(&file->series, file->series_count, &file->series_capacity,
-                        sizeof *file->series, err));
-        TRY(series_open(&opened, file->id, name, err));
-        series = &file->series[file->series_count++];
-        *series = opened;
-        opened = (SeriesWriter){0};   // the list owns it now
+    if (find_series(file, series->name))
+        FAIL(err, ERROR_LIBRARY, "%s has taken up %s already", file->path, series->name);
+    TRY(memory_grow(&file->series, file->series_count, &file->series_capacity, sizeof *file->series,
+                    err));
+    if (!series_open(&opened, file->id, series, components, err)) {
+        error_context(err, "%s", file->part.part);
+        goto cleanup;
     }
-    TRY(series_cut(series, file->part.part, rows, err));
+    file->series[file->series_count++] = opened;
+    opened = (SeriesWriter){0};   // the list owns it now
 cleanup:
     series_destroy(&opened);
     return error_is_clean(err);
+}
+
+static bool hdf5_cut(ArrayFile *file, const char *name, int64_t rows, Error *err)
+{
+    SeriesWriter *series = find_series(file, name);
+    if (!may_change(file, err)) return false;
+    if (!series) return FAULT(err, ERROR_FILE, "%s has no series %s to cut", file->path, name);
+    return series_cut(series, file->part.part, rows, err);
 }
 
 // Removes a table or an attribute. A series that is being written must not be removed.

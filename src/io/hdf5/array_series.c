@@ -118,10 +118,14 @@ bool series_shape(hid_t dataset, int64_t *rows, int32_t *width, int32_t *compone
     return known;
 }
 
-bool series_open(SeriesWriter *writer, hid_t id, const char *name, Error *err)
+bool series_open(SeriesWriter *writer, hid_t id, const ArraySeries *series, int32_t components,
+                 Error *err)
 {
     char cause[HDF5_CAUSE_SIZE], why[SHAPE_WHY_SIZE];
-    *writer = (SeriesWriter){0};
+    const char *name = series->name;
+    int32_t width = 0, last = 0;
+    *writer =
+        (SeriesWriter){.type = series->type, .width = series->width, .components = components};
     if (!(writer->name = memory_text(name, err))) return false;
     // With a cache of a chunk, which is CHUNK_BYTES at most, or a row.
     hid_t cache = H5Pcreate(H5P_DATASET_ACCESS);
@@ -131,19 +135,20 @@ bool series_open(SeriesWriter *writer, hid_t id, const char *name, Error *err)
     if (writer->dataset < 0)
         return FAULT(err, ERROR_FILE, "the file has no %s: %s", name, hdf5_cause(cause));
 
-    // Our type of what is stored. The chunks are those that series_create would give it.
-    hid_t type = H5Dget_type(writer->dataset);
-    bool known = false;
-    for (ArrayType one = ARRAY_FLOAT64; !known && one <= ARRAY_INT32; one++) {
-        writer->type = one;
-        known = H5Tequal(type, type_row(one).stored) > 0;
-    }
+    // The file may be anybody's. Its chunks need not be those that series_create would give it.
+    hid_t type = H5Dget_type(writer->dataset), space = H5Dget_space(writer->dataset);
+    bool typed = H5Tequal(type, type_row(series->type).stored) > 0;
+    bool ranked = H5Sget_simple_extent_ndims(space) == rank_of(writer);
     H5Tclose(type);
-    known = known &&
-            series_shape(writer->dataset, &writer->row_count, &writer->width, &writer->components,
-                         why) &&
-            writer->width > 0;
-    if (!known) return FAULT(err, ERROR_FILE, "%s is not as it was written", name);
+    H5Sclose(space);
+    if (!series_shape(writer->dataset, &writer->row_count, &width, &last, why))
+        return FAULT(err, ERROR_FILE, "%s %s", name, why);
+    if (!typed || !ranked || width != writer->width || last != components)
+        return REFUSE(err,
+                      "%s is not as this run writes it: it has %d numbers a row, not %d, or they "
+                      "have another type or shape; it is of another run, or damaged, and "
+                      "--overwrite begins anew",
+                      name, width, writer->width);
     writer->chunk_rows = chunk_rows(writer->type, writer->width);
     writer->buffer =
         memory_array(writer->chunk_rows * writer->width, type_row(writer->type).size, err);

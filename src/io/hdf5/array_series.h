@@ -37,8 +37,10 @@ enum { SHAPE_WHY_SIZE = 60 };
 bool series_shape(hid_t dataset, int64_t *rows, int32_t *width, int32_t *components,
                   char why[SHAPE_WHY_SIZE]);
 
-// One that is in the file already, as it was created. *writer as above.
-bool series_open(SeriesWriter *writer, hid_t id, const char *name, Error *err);
+// One that is in the file already; *writer as above. ERROR_INPUT: it is not as series_create makes
+// it of these arguments, in type, width or components. Rows are taken at that width from memory.
+bool series_open(SeriesWriter *writer, hid_t id, const ArraySeries *series, int32_t components,
+                 Error *err);
 // Only the first `rows` rows stay. ERROR_FILE: it has fewer.
 bool series_cut(SeriesWriter *writer, const char *path, int64_t rows, Error *err);
 

@@ -71,14 +71,25 @@ herr_t attribute_write_text(hid_t object, const char *name, const char *value)
     return status;
 }
 
-herr_t attribute_read_number(hid_t object, const char *name, double *value)
+// An attribute of one value; negative: there is none, or it has several, for which a reader of one
+// has no room. The file may be anybody's.
+static hid_t open_one(hid_t object, const char *name)
 {
     hid_t attribute = H5Aopen(object, name, H5P_DEFAULT);
     if (attribute < 0) return -1;
     hid_t space = H5Aget_space(attribute);
     bool is_one = H5Sget_simple_extent_npoints(space) == 1;
-    herr_t status = is_one ? H5Aread(attribute, H5T_NATIVE_DOUBLE, value) : -1;
     H5Sclose(space);
+    if (is_one) return attribute;
+    H5Aclose(attribute);
+    return -1;
+}
+
+herr_t attribute_read_number(hid_t object, const char *name, double *value)
+{
+    hid_t attribute = open_one(object, name);
+    if (attribute < 0) return -1;
+    herr_t status = H5Aread(attribute, H5T_NATIVE_DOUBLE, value);
     H5Aclose(attribute);
     return status;
 }
@@ -87,7 +98,7 @@ herr_t attribute_read_number(hid_t object, const char *name, double *value)
 herr_t attribute_read_text(hid_t object, const char *name, char *value, int32_t size)
 {
     char *stored = NULL;
-    hid_t attribute = H5Aopen(object, name, H5P_DEFAULT);
+    hid_t attribute = open_one(object, name);
     if (attribute < 0) return -1;
     hid_t type = H5Aget_type(attribute);
     herr_t status = H5Tis_variable_str(type) > 0 ? H5Aread(attribute, type, &stored) : -1;

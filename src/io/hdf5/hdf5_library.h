@@ -39,6 +39,6 @@ herr_t attribute_write_number(hid_t object, const char *name, double value);
 herr_t attribute_write_text(hid_t object, const char *name, const char *value);   // h5py: str
 // A scalar or an array of one, whatever its stored type.
 herr_t attribute_read_number(hid_t object, const char *name, double *value);
-// Cut to `size`. A text of fixed length is none of ours.
+// The same of a text, cut to `size`. One of fixed length is none of ours.
 herr_t attribute_read_text(hid_t object, const char *name, char *value, int32_t size);
 #endif

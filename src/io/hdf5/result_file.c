@@ -113,6 +113,25 @@ static int32_t row_components(const ResultRow *row, const ResultHead *head)
     return row == &series_rows[SERIES_STATE] && head->states > 1 ? head->states : 1;
 }
 
+// Numbers in a row of a series: one, or some of each contact node, pad or probe. Pads are numbered
+// from 0.
+static int32_t series_width(const ResultRow *row, const ResultHead *head)
+{
+    double last_pad = 0;
+    switch (row->columns) {
+    case COLUMNS_NODES:
+        return head->contact_count * row_components(row, head);
+    case COLUMNS_PROBES:
+        return head->probes * row_components(row, head);
+    case COLUMNS_PADS:
+        for (int32_t i = 0; i < head->contact_count; i++)
+            last_pad = fmax(last_pad, head->nodes[NODES_PAD][i]);
+        return (int32_t)last_pad + 1;
+    default:
+        return 1;
+    }
+}
+
 // Makes the array of a table's row, empty.
 static bool add_row(ArrayFile *file, const ResultRow *row, int32_t width, const ResultHead *head,
                     Error *err)
@@ -147,7 +166,6 @@ ArrayFile *result_file_create(const char *folder, const ResultHead *head, Error 
 {
     char path[PATH_MAX];
     ArrayFile *file = NULL;
-    double last_pad = 0;   // pads are numbered from 0
     if (head->contact_count < 1)
         FAIL(err, ERROR_INPUT, "a result needs contact nodes, not %d of them", head->contact_count);
     TRY(history_path(folder, path, err));
@@ -187,18 +205,11 @@ ArrayFile *result_file_create(const char *folder, const ResultHead *head, Error 
         TRY(array_file_append(file, row->name, head->probe_places, head->probes, err));
     }
 
-    // Series, empty: in a row stand numbers of each contact node, pad or probe, or one.
-    for (int32_t i = 0; i < head->contact_count; i++)
-        last_pad = fmax(last_pad, head->nodes[NODES_PAD][i]);
+    // Series, empty.
     for (int32_t k = 0; k < RESULT_SERIES_COUNT; k++) {
         const ResultRow *row = &series_rows[k];
-        int32_t width = row->columns == COLUMNS_NODES    ? head->contact_count
-                        : row->columns == COLUMNS_PADS   ? (int32_t)last_pad + 1
-                        : row->columns == COLUMNS_PROBES ? head->probes
-                                                         : 1;
-        if (row->columns == COLUMNS_NODES || row->columns == COLUMNS_PROBES)
-            width *= row_components(row, head);
-        if (result_series_written(head, (ResultSeries)k)) TRY(add_row(file, row, width, head, err));
+        if (result_series_written(head, (ResultSeries)k))
+            TRY(add_row(file, row, series_width(row, head), head, err));
     }
     TRY(array_file_flush(file, err));   // from here on a killed run leaves a readable history
     return file;
@@ -207,13 +218,22 @@ cleanup:
     return NULL;
 }
 
-// Removes what is known only at the end of a run.
-ArrayFile *result_file_reopen(const char *folder, Error *err)
+// Every series that will be written must be as this run would have made it: rows are copied from
+// arrays of the run, which are as long as the run's own series are wide. Then what is known only at
+// the end of a run is removed.
+ArrayFile *result_file_reopen(const char *folder, const ResultHead *head, Error *err)
 {
     char path[PATH_MAX];
     ArrayFile *file = NULL;
     TRY(history_path(folder, path, err));
     TRY((file = array_file_reopen(path, err)));
+    for (int32_t k = 0; k < RESULT_SERIES_COUNT; k++) {
+        const ResultRow *row = &series_rows[k];
+        const ArraySeries series = {
+            .name = row->name, .type = row->type, .width = series_width(row, head)};
+        if (result_series_written(head, (ResultSeries)k))
+            TRY(array_file_take_up(file, &series, row_components(row, head), err));
+    }
     for (int32_t k = 0; k < RESULT_TABLES_COUNT; k++)
         TRY(array_file_remove(file, table_rows[k].name, err));
     TRY(array_file_remove(file, number_rows[NUMBER_MU_M].name, err));
@@ -225,13 +245,11 @@ cleanup:
     return NULL;
 }
 
-bool result_file_cut(ArrayFile *file, int64_t rows, Error *err)
+bool result_file_cut(ArrayFile *file, const bool written[RESULT_SERIES_COUNT], int64_t rows,
+                     Error *err)
 {
-    for (int32_t k = 0; k < RESULT_SERIES_COUNT; k++) {
-        bool may_lack = !result_series_written(&(ResultHead){0}, (ResultSeries)k);
-        if (may_lack && !array_file_has(file, series_rows[k].name)) continue;
-        if (!array_file_cut(file, series_rows[k].name, rows, err)) return false;
-    }
+    for (int32_t k = 0; k < RESULT_SERIES_COUNT; k++)
+        if (written[k] && !array_file_cut(file, series_rows[k].name, rows, err)) return false;
     return true;
 }
 

@@ -45,8 +45,12 @@ struct ResultHead {
 };
 ArrayFile *result_file_create(const char *folder, const ResultHead *head, Error *err);
 // The history of RESULT, finished or not, to go on with; without the tables and numbers of an end.
-ArrayFile *result_file_reopen(const char *folder, Error *err);
-bool result_file_cut(ArrayFile *file, int64_t rows, Error *err);   // only the first steps stay
+// ERROR_INPUT: a series is not as result_file_create makes it of this head. ERROR_FILE: it is
+// missing.
+ArrayFile *result_file_reopen(const char *folder, const ResultHead *head, Error *err);
+// Keeps the first `rows` steps of these series.
+bool result_file_cut(ArrayFile *file, const bool written[RESULT_SERIES_COUNT], int64_t rows,
+                     Error *err);
 bool result_file_write_table(ArrayFile *file, ResultTable table, const double *values,
                              int32_t count, Error *err);
 

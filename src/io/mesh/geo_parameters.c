@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "base/text.h"
+#include "io/files/open_file.h"
 #include "io/files/text_file.h"
 
 #include <ctype.h>
@@ -75,8 +76,7 @@ static bool read_list(const char **at, GeoParameters *known, Error *err)
         if (expect_name && depth == 1 && length > 0) {
             const char *name = now;
             now = skip_blank(now + length);
-            if (!memory_resize(&known->items, known->count, known->count + 1, sizeof *known->items,
-                               err))
+            if (!memory_grow(&known->items, known->count, &known->room, sizeof *known->items, err))
                 return false;
             // A name that is longer is cut: a MeshParameter has no room for it.
             GeoParameter *item = &known->items[known->count++];
@@ -111,29 +111,43 @@ void geo_included_path(const char *path, const char *name, int length, char incl
         snprintf(included, GEO_PATH_SIZE, "%s/%.*s", dirname(folder), length, name);
 }
 
+// Files read so far, the same one as often as it is included.
+typedef struct Scan {
+    int32_t files;
+    int64_t bytes;
+    GeoParameters *known;
+} Scan;
+
 // Calls itself for each `Include "name"`; the name is relative to the file that includes it.
-static bool scan_file(const char *path, int32_t depth, GeoParameters *known, Error *err)
+static bool scan_file(const char *path, int32_t depth, Scan *scan, Error *err)
 {
     char *text = NULL;
     int32_t size = 0;
     if (depth > GEO_INCLUDE_DEPTH_MAX)
         FAIL(err, ERROR_INPUT, "%s: files include each other more than %d deep", path,
              GEO_INCLUDE_DEPTH_MAX);
+    if (scan->files++ >= GEO_FILES_MAX)
+        FAIL(err, ERROR_INPUT, "%s: more than %d files are included", path, GEO_FILES_MAX);
     TRY(text_file_read(path, GEO_BYTES_MAX, &text, &size, err));
+    if ((scan->bytes += size) > GEO_BYTES_MAX)
+        FAIL(err, ERROR_INPUT, "%s: the .geo and what it includes are larger than %d MB", path,
+             GEO_BYTES_MAX >> 20);
     // Word by word: a name inside a longer one, a string or a comment must not count.
     const char *at = text;
     while (*at) {
         size_t length = word_length(at);
-        const char *next = skip_blank(at + length);
-        if (length == strlen("DefineConstant") && strncmp(at, "DefineConstant", length) == 0 &&
-            (*next == '[' || *next == '(')) {
-            TRY(read_list(&next, known, err));
+        bool defines = length == strlen("DefineConstant") &&
+                       strncmp(at, "DefineConstant", length) == 0;
+        bool includes = length == strlen("Include") && strncmp(at, "Include", length) == 0;
+        // Not of every word: what lies between would be gone over again and again.
+        const char *next = defines || includes ? skip_blank(at + length) : "";
+        if (defines && (*next == '[' || *next == '(')) {
+            TRY(read_list(&next, scan->known, err));
             at = next;
-        } else if (length == strlen("Include") && strncmp(at, "Include", length) == 0 &&
-                   *next == '"') {
+        } else if (includes && *next == '"') {
             char other[GEO_PATH_SIZE];
             geo_included_path(path, next + 1, (int)strcspn(next + 1, "\""), other);
-            if (!scan_file(other, depth + 1, known, err)) {
+            if (!open_check_named(other, err) || !scan_file(other, depth + 1, scan, err)) {
                 error_context(err, "included by %s", path);
                 goto cleanup;
             }
@@ -153,7 +167,8 @@ cleanup:
 bool geo_parameters_read(const char *path, GeoParameters *known, Error *err)
 {
     *known = (GeoParameters){0};
-    return scan_file(path, 0, known, err);
+    Scan scan = {.known = known};
+    return scan_file(path, 0, &scan, err);
 }
 
 // Always fails: lists the names there are, and the one that was probably meant.

@@ -10,7 +10,14 @@
 #include <limits.h>
 #include <stdint.h>
 
-enum { GEO_INCLUDE_DEPTH_MAX = 8, GEO_PATH_SIZE = 2 * PATH_MAX, GEO_BYTES_MAX = 1 << 28 };
+// GEO_FILES_MAX: files that include the next one twice each would be read 2^depth times.
+// GEO_BYTES_MAX: of all of them.
+enum {
+    GEO_INCLUDE_DEPTH_MAX = 8,
+    GEO_FILES_MAX = 1000,
+    GEO_PATH_SIZE = 2 * PATH_MAX,
+    GEO_BYTES_MAX = 1 << 28
+};
 
 // The file that `Include "name"` means in the script `path`: `name`, of which `length` bytes count,
 // is relative to it.
@@ -23,12 +30,13 @@ typedef struct GeoParameter {
 } GeoParameter;
 
 typedef struct GeoParameters {
-    int32_t count;
+    int32_t count, room;
     GeoParameter *items;   // [count] in the order of the file; owned
 } GeoParameters;
 
 // Reads `path` and the files it includes (`Include "other.geo";`). *known is destroyed by the
-// caller. ERROR_INPUT: a file that cannot be read, or includes nested deeper than 8.
+// caller. ERROR_INPUT: a file that cannot be read; includes that are nested deeper than 8, or are
+// too many or too large.
 bool geo_parameters_read(const char *path, GeoParameters *known, Error *err);
 void geo_parameters_destroy(GeoParameters *known);
 

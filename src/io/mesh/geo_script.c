@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "base/text.h"
+#include "io/files/open_file.h"
 #include "io/files/text_file.h"
 #include "io/mesh/geo_parameters.h"
 
@@ -19,9 +20,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-// FILES_MAX: files that include the next one twice each would be read 2^depth times. STRING_MAX:
-// gmsh ends a string after 1023 bytes, and takes the rest of it for statements.
-enum { FILES_MAX = 1000, STRING_MAX = 1000, WORD_SIZE = 64 };
+// STRING_MAX: gmsh ends a string after 1023 bytes, and takes the rest of it for statements.
+// TOKENS_MAX: of 24 bytes each, which a file of brackets alone would have by the 100 million.
+enum { STRING_MAX = 1000, WORD_SIZE = 64, TOKENS_MAX = 1 << 26 };
 
 // --- the lists -----------------------------------------------------------------------------------
 
@@ -177,6 +178,9 @@ typedef enum TokenKind { TOKEN_WORD, TOKEN_NUMBER, TOKEN_STRING, TOKEN_SIGN, TOK
 
 typedef struct Token {
     int32_t at, length;   // in `raw`; of a string with its quotes
+    int32_t line;   // of raw, from 1
+    int32_t behind;   // of a bracket that opens: index of the token behind its pair, or the end
+    int32_t name_end;   // where what may stand behind a name ends that begins here (find_pairs)
     uint8_t kind;   // TokenKind
 } Token;
 
@@ -219,10 +223,14 @@ static bool put(Reading *reading, const char *bytes, int32_t count, Error *err)
 static bool put_token(Reading *reading, TokenKind kind, const char *bytes, int32_t count,
                       Error *err)
 {
+    if (reading->token_count == TOKENS_MAX)
+        return REFUSE(err, "the .geo and what it includes have more than %d words and signs",
+                      TOKENS_MAX);
     if (!memory_grow(&reading->tokens, reading->token_count, &reading->token_room,
                      sizeof *reading->tokens, err))
         return false;
-    reading->tokens[reading->token_count++] = (Token){reading->size, count, (uint8_t)kind};
+    reading->tokens[reading->token_count++] =
+        (Token){.at = reading->size, .length = count, .line = reading->line, .kind = (uint8_t)kind};
     return put(reading, bytes, count, err);
 }
 
@@ -258,12 +266,11 @@ void geo_script_place(const GeoScript *script, int32_t line, const char **path, 
     *file_line = place->file_line + line - place->line;
 }
 
-// The file, and its line, that byte `at` of raw comes from.
-static void find_place(const Reading *reading, int32_t at, const char **path, int32_t *file_line)
+// The file, and its line, that a token comes from.
+static void find_place(const Reading *reading, const Token *token, const char **path,
+                       int32_t *file_line)
 {
-    int32_t line = 1;
-    for (int32_t i = 0; i < at; i++) line += reading->raw[i] == '\n';
-    geo_script_place(reading->script, line, path, file_line);
+    geo_script_place(reading->script, token->line, path, file_line);
 }
 
 // Always fails, at token k.
@@ -272,7 +279,7 @@ static bool refuse_at(const Reading *reading, int32_t k, const char *why, Error 
     const Token *token = &reading->tokens[k];
     const char *path;
     int32_t file_line;
-    find_place(reading, token->at, &path, &file_line);
+    find_place(reading, token, &path, &file_line);
     int shown = token->length < WORD_SIZE ? token->length : WORD_SIZE;
     return REFUSE(
         err,
@@ -331,12 +338,30 @@ static bool holds_skip_word(const char *text, int32_t length)
     return false;
 }
 
+// Why a path must not stand between quotes in the text that gmsh is given; NULL: it may.
+static const char *path_fault(const char *path)
+{
+    size_t length = strlen(path);
+    if (strpbrk(path, "\"\n%\\")) return "has a quote or percent in its path";
+    if (length > STRING_MAX) return "has a path that is longer than gmsh reads";
+    if (holds_skip_word(path, (int32_t)length))
+        return "has a word in its path that ends what gmsh skips";
+    return NULL;
+}
+
 static bool read_file(Reading *reading, const char *path, Error *err);
 
 static bool is_regular(const char *path)
 {
     struct stat status;
     return stat(path, &status) == 0 && S_ISREG(status.st_mode);
+}
+
+// Goes by the last dot, as gmsh does.
+static bool has_shape_ending(const char *path)
+{
+    const char *dot = strrchr(path, '.');
+    return dot && is_listed(SHAPES, dot + 1, (int32_t)strlen(dot + 1));
 }
 
 // The last three tokens, `Include "name";` or `Merge "name";`, become what is in the file. Shapes
@@ -348,17 +373,15 @@ static bool take_in(Reading *reading, const char *path, int32_t file, int32_t fi
     char other[GEO_PATH_SIZE];
     bool merges = !token_is(reading, reading->token_count - 3, "Include");
     geo_included_path(path, reading->raw + name->at + 1, name->length - 2, other);
-    const char *dot = strrchr(other, '.');
-    if (merges && dot && is_listed(SHAPES, dot + 1, (int32_t)strlen(dot + 1))) return true;
+    if (merges && has_shape_ending(other)) return true;
     for (int32_t k = begin; k < reading->size; k++)
         if (reading->raw[k] != '\n') reading->raw[k] = ' ';
     reading->token_count -= 3;
     if (access(other, F_OK) != 0) {
         char missing[GEO_PATH_SIZE + 32];
         int length = snprintf(missing, sizeof missing, "Error(\"cannot open '%.800s'\");", other);
-        return strpbrk(other, "\"\n%")
-                   ? REFUSE(err, "%s:%d: cannot open %s", path, file_line, other)
-                   : put(reading, missing, length, err);
+        return path_fault(other) ? REFUSE(err, "%s:%d: cannot open %s", path, file_line, other)
+                                 : put(reading, missing, length, err);
     }
     if (!put(reading, "\n", 1, err)) return false;
     if (!read_file(reading, other, err)) {
@@ -430,8 +453,8 @@ static bool read_file(Reading *reading, const char *path, Error *err)
     if (reading->depth > GEO_INCLUDE_DEPTH_MAX + 1)
         FAIL(err, ERROR_INPUT, "%s: files include each other more than %d deep", path,
              GEO_INCLUDE_DEPTH_MAX);
-    if (file >= FILES_MAX)
-        FAIL(err, ERROR_INPUT, "%s: more than %d files are included", path, FILES_MAX);
+    if (file >= GEO_FILES_MAX)
+        FAIL(err, ERROR_INPUT, "%s: more than %d files are included", path, GEO_FILES_MAX);
     // A pipe or terminal would never end.
     if (!is_regular(path)) FAIL(err, ERROR_INPUT, "%s: is no file", path);
     TRY(text_file_read(path, GEO_BYTES_MAX, &text, &size, err));
@@ -461,16 +484,45 @@ static bool is_close(const Reading *reading, int32_t k)
            strchr(")]}", reading->raw[reading->tokens[k].at]);
 }
 
-// Index of the token behind the bracket that opens at token k and its pair; where it has none, at
+// Index of the token behind the bracket that opens at token k and its pair; where there is none, at
 // the end.
 static int32_t behind_bracket(const Reading *reading, int32_t k)
 {
-    int32_t depth = 0;
-    for (; k < reading->token_count; k++) {
-        if (is_open(reading, k)) depth++;
-        if (is_close(reading, k) && --depth == 0) return k + 1;
+    return is_open(reading, k) ? reading->tokens[k].behind : reading->token_count;
+}
+
+// Finds once for all tokens what would take a search from each of them: the pair of every bracket,
+// and where indices and members behind a name end: x, x[0], x(), x~{i}, x.part.
+static void find_pairs(Reading *reading)
+{
+    int32_t count = reading->token_count, top = -1;   // top: the last bracket that is still open
+    Token *tokens = reading->tokens;
+    for (int32_t k = 0; k < count; k++) {
+        if (is_open(reading, k)) {
+            tokens[k].behind = top;   // until its pair comes: the one that is open around it
+            top = k;
+        } else if (is_close(reading, k) && top >= 0) {
+            int32_t around = tokens[top].behind;
+            tokens[top].behind = k + 1;
+            top = around;
+        }
     }
-    return k;
+    while (top >= 0) {
+        int32_t around = tokens[top].behind;
+        tokens[top].behind = count;
+        top = around;
+    }
+    for (int32_t k = count - 1; k >= 0; k--) {
+        int32_t next = k;   // where more may stand
+        bool braces = token_is(reading, k, "{");
+        if (token_is(reading, k, "~"))
+            next = k + 1;
+        else if (is_open(reading, k) && (!braces || token_is(reading, k - 1, "~")))
+            next = tokens[k].behind;
+        else if (token_is(reading, k, ".") && token_kind(reading, k + 1) == TOKEN_WORD)
+            next = k + 2;
+        tokens[k].name_end = next == k ? k : next < count ? tokens[next].name_end : count;
+    }
 }
 
 // True where token k begins =, +=, -=, *=, /=, ++ or --, and not ==.
@@ -483,22 +535,10 @@ static bool is_assignment(const Reading *reading, int32_t k)
            (*at == '-' && at[1] == '-');
 }
 
-// Index of the token behind a name and its indices: x, x[0], x(), x~{i}, x.part.
+// Index of the token behind a name and its indices and members.
 static int32_t behind_name(const Reading *reading, int32_t k)
 {
-    for (k++; k < reading->token_count;) {
-        if (token_is(reading, k, "~"))
-            k++;
-        else if (is_open(reading, k) && !token_is(reading, k, "{"))
-            k = behind_bracket(reading, k);
-        else if (token_is(reading, k, "{") && token_is(reading, k - 1, "~"))
-            k = behind_bracket(reading, k);
-        else if (token_is(reading, k, ".") && token_kind(reading, k + 1) == TOKEN_WORD)
-            k += 2;
-        else
-            break;
-    }
-    return k;
+    return k + 1 < reading->token_count ? reading->tokens[k + 1].name_end : reading->token_count;
 }
 
 static bool own_add(Reading *reading, int32_t k, Error *err)
@@ -519,13 +559,12 @@ static bool find_own_names(Reading *reading, Error *err)
         if ((token_is(reading, k, "DefineConstant") || token_is(reading, k, "UndefineConstant") ||
              token_is(reading, k, "DefineNumber") || token_is(reading, k, "DefineString")) &&
             is_open(reading, k + 1)) {
-            int32_t end = behind_bracket(reading, k + 1), depth = 0;
-            for (int32_t i = k + 1; i < end; i++) {
-                if (is_open(reading, i)) depth++;
-                if (is_close(reading, i)) depth--;
-                bool begins = depth == 1 && (i == k + 1 || token_is(reading, i, ","));
-                if (begins) TRY(own_add(reading, i + 1, err));
-            }
+            // Past brackets within: each token is looked at once, however deep they are.
+            int32_t end = behind_bracket(reading, k + 1);
+            TRY(own_add(reading, k + 2, err));
+            for (int32_t i = k + 2; i < end;
+                 i = is_open(reading, i) ? reading->tokens[i].behind : i + 1)
+                if (token_is(reading, i, ",")) TRY(own_add(reading, i + 1, err));
         }
         int32_t behind = k + 1;
         if (!is_assignment(reading, behind) &&
@@ -576,38 +615,54 @@ static int32_t behind_statement(const Reading *reading, int32_t k, bool block)
     return -1;
 }
 
+// Puts the working folder before a relative path, and changes nothing else of it. false: there is
+// no room.
+static bool make_absolute(char path[GEO_PATH_SIZE])
+{
+    char folder[PATH_MAX], whole[GEO_PATH_SIZE];
+    if (path[0] == '/') return true;
+    if (!getcwd(folder, sizeof folder)) return false;
+    if (snprintf(whole, sizeof whole, "%s/%s", folder, path) >= (int)sizeof whole) return false;
+    strcpy(path, whole);
+    return true;
+}
+
 // `Merge "part.step";` with the path that it means in this file; the name alone would be looked for
 // beside the text that gmsh reads. *from is behind it then.
+//
+// gmsh goes by the ending of the path that it is given, and by what stands beside it: so it is
+// given the very path that is checked here. A link is left for it to follow. The path that the link
+// leads to may end otherwise, and is nowhere used.
 static bool merge(Reading *reading, int32_t k, int32_t *from, Error *err)
 {
-    char other[GEO_PATH_SIZE], words[GEO_PATH_SIZE + 8], real[PATH_MAX], begin[16] = "";
+    char other[GEO_PATH_SIZE], words[GEO_PATH_SIZE + 8], begin[16] = "";
     const Token *name = &reading->tokens[k + 1];
     const char *path;
     int32_t file_line;
     if (token_kind(reading, k + 1) != TOKEN_STRING || !token_is(reading, k + 2, ";"))
         return refuse_at(reading, k, "opens a file whose name is not written out", err);
-    find_place(reading, name->at, &path, &file_line);
+    find_place(reading, name, &path, &file_line);
     geo_included_path(path, reading->raw + name->at + 1, name->length - 2, other);
+    if (!make_absolute(other)) return refuse_at(reading, k + 1, "has too long a path", err);
 
     // The file is one that gmsh reads itself: it holds no statements, and has none beside it.
-    const char *dot = strrchr(other, '.');
+    const char *dot = strrchr(other, '.'), *fault = path_fault(other);
     bool is_there = access(other, F_OK) == 0;
-    if (strpbrk(other, "\"\n%\\"))
-        return refuse_at(reading, k + 1, "has a quote or percent in its path", err);
+    if (fault) return refuse_at(reading, k + 1, fault, err);
+    if (!has_shape_ending(other)) return refuse_at(reading, k + 1, "is no shape or mesh", err);
     if (is_there && !is_regular(other)) return refuse_at(reading, k + 1, "is no file", err);
     snprintf(words, sizeof words, "%s.opt", other);
-    if (access(words, F_OK) == 0)
+    if (open_is_there(words))
         return refuse_at(reading, k + 1, "has options beside it (.opt), which gmsh would read",
                          err);
-    if (is_there && dot && strcmp(dot, ".msh") == 0) {
+    if (is_there && strcmp(dot, ".msh") == 0) {
         int file = open(other, O_RDONLY | O_CLOEXEC);
         ssize_t count = file < 0 ? 0 : read(file, begin, sizeof begin - 1);
         if (file >= 0) close(file);
         if (count <= 0 || strncmp(begin, "$MeshFormat", strlen("$MeshFormat")) != 0)
             return refuse_at(reading, k + 1, "is no mesh", err);
     }
-    if (!realpath(other, real)) snprintf(real, sizeof real, "%.4000s", other);
-    snprintf(words, sizeof words, "\"%s\"", real);
+    snprintf(words, sizeof words, "\"%s\"", other);
     return copy_to(reading, from, name->at, false, err) && say(reading, words, err) &&
            (*from = name->at + name->length) > 0;
 }
@@ -615,22 +670,22 @@ static bool merge(Reading *reading, int32_t k, int32_t *from, Error *err)
 // `ShapeFromFile(file)`: the path, which may be any text, is relative to the folder of this file.
 static bool shape(Reading *reading, int32_t k, int32_t *from, Error *err)
 {
-    char folder[PATH_MAX] = "", *slash;
-    const char *path;
+    char folder[GEO_PATH_SIZE];   // with a slash at its end
+    const char *path, *fault;
     int32_t file_line, end = behind_bracket(reading, k + 1);
     if (!token_is(reading, k + 1, "(") || end - k < 4 || !is_close(reading, end - 1))
         return refuse_at(reading, k, "is not followed by (a name)", err);
-    find_place(reading, reading->tokens[k].at, &path, &file_line);
-    if (!realpath(path, folder) || strpbrk(folder, "\"\n%\\"))
-        return refuse_at(reading, k, "stands in a file with a quote or percent in its path", err);
-    if ((slash = strrchr(folder, '/'))) *slash = 0;
+    find_place(reading, &reading->tokens[k], &path, &file_line);
+    geo_included_path(path, "", 0, folder);
+    fault = make_absolute(folder) ? path_fault(folder) : "stands in a file with too long a path";
+    if (fault) return refuse_at(reading, k, fault, err);
     int32_t begin = reading->tokens[k + 2].at;
     int32_t behind = reading->tokens[end - 1].at;
     const char *parts[] = {"StrChoice(StrCmp(StrSub(",
                            NULL,
                            ", 0, 1), \"/\"), StrCat(\"",
                            folder,
-                           "/\", ",
+                           "\", ",
                            NULL,
                            "), ",
                            NULL,
@@ -749,6 +804,11 @@ static bool judge(Reading *reading, Error *err)
         int32_t behind = left_out(reading, k, err);
         if (behind < 0) return false;
         bool leaves = token_is(reading, k, "Exit") && !token_is(reading, k - 1, ".");
+        bool opens = token_is(reading, k, "Merge") || token_is(reading, k, "MergeWithBoundingBox");
+        bool is_shape = token_is(reading, k, "ShapeFromFile");
+        // The argument of ShapeFromFile is in the text already: nothing of it can be changed.
+        if (reading->tokens[k].at < from && (behind > k || leaves || opens || is_shape))
+            return refuse_at(reading, k, "stands inside the brackets of ShapeFromFile", err);
         if (leaves) behind = behind_statement(reading, k, false);
         if (leaves && behind < 0)
             return refuse_at(reading, k, "begins a statement that has no end", err);
@@ -762,10 +822,9 @@ static bool judge(Reading *reading, Error *err)
             k = behind - 1;
             continue;
         }
-        bool opens = token_is(reading, k, "Merge") || token_is(reading, k, "MergeWithBoundingBox");
         if (!check_word(reading, k, err)) return false;
         if (opens && !merge(reading, k, &from, err)) return false;
-        if (token_is(reading, k, "ShapeFromFile") && !shape(reading, k, &from, err)) return false;
+        if (is_shape && !shape(reading, k, &from, err)) return false;
     }
     return copy_to(reading, &from, reading->size, false, err);
 }
@@ -778,6 +837,7 @@ bool geo_script_read(const char *path, GeoScript *script, Error *err)
     TRY(word_set(LEFT_OUT, &reading.left_out, err));
     TRY(read_file(&reading, path, err));
     TRY(put(&reading, "\n", 1, err));
+    find_pairs(&reading);
     TRY(find_own_names(&reading, err));
     TRY(judge(&reading, err));
     script->text = reading.out;

@@ -12,10 +12,11 @@
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
-enum { SIZE_MAX_CSV = 1 << 30, NUMBER_SIZE = 64, REASON_SIZE = 400 };
+enum { SIZE_MAX_CSV = 1 << 30, NUMBER_SIZE = 64, REASON_SIZE = 400, UNIT_BEHIND_MAX = 1000 };
 
 static const char BLANKS[] = " \t", ENDS[] = "\r\n", COMMENTS[] = "#%";
 static const char SEPARATORS[] = "\t;,", ALL_SEPARATORS[] = "\t;, ";   // in this order
@@ -67,13 +68,16 @@ static int32_t count_cells(const char *line, char separator, bool *numbers)
     for (;;) {
         // Find the end of the cell. Blanks before a bracket separate nothing: x [mm].
         const char *end = line;
-        bool quoted = false, has_quotes = line[strspn(line, BLANKS)] == '"';   // else E" is a name
+        // A separator that is a tab is none of the blanks before a quote. Else E" is a name.
+        bool quoted = false,
+             has_quotes = line[strspn(line, separator == '\t' ? " " : BLANKS)] == '"';
         for (; *end && (quoted || !ends_line(*end)); end++) {
             if (*end == '"' && has_quotes) quoted = !quoted;
             if (quoted || (separator == ' ' ? !strchr(BLANKS, *end) : *end != separator)) continue;
             if (separator != ' ') break;
             const char *next = end + strspn(end, BLANKS);
             if (*next != '(' && *next != '[') break;
+            end = next - 1;   // all of them at once: there may be millions
         }
 
         double value;
@@ -122,9 +126,11 @@ static char *take_cell(char separator, char **at, bool *ends)
     while (*from) {
         if (!quoted) {
             if (strchr(ENDS, *from)) break;
-            if (separator == ' ' ? strchr(BLANKS, *from) != NULL : *from == separator) {
-                char *next = from + strspn(from, BLANKS);
-                if (separator != ' ' || (*next != '(' && *next != '[')) break;
+            if (separator != ' ' && *from == separator) break;
+            if (separator == ' ' && strchr(BLANKS, *from)) {
+                const char *next = from + strspn(from, BLANKS);
+                if (*next != '(' && *next != '[') break;
+                while (from < next) *to++ = *from++;
             }
         }
         if (quoted && *from == '"' && from[1] != '"') {
@@ -293,6 +299,41 @@ static bool take_units(CsvTable *table, Error *err)
     return true;
 }
 
+// A name and where it stands.
+typedef struct NamePlace {
+    const char *name;
+    int32_t column;
+} NamePlace;
+
+static int order_names(const void *left, const void *right)
+{
+    const NamePlace *a = left, *b = right;
+    int order = strcmp(a->name, b->name);
+    return order ? order : (a->column > b->column) - (a->column < b->column);
+}
+
+// A name stands once, whatever a stranger's file has of them: equal ones are neighbours in a sorted
+// list. The error is about the first that stands again.
+static bool check_names(const CsvTable *table, Error *err)
+{
+    int32_t count = 0, first = -1, again = -1;
+    NamePlace *list = NEW_ARRAY(NamePlace, table->columns, err);
+    if (!list) return false;
+    for (int32_t k = 0; k < table->columns; k++)
+        if (*table->cells[k]) list[count++] = (NamePlace){table->cells[k], k};
+    if (count > 0) qsort(list, (size_t)count, sizeof *list, order_names);
+    for (int32_t i = 1; i < count; i++) {
+        if (strcmp(list[i - 1].name, list[i].name) != 0) continue;
+        if (again >= 0 && again < list[i].column) continue;
+        first = list[i - 1].column;
+        again = list[i].column;
+    }
+    memory_free(list);
+    return again < 0 ||
+           csv_refuse(table, -1, again, err, "stands twice, in column %d and in column %d",
+                      first + 1, again + 1);
+}
+
 static bool read_table(const char *path, bool may_be_bare, CsvTable *table, Error *err)
 {
     int32_t size = 0, comment_line = 0, first[2] = {-1, -1};
@@ -334,11 +375,7 @@ static bool read_table(const char *path, bool may_be_bare, CsvTable *table, Erro
              table->line[1]);
     table->rows = reading.count / table->columns - 1;
     TRY(take_units(table, err));
-    for (int32_t k = 0; k < table->columns; k++)
-        for (int32_t j = 0; *table->cells[k] && j < k; j++)
-            if (strcmp(table->cells[j], table->cells[k]) == 0)
-                TRY(csv_refuse(table, -1, k, err, "stands twice, in column %d and in column %d",
-                               j + 1, k + 1));
+    TRY(check_names(table, err));
 
     // The decimal sign. first: the first cells with a point and with a comma.
     for (int32_t k = table->columns; k < (table->rows + 1) * table->columns; k++) {
@@ -468,7 +505,9 @@ static bool take_unit(const char *rest, CsvUnit *unit)
 void csv_split(const CsvTable *table, int32_t column, int32_t *name_length, CsvUnit *unit)
 {
     const char *name = csv_name(table, column), *end = name + strlen(name);
-    for (const char *at = name + 1; at < end; at++) {
+    // A unit is short, a name may be anybody's: what is behind each of its blanks is not looked at.
+    bool is_long = end - name > UNIT_BEHIND_MAX;
+    for (const char *at = is_long ? end - UNIT_BEHIND_MAX : name + 1; at < end; at++) {
         if (!strchr("/ \t([", *at) || !take_unit(at, unit)) continue;
         *name_length = (int32_t)(at - name);
         return;

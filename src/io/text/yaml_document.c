@@ -32,6 +32,7 @@ struct YamlDocument {
     int32_t size;   // of it, bytes
     YamlItem *nodes;   // [node_count] of node_capacity; owned
     int32_t node_count, node_capacity;
+    bool is_file;   // read by yaml_read
 };
 
 // --- errors that show the place -----------------------------------------------------------------
@@ -474,8 +475,16 @@ bool yaml_read(const char *path, YamlDocument **document, Error *err)
     *document = NULL;
     char *bytes = NULL;
     int32_t size = 0;
-    return text_file_bytes(path, YAML_BYTES_MAX, &bytes, &size, err) &&
-           parse_bytes(path, bytes, size, 0, document, err);
+    if (!text_file_bytes(path, YAML_BYTES_MAX, &bytes, &size, err) ||
+        !parse_bytes(path, bytes, size, 0, document, err))
+        return false;
+    (*document)->is_file = true;
+    return true;
+}
+
+bool yaml_is_file(const YamlDocument *document)
+{
+    return document->is_file;
 }
 
 // Frees a document that is half built, too.

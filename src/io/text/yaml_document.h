@@ -41,6 +41,8 @@ bool yaml_parse(const char *name, const char *text, int32_t skip, YamlDocument *
                 Error *err);
 void yaml_destroy(YamlDocument *document);   // NULL is fine
 
+// True if it was read from a file: false, it is text of the command line or of the program.
+bool yaml_is_file(const YamlDocument *document);
 YamlKind yaml_kind(const YamlDocument *document, YamlNode node);
 const char *yaml_text(const YamlDocument *document, YamlNode node);   // of a scalar, else ""
 bool yaml_is_quoted(const YamlDocument *document, YamlNode node);

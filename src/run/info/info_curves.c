@@ -9,6 +9,7 @@
 #include "friction/friction_start.h"
 #include "model/scene_mesh.h"
 #include "run/result/figure_file.h"
+#include "run/result/pictures.h"
 #include "scene/friction_file.h"
 #include "scene/friction_law.h"
 #include "scene/material_file.h"
@@ -61,7 +62,7 @@ static bool draw_curves(const char *title, const char *const axes[2][3], const C
     if (!error_is_clean(err))
         json_abandon(json);
     else if (json_finish(json, err))
-        amontons_render_plot_file(path, options->picture, &style, err);
+        pictures_draw_plot(path, options->picture, &style, err);
 cleanup:
     unlink(path);
     rmdir(folder);

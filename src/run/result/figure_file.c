@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "base/module.h"
 #include "io/files/folder.h"
+#include "run/result/pictures.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -57,7 +58,7 @@ bool figure_end(Figure *figure, Error *err)
     Error no_pictures = {0};   // in this build: the description stays, for one that has them
     if (!module_check("render", &no_pictures)) return true;
     return figure_path(figure, "json", path, err) && figure_path(figure, ending, picture, err) &&
-           amontons_render_plot_file(path, picture, figure->style, err);
+           pictures_draw_plot(path, picture, figure->style, err);
 }
 
 bool figure_write_numbers(Figure *figure, const char *key, const double *values, int32_t count,

@@ -66,13 +66,39 @@ bool amontons_render_result(const char *folder, const PictureRequest *request, E
     return pictures_check_folder(folder, err) && child_do(&work, err);
 }
 
+bool pictures_draw_plot(const char *plot, const char *picture, const PictureStyle *style,
+                        Error *err)
+{
+    RenderPlotFunction render =
+        (RenderPlotFunction)module_function("render", "amontons_render_plot", err);
+    return render && render(plot, picture, style, err);
+}
+
+typedef struct PlotRequest {
+    const char *plot, *picture;
+    const PictureStyle *style;
+} PlotRequest;
+
+static bool draw_plot_in_child(void *context, FILE *reply, Error *err)
+{
+    const PlotRequest *draw = context;
+    (void)reply;   // the picture is a file
+    return pictures_draw_plot(draw->plot, draw->picture, draw->style, err);
+}
+
+// A plot file names others, which may be histories: what is said of those above holds here.
 bool amontons_render_plot_file(const char *plot, const char *picture, const PictureStyle *style,
                                Error *err)
 {
     NUMBERS_HAVE_A_POINT;
-    RenderPlotFunction render =
-        (RenderPlotFunction)module_function("render", "amontons_render_plot", err);
-    return render && render(plot, picture, style, err);
+    PlotRequest draw = {plot, picture, style};
+    ChildWork work = {.path = plot,
+                      .reader = "HDF5",
+                      .seconds = SECONDS_MAX,
+                      .advice = "a file that it draws from is damaged",
+                      .read = draw_plot_in_child,
+                      .context = &draw};
+    return child_do(&work, err);
 }
 
 bool amontons_compare(const char *folder, const char *measured, const PictureStyle *style,

@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "io/files/folder.h"
+#include "io/files/open_file.h"
 #include "io/hdf5/array_file.h"
 #include "io/text/csv_reader.h"
 #include "io/text/json_reader.h"
@@ -232,6 +233,10 @@ static bool read_named(const Study *study, YamlNode node, Measurements *measured
     const char *given = yaml_text(study->file, node);
     if (yaml_kind(study->file, node) != YAML_SCALAR || !*given || strlen(given) >= SCENE_TEXT_SIZE)
         return yaml_refuse(study->file, node, "measured", "a table's path, or a list of them", err);
+    if (!open_check_named(given, err)) {
+        error_context(err, "%s: measured", study->path);
+        return false;
+    }
     folder_beside(study->path, given, path, sizeof path);   // there is room
     Table table = {.path = path};
     TRY(csv_read(path, &table.csv, err));

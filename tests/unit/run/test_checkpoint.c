@@ -313,6 +313,17 @@ TEST(test_of_other_versions)
     assert_false(amontons_state_read("/dev/null", &none, &err));
     assert_non_null(strstr(err.message, "/dev/null is a device, not a file"));
     assert_false(amontons_state_read("/proc/none/at/all", &none, &err));
+
+    // Larger than any memory, and all holes.
+    char place[PLACE_SIZE];
+    place_make(place);
+    place_write(place, "checkpoint.bin", "");
+    assert_int_equal(truncate(place_path(place, "checkpoint.bin"), (off_t)1 << 42), 0);
+    err = (Error){0};
+    assert_false(amontons_state_read(place_path(place, "checkpoint.bin"), &none, &err));
+    assert_int_equal(err.code, ERROR_INPUT);
+    assert_non_null(strstr(err.message, "more than the state of a run can have"));
+    place_remove(place);
     step(one, 5);
     amontons_state_free(&saved);
     amontons_simulation_destroy(one);

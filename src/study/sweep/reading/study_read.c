@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "io/files/folder.h"
+#include "io/files/open_file.h"
 #include "scene/formulas.h"
 #include "scene/keys.h"
 
@@ -434,6 +435,10 @@ bool study_read(const char *path, const char *const *overrides, int32_t override
         return yaml_error(
             study->file, YAML_ROOT, err,
             "scene: must be given: the scene that is varied, as in `scene: fig1.yaml`");
+    if (!open_check_named(scene, err)) {
+        error_context(err, "%s: scene", study->path);
+        return false;
+    }
     if (!folder_beside(study->path, scene, study->scene, sizeof study->scene))
         return REFUSE(err, "%s: the path of the scene is longer than 511 bytes", study->path);
 

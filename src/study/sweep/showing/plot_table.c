@@ -32,14 +32,15 @@ cleanup:
     return error_is_clean(err);
 }
 
-// *values: [table->count]; NULL where there is no such array.
+// *values: [table->count]; NULL where there is no such array. The first array says how many points
+// there are.
 static bool read_values(PlotTable *table, const char *name, double **values, Error *err)
 {
     int64_t rows = 0;
     int32_t width = 0;
     if (!array_file_has(table->file, name)) return true;
     if (!array_file_read(table->file, name, values, &rows, &width, err)) return false;
-    if (width != 1 || rows > INT32_MAX || (table->count > 0 && rows != table->count))
+    if (width != 1 || rows > INT32_MAX || (table->warned != *values && rows != table->count))
         return FAULT(err, ERROR_FILE, "%s: `%s` has not one number a point", table->path, name);
     table->count = (int32_t)rows;
     return true;
@@ -111,6 +112,16 @@ static const Quantity *find_column(PlotTable *table, const char *name, Error *er
         column->label = quantity_label(name, table->is_si);
         snprintf(place, sizeof place, "%.95s words", name);
         TRY(read_words(table, place, &column->words, err));
+        // A value is the index of a word. The file may be anybody's.
+        int32_t words = column->words.count;
+        for (int32_t k = 0; words > 0 && k < table->count; k++) {
+            double value = column->values[k];
+            if (isnan(value) || (value >= 0 && value < words && value == floor(value))) continue;
+            FAIL(err, ERROR_FILE,
+                 "%s: `%s` holds %g in row %d, and not the number of one of its %d words: the file "
+                 "is damaged; `amontons sweep` on its study writes it anew",
+                 table->path, name, value, k + 1, words);
+        }
         return column;
     }
 

@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "io/files/folder.h"
 #include "io/text/yaml_document.h"
+#include "run/result/pictures.h"
 #include "study/sweep/reading/study.h"
 #include "study/sweep/showing/sweep_plot.h"
 
@@ -52,7 +53,7 @@ static bool draw_in_child(void *context, FILE *reply, Error *err)
                      entry->d_name, ending) >= (int)sizeof picture)
             FAIL(err, ERROR_INPUT, "the path of the sweep is too long");
         TRY(folder_check_inside(draw->folder, path + strlen(draw->folder) + 1, err));
-        TRY(amontons_render_plot_file(path, picture, draw->style, err));
+        TRY(pictures_draw_plot(path, picture, draw->style, err));
     }
 cleanup:
     if (listing) closedir(listing);

@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "base/order.h"
 #include "io/files/folder.h"
+#include "io/files/open_file.h"
 #include "render/picture_options.h"
 #include "run/result/figure_file.h"
 #include "study/sweep/reading/study.h"
@@ -378,6 +379,7 @@ bool sweep_plot_draw(const char *folder, const char *beside, const StudyPlot *pl
                        .plot = plot,
                        .is_map = plot->text[PLOT_COLOR][0]};
     TRY(open_table(&self, folder, err));
+    if (beside) TRY(open_check_named(plot->compare, err));   // else of the command line
     if (plot->compare[0]) {
         if (!folder_beside(beside, plot->compare, compare, sizeof compare))
             FAIL(err, ERROR_INPUT, "plot: the path %.60s is too long", plot->compare);

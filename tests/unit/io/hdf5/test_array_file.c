@@ -439,6 +439,16 @@ TEST(what_others_wrote_is_checked)
     hid_t integers = H5Dcreate2(id, "integers", H5T_STD_I64BE, plane, 0, 0, 0);
     H5Dwrite(integers, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, 0, whole);
     H5Aclose(H5Acreate2(id, "list", H5T_NATIVE_INT, plane, 0, 0));
+    enum { UNITS = 500 };   // their pointers are more than the stack of a reader of one text has
+    const char *units[UNITS];
+    for (int32_t k = 0; k < UNITS; k++) units[k] = "si";
+    hid_t many = H5Screate_simple(1, (hsize_t[]){UNITS}, NULL), nothing = H5Screate(H5S_NULL);
+    hid_t texts = H5Tcopy(H5T_C_S1);
+    H5Tset_size(texts, H5T_VARIABLE);
+    hid_t attribute = H5Acreate2(id, "units", texts, many, 0, 0);
+    assert_true(H5Awrite(attribute, texts, units) >= 0);
+    H5Aclose(attribute), H5Aclose(H5Acreate2(id, "nothing", texts, nothing, 0, 0));
+    H5Tclose(texts), H5Sclose(many), H5Sclose(nothing);
     H5Dclose(integers), H5Tclose(text), H5Sclose(wide), H5Sclose(plane), H5Sclose(cube);
     H5Fclose(id);
 
@@ -461,6 +471,10 @@ TEST(what_others_wrote_is_checked)
     assert_error(&err, ERROR_FILE, "list", "no number");
     assert_false(array_file_get_text(file, "list", title, sizeof title, &err));
     assert_error(&err, ERROR_FILE, "list", "no text");
+    assert_false(array_file_get_text(file, "units", title, sizeof title, &err));
+    assert_error(&err, ERROR_FILE, "units", "no text");
+    assert_false(array_file_get_text(file, "nothing", title, sizeof title, &err));
+    assert_error(&err, ERROR_FILE, "nothing", "no text");
     assert_false(array_file_set_number(file, "length", 1, &err));
     assert_error(&err, ERROR_LIBRARY, "foreign.h5", "reading only");
     assert_true(array_file_close(file, &err));

@@ -74,14 +74,23 @@ static void fill_values(void)
     for (int64_t k = 0; k < (int64_t)ROWS * WIDTH; k++) values[k] = (double)(k * k % 1009) / 7;
 }
 
+static const ArraySeries ONE = {
+    .name = "a/scalar", .type = ARRAY_FLOAT64, .width = 1, .unit = "1", .description = ""};
+static const ArraySeries WIDE = {
+    .name = "wide", .type = ARRAY_FLOAT32, .width = WIDTH, .unit = "1", .description = ""};
+
 static void add_series(ArrayFile *file, Error *err)
 {
-    const ArraySeries one = {
-        .name = "a/scalar", .type = ARRAY_FLOAT64, .width = 1, .unit = "1", .description = ""};
-    const ArraySeries wide = {
-        .name = "wide", .type = ARRAY_FLOAT32, .width = WIDTH, .unit = "1", .description = ""};
-    assert_true(array_file_add_series(file, &one, err));
-    assert_true(array_file_add_series(file, &wide, err));
+    assert_true(array_file_add_series(file, &ONE, err));
+    assert_true(array_file_add_series(file, &WIDE, err));
+}
+
+static void take_up_and_cut(ArrayFile *file, int64_t kept, Error *err)
+{
+    assert_true(array_file_take_up(file, &ONE, 1, err));
+    assert_true(array_file_take_up(file, &WIDE, 1, err));
+    assert_true(array_file_cut(file, "a/scalar", kept, err));
+    assert_true(array_file_cut(file, "wide", kept, err));
 }
 
 static void append(ArrayFile *file, int64_t from, int64_t to, Error *err)
@@ -118,8 +127,7 @@ static void go_on(const char *path, int64_t kept, int64_t to)
     assert_true(array_file_remove(file, "end", &err));
     assert_true(array_file_remove(file, "answer", &err));
     assert_true(array_file_remove(file, "nothing", &err));
-    assert_true(array_file_cut(file, "a/scalar", kept, &err));
-    assert_true(array_file_cut(file, "wide", kept, &err));
+    take_up_and_cut(file, kept, &err);
     append(file, kept, to, &err);
     assert_true(array_file_close(file, &err));
 }
@@ -189,10 +197,7 @@ static void write_file(const char *path, const Course *course, int64_t kept, Err
     ArrayFile *file = kept < 0 ? array_file_create(path, err) : array_file_reopen(path, err);
     if (!file) fail_msg("%s", err->message);
     if (kept < 0) add_series(file, err);
-    if (kept >= 0) {
-        assert_true(array_file_cut(file, "a/scalar", kept, err));
-        assert_true(array_file_cut(file, "wide", kept, err));
-    }
+    if (kept >= 0) take_up_and_cut(file, kept, err);
     int64_t at = kept < 0 ? 0 : kept, end = course->rows;
     while (at < end) {
         int64_t next = at + course->flushed < end ? at + course->flushed : end;
@@ -336,11 +341,82 @@ TEST(test_refused)
     err = (Error){0};
     assert_true(array_file_close(file, &err));
     file = array_file_reopen(path, &err);
+    assert_false(array_file_cut(file, "a/scalar", 10, &err));   // not taken up
+    assert_int_equal(err.code, ERROR_FILE);
+    err = (Error){0};
+    assert_true(array_file_take_up(file, &ONE, 1, &err));
     assert_false(array_file_cut(file, "a/scalar", 11, &err));
     assert_non_null(strstr(err.message, "has 10 rows, 11 are to be kept"));
     err = (Error){0};
     assert_false(array_file_cut(file, "b", 1, &err));
     assert_int_equal(err.code, ERROR_FILE);
     array_file_abandon(file);
+    place_remove(place);
+}
+
+// A whole file with a hole behind it that is larger than any memory.
+TEST(test_larger_than_memory)
+{
+    Error err = {0};
+    char place[PLACE_SIZE], path[2 * PLACE_SIZE];
+    place_make(place);
+    assert_true(own_list_make(place, &err));
+    snprintf(path, sizeof path, "%s", place_path(place, "file.h5"));
+    ArrayFile *file = array_file_create(path, &err);
+    add_series(file, &err);
+    assert_true(array_file_close(file, &err));
+    assert_int_equal(truncate(path, (off_t)1 << 42), 0);
+    assert_null(array_file_reopen(path, &err));
+    assert_int_equal(err.code, ERROR_INPUT);
+    assert_non_null(strstr(err.message, "of memory for two copies"));
+    place_remove(place);
+}
+
+// A file may be anybody's: a series that is wider than the rows that are appended, or otherwise
+// another one, is not taken up.
+TEST(test_other_shapes)
+{
+    static const struct {
+        ArraySeries series;
+        int32_t components;
+        const char *wanted;
+    } cases[] = {
+        {{.name = "wide", .type = ARRAY_FLOAT32, .width = WIDTH - 1}, 1, "7 numbers a row, not 6"},
+        {{.name = "wide", .type = ARRAY_FLOAT32, .width = 1}, 1, "7 numbers a row, not 1"},
+        {{.name = "wide", .type = ARRAY_FLOAT32, .width = WIDTH}, WIDTH, "type or shape"},
+        {{.name = "wide", .type = ARRAY_FLOAT64, .width = WIDTH}, 1, "type or shape"},
+        {{.name = "wide", .type = ARRAY_INT32, .width = WIDTH}, 1, "type or shape"},
+        {{.name = "pairs", .type = ARRAY_FLOAT64, .width = 6}, 3, "type or shape"},
+        {{.name = "pairs", .type = ARRAY_FLOAT64, .width = 6}, 1, "type or shape"},
+        {{.name = "a/scalar", .type = ARRAY_FLOAT64, .width = 1000000}, 1, "1 numbers a row, not"},
+        {{.name = "a", .type = ARRAY_FLOAT64, .width = 1}, 1, "has no a"},
+        {{.name = "none", .type = ARRAY_FLOAT64, .width = 1}, 1, "has no none"}};
+    static const ArraySeries pairs = {
+        .name = "pairs", .type = ARRAY_FLOAT64, .width = 6, .unit = "1", .description = ""};
+    Error err = {0};
+    char place[PLACE_SIZE], path[2 * PLACE_SIZE];
+    place_make(place);
+    fill_values();
+    snprintf(path, sizeof path, "%s", place_path(place, "file.h5"));
+    int64_t live = memory_counters().live;
+    ArrayFile *file = array_file_create(path, &err);
+    add_series(file, &err);
+    assert_true(array_file_add_vectors(file, &pairs, 2, &err));
+    append(file, 0, 10, &err);
+    assert_true(array_file_append(file, "pairs", values, 10, &err));
+    assert_true(array_file_close(file, &err));
+    file = array_file_reopen(path, &err);
+    assert_non_null(file);
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+        assert_false(array_file_take_up(file, &cases[k].series, cases[k].components, &err));
+        if (!strstr(err.message, cases[k].wanted)) fail_msg("%s", err.message);
+        assert_non_null(strstr(err.message, "file.h5.part: "));
+        err = (Error){0};
+    }
+    take_up_and_cut(file, 5, &err);
+    assert_true(array_file_take_up(file, &pairs, 2, &err));
+    assert_false(array_file_take_up(file, &pairs, 2, &err));
+    array_file_abandon(file);
+    assert_int_equal(memory_counters().live, live);
     place_remove(place);
 }

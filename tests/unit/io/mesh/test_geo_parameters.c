@@ -183,6 +183,48 @@ TEST(test_shipped)
     }
 }
 
+// Files that keep the reader busy for ever if each place of them is gone over more than a few
+// times, as the clock of ctest tells: 2 MB each. Of what is included the files are counted.
+TEST(test_endless)
+{
+    static const struct {
+        const char *begin, *again, *end;
+    } cases[] = {{"a", " ", "b"},
+                 {"a", "\n", ""},
+                 {"a /", "*", "/ b"},
+                 {"DefineConstant[", "a,", "];"},
+                 {"", "DefineConstant[", ""},
+                 {"", "Include ", ""},
+                 {"", "Include/**/", ""}};
+    enum { SIZE = 1 << 21 };
+    char path[PATH_SIZE], include[20], *text = malloc(SIZE + 100);
+    assert_non_null(text);
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        Error err = {0};
+        GeoParameters known;
+        char *at = stpcpy(text, cases[k].begin);
+        while (at < text + SIZE) at = stpcpy(at, cases[k].again);
+        strcpy(at, cases[k].end);
+        write_file("long.geo", text, path);
+        assert_true(geo_parameters_read(path, &known, &err));
+        geo_parameters_destroy(&known);
+    }
+    for (char name[] = "0.geo"; *name < '8'; ++*name) {
+        char *at = text;
+        snprintf(include, sizeof include, "Include \"%c.geo\"\n", *name + 1);
+        for (int k = 0; k < 50; k++) at = stpcpy(at, include);
+        if (*name == '7') *text = 0;
+        write_file(name, text, path);
+    }
+    Error err = {0};
+    GeoParameters known;
+    write_file("top.geo", "Printf(Include \"0.geo\");\n", path);
+    assert_false(geo_parameters_read(path, &known, &err));
+    assert_non_null(strstr(err.message, "more than 1000 files are included"));
+    geo_parameters_destroy(&known);
+    free(text);
+}
+
 TEST(test_memory_faults)
 {
     char path[PATH_SIZE];

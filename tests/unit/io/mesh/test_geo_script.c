@@ -57,6 +57,36 @@ TEST(test_tenfold)
     place_remove(place);
 }
 
+// Texts that keep the reader busy for ever if a search begins at each of their words, as the clock
+// of ctest tells: 2 MB each.
+TEST(test_endless)
+{
+    static const char *const cases[] = {"x(",          "x[0](",  "x.",   "x~{", "DefineConstant[a,",
+                                        "Field[1",     "x~",     "(",    "{",   "x = ((",
+                                        "x = {1}; x(", "Max(1,", "View["};
+    enum { SIZE = 1 << 21 };
+    char place[PLACE_SIZE], *text = malloc(SIZE + 100);
+    place_make(place);
+    assert_non_null(text);
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        Error err = {0};
+        GeoScript script = {0};
+        char *at = text;
+        while (at < text + SIZE) at = stpcpy(at, cases[k]);
+        strcpy(at, ";\nx = 1;\n");
+        place_write(place, "a.geo", text);
+        geo_script_read(place_path(place, "a.geo"), &script, &err);   // refused or not
+        geo_script_destroy(&script);
+    }
+    char *at = text;
+    while (at < text + SIZE / 4) at = stpcpy(at, "Merge \"absent.step\";\n");
+    place_write(place, "a.geo", text);
+    GeoScript script = read_script(place);
+    geo_script_destroy(&script);
+    free(text);
+    place_remove(place);
+}
+
 // Itself: as deep as files may include each other.
 TEST(test_itself)
 {
@@ -103,6 +133,10 @@ TEST(test_refused)
         {"Merge \"x.py\";\n", "x.py"},
         {"Merge \"script.msh\";\n", "is no mesh"},
         {"Merge \"opted.step\";\n", "options beside it"},
+        {"v() = ShapeFromFile(1 Merge \"a.step\"; );\n", "`Merge` stands inside"},
+        {"v() = ShapeFromFile(ShapeFromFile(\"a.step\"));\n", "`ShapeFromFile` stands inside"},
+        {"v() = ShapeFromFile(1 Exit);\n", "`Exit` stands inside"},
+        {"v() = ShapeFromFile(Str(\"a\") Printf);\n", "`Printf` stands inside"},
         {"Include 'wild.geo';\n", "wild.geo:2: `SystemCall`"},
         {"Merge 'wild.geo';\n", "wild.geo:2: `SystemCall`"},
         {"If(0) s = \"EndIf SystemCall\"; EndIf\n", "holds a word that ends what gmsh skips"},
@@ -129,6 +163,80 @@ TEST(test_refused)
     fwrite("nx = 1;\0SystemCall", 1, 18, file);
     fclose(file);
     expect_refused(place, "is no text");
+    place_remove(place);
+}
+
+static void link_to(const char *place, const char *name, const char *target)
+{
+    unlink(place_path(place, name));
+    assert_int_equal(symlink(target, place_path(place, name)), 0);
+}
+
+// gmsh goes by the ending of the path that it is given and by what stands beside it. It is given
+// the path that was checked, and never the one that a link leads to.
+TEST(test_links)
+{
+    static const char *const targets[] = {"evil.geo", "r/x.step", "EndIf System\"x\".step"};
+    char place[PLACE_SIZE], wanted[2 * PLACE_SIZE];
+    place_make(place);
+    assert_int_equal(mkdir(place_path(place, "r"), 0777), 0);
+    place_write(place, "evil.geo", "SystemCall \"id\";\n");
+    place_write(place, "r/x.step", "ISO\n");
+    place_write(place, "r/x.step.opt", "SystemCall \"id\";\n");
+    place_write(place, targets[2], "ISO\n");
+    place_write(place, "a.geo", "Merge \"part.step\";\n");
+    for (size_t k = 0; k < sizeof targets / sizeof *targets; k++) {
+        link_to(place, "part.step", targets[k]);
+        GeoScript script = read_script(place);
+        snprintf(wanted, sizeof wanted, "\"%s/part.step\";", place);
+        if (!strstr(script.text, wanted)) fail_msg("%s\nlacks %s", script.text, wanted);
+        geo_script_destroy(&script);
+    }
+    link_to(place, "part.step.opt", "nowhere.opt");
+    expect_refused(place, "options beside it");
+
+    // A folder through a link: its real name, which would end an If, does not come into the text.
+    assert_int_equal(mkdir(place_path(place, "EndIf x"), 0777), 0);
+    link_to(place, "calm", "EndIf x");
+    place_write(place, "calm/b.geo", "v() = ShapeFromFile(\"a.step\");\n");
+    place_write(place, "a.geo", "If (0)\nInclude \"calm/b.geo\";\nEndIf\n");
+    GeoScript script = read_script(place);
+    assert_null(strstr(script.text, "EndIf x"));
+    assert_non_null(strstr(script.text, "calm/\""));
+    geo_script_destroy(&script);
+    place_remove(place);
+}
+
+// The folder of the script comes into the text, too. gmsh ends a string after 1023 bytes.
+TEST(test_folders)
+{
+    static const char *const texts[] = {"Merge \"a.step\";\n", "v() = ShapeFromFile(\"a.step\");\n",
+                                        "If (0) Include \"absent.geo\"; EndIf\n"};
+    char place[PLACE_SIZE], below[1500], part[200];
+    place_make(place);
+    for (int turn = 0; turn < 2; turn++) {
+        size_t length = (size_t)snprintf(below, sizeof below, "%s", place);
+        memset(part, 'x', sizeof part);
+        part[sizeof part - 1] = 0;
+        for (int k = 0; k < (turn == 0 ? 1 : 6); k++) {
+            length += (size_t)snprintf(below + length, sizeof below - length, "/%s",
+                                       turn == 0 ? "If Else System 'id'" : part);
+            assert_int_equal(mkdir(below, 0777), 0);
+        }
+        for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
+            Error err = {0};
+            GeoScript script = {0};
+            char path[1600];
+            snprintf(path, sizeof path, "%s/a.geo", below);
+            FILE *file = fopen(path, "w");
+            assert_non_null(file);
+            fputs(texts[k], file);
+            fclose(file);
+            assert_false(geo_script_read(path, &script, &err));
+            assert_int_equal(err.code, ERROR_INPUT);
+            geo_script_destroy(&script);
+        }
+    }
     place_remove(place);
 }
 

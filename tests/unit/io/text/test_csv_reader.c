@@ -7,6 +7,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -163,6 +164,52 @@ TEST(what_is_not_understood_is_told)
         assert_false(read_text(wrong[k].text, &table, &err));
         if (!strstr(err.message, wrong[k].words)) fail_msg("%s", err.message);
     }
+}
+
+// Texts that keep the reader busy for ever if each place of them is gone over more than a few
+// times, as the clock of ctest tells.
+TEST(long_rows_are_read_once)
+{
+    static const struct {
+        const char *begin, *again, *end;
+    } cases[] = {{"a", " ", "(b c"},         {"a", " ", "(b\n1 2\n"},  {"a", "\t", "b\n1\n"},
+                 {"a\n", "\t", "\n"},        {"a\t\"b", "\t", "\"\n"}, {"a", " [", "\n1\n"},
+                 {"a", " ", "b,c\n1,2\n"},   {"a", "/", "b,c\n1,2\n"}, {"a", " b", ",c\n1,2\n"},
+                 {"a,b", "(", ")\n1,2\n"},   {"", ",", "\n1\n"},       {"", "\"\"", ",c\n1,2\n"},
+                 {"# a", " ", "(b\n1 2 3\n"}};
+    enum { SIZE = 1 << 21, NAMES = 200000 };
+    char *text = malloc(12 * NAMES);
+    assert_non_null(text);
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        Error err = {0};
+        CsvTable table;
+        CsvUnit unit;
+        int32_t length = 0;
+        char *at = stpcpy(text, cases[k].begin);
+        while (at < text + SIZE) at = stpcpy(at, cases[k].again);
+        strcpy(at, cases[k].end);
+        if (!read_text(text, &table, &err)) continue;
+        for (int32_t column = 0; column < table.columns && column < 3; column++)
+            csv_split(&table, column, &length, &unit);
+        csv_destroy(&table);
+    }
+
+    // Many names, of which the last one stands twice, or none.
+    for (int32_t turn = 0; turn < 2; turn++) {
+        Error err = {0};
+        CsvTable table;
+        char *at = text;
+        for (int32_t k = 0; k < NAMES; k++) at += sprintf(at, "n%d,", (int)k);
+        strcpy(at, turn == 0 ? "n70000\n" : "last\n");
+        assert_int_equal(read_text(text, &table, &err), turn == 1);
+        if (turn == 1)
+            assert_int_equal(table.columns, NAMES + 1);
+        else
+            assert_non_null(strstr(err.message, "n70000 stands twice, in column 70001 and in "
+                                                "column 200001"));
+        csv_destroy(&table);
+    }
+    free(text);
 }
 
 TEST(units_behind_names)

@@ -3,6 +3,7 @@
 
 #include "cases.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -129,6 +130,25 @@ TEST(whole_numbers_have_no_ticks_between)
         if (ticks.step != floor(ticks.step) || minor != floor(minor))
             fail_msg("%g to %g: step %g of %d", ends[k][0], ends[k][1], ticks.step, ticks.minor);
     }
+}
+
+// The largest and smallest numbers there are: every tick is a number within the range.
+TEST(ends_of_all_numbers_get_ticks)
+{
+    const double ends[][2] = {{1e308, DBL_MAX},   {1e300, DBL_MAX}, {1.7e308, DBL_MAX},
+                              {DBL_MIN, 1e-307},  {5e-324, 1e-320}, {5e-324, DBL_MAX},
+                              {5e-324, 1.5e-323}, {0, 5e-324},      {-DBL_MAX, DBL_MAX}};
+    for (size_t k = 0; k < sizeof ends / sizeof *ends; ++k) {
+        double low = ends[k][0], high = ends[k][1];
+        Ticks all[] = {ticks_choose_thirds(low, high), ticks_choose_log(low, high, 5),
+                       ticks_choose(low, high, 5)};
+        for (size_t i = 0; i < 3; ++i) {
+            assert_in_range(all[i].count, 0, 2000);
+            for (int32_t tick = 0; tick < all[i].count; ++tick)
+                assert_true(isfinite(tick_value(&all[i], tick)));
+        }
+    }
+    assert_int_equal(ticks_choose_thirds(1e308, DBL_MAX).count, 1);
 }
 
 TEST(no_range_no_ticks)

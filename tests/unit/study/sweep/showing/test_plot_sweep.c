@@ -25,6 +25,8 @@ typedef struct Table {
     const char *name, *title, *columns;   // of the folder; NULL: left out
     int32_t pressures, lengths;   // a grid of points
     bool old;   // as an earlier version wrote it
+    double word;   // added to the numbers of words
+    bool unwarned;   // no row says whether a point is warned
 } Table;
 
 // mu_M is pressure + length, hold NaN where the pressure is 1, and where the length is 1 the run
@@ -40,7 +42,7 @@ static void write_table(Table table)
         for (int32_t i = 0; i < table.pressures; i++, count++) {
             pressure[count] = i + 1;
             length[count] = j + 1;
-            kind[count] = j % 2;
+            kind[count] = j % 2 + table.word;
             mu[count] = i + j + 2;
             hold[count] = i == 0 ? NAN : 0.5 * (i + j);
             warned[count] = j == 0;
@@ -63,7 +65,7 @@ static void write_table(Table table)
     add_column(file, "result/mu_M_error", error, count);
     add_column(file, "result/mu_hold", hold, count);
     add_column(file, "result/short", mu, count - 1);
-    if (!table.old) add_column(file, "result/warned", warned, count);
+    if (!table.old) add_column(file, "result/warned", warned, table.unwarned ? 0 : count);
     if (!array_file_close(file, &err)) fail_msg("%s", err.message);
 }
 
@@ -161,15 +163,33 @@ TEST(test_refused)
     assert_refused("many", "{x: load.pressure, y: mu_M, series: mesh.set.length}", "too many");
 }
 
+// What would become an index is looked at, as the table may be anybody's.
+TEST(test_indices)
+{
+    static const char *const names[] = {"beyond", "behind", "before", "between"};
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
+        assert_refused(names[k], "{x: load.pressure, y: mu_M, series: rod.kind}",
+                       "not the number of one of its 2 words");
+        assert_refused(names[k], "{x: load.pressure, y: mu_M, panels: rod.kind}",
+                       "not the number of one of its 2 words");
+    }
+    assert_refused("unwarned", "{x: load.pressure, y: mu_M}", "has not one number a point");
+}
+
 FIXTURE(make)
 {
     static const char columns[] = "load.pressure|mesh.set.length|rod.kind|mu_M|mu_hold|short";
     place_make(place);
-    write_table((Table){"one", "First", columns, 3, 2, false});
-    write_table((Table){"untitled", NULL, NULL, 3, 2, false});
-    write_table((Table){"old", "Old", columns, 3, 2, true});
-    write_table((Table){"many", "Many", columns, 2, 17, false});
-    write_table((Table){"large", "Large", columns, 60, 50, false});
+    write_table((Table){"one", "First", columns, 3, 2, .old = false});
+    write_table((Table){"untitled", NULL, NULL, 3, 2, .old = false});
+    write_table((Table){"old", "Old", columns, 3, 2, .old = true});
+    write_table((Table){"many", "Many", columns, 2, 17, .old = false});
+    write_table((Table){"large", "Large", columns, 60, 50, .old = false});
+    write_table((Table){"beyond", "Words", columns, 3, 2, .old = false, .word = 1e6});
+    write_table((Table){"behind", "Words", columns, 3, 2, .old = false, .word = 1});
+    write_table((Table){"before", "Words", columns, 3, 2, .old = false, .word = -1});
+    write_table((Table){"between", "Words", columns, 3, 2, .old = false, .word = 0.5});
+    write_table((Table){"unwarned", "Words", columns, 3, 2, .old = false, .unwarned = true});
     mkdir(place_path(place, "none"), 0777);
     return 0;
 }
