@@ -102,7 +102,8 @@ class Links(unittest.TestCase):
 
     def test_folders_of_a_sweep_lie_inside(self):
         point = next((self.folder / "many/points").iterdir()).name
-        for name in ("points", f"points/{point}", "figures", "slurm"):
+        inside = ("", "/run.json", "/checkpoint.bin", "/history.h5")
+        for name in ("points", *(f"points/{point}{file}" for file in inside), "figures", "slurm"):
             for more in ([], ["--fresh"], ["--retry"]):
                 with self.subTest(name=name, more=more):
                     shutil.rmtree(self.folder / "many")

@@ -170,10 +170,14 @@ const char *point_status_name(PointStatus status)
 
 bool point_check_place(const Sweep *sweep, int32_t point, Error *err)
 {
+    const char *const files[] = {RUN_REPORT, CHECKPOINT,
+                                 "history.h5"};   // a fit reads the last one
     char name[POINT_PATH_SIZE];
-    if (sweep->reports.open) return true;
-    snprintf(name, sizeof name, "points/%s/%s", sweep->points[point].hash, RUN_REPORT);
-    return folder_check_inside(sweep->folder, name, err);
+    for (int k = 0; k < 3 && !sweep->reports.open; k++) {
+        snprintf(name, sizeof name, "points/%s/%s", sweep->points[point].hash, files[k]);
+        if (!folder_check_inside(sweep->folder, name, err)) return false;
+    }
+    return true;
 }
 
 // run.json, which alone makes a point finished; anew: and what it could be gone on with from. The

@@ -78,7 +78,8 @@ typedef struct PointValue {
 PointValue point_value(const char *report, const char *path);
 PointStatus point_status(const char *report);   // of a run.json, or NULL
 const char *point_status_name(PointStatus status);   // "pending"; static storage
-// Checks that the point's folder and its run.json lie in the sweep's own: no link leads elsewhere.
+// Checks that the point's folder, and what is read from it, lie in the sweep's own: no link leads
+// elsewhere.
 bool point_check_place(const Sweep *sweep, int32_t point, Error *err);
 // Removes run.json and, with `anew`, the checkpoint. ERROR_INPUT: one is there and not ours.
 bool point_remove(Sweep *sweep, int32_t point, bool anew, Error *err);
