@@ -33,16 +33,13 @@ static const char ASIDE[] = "amontons.aside", EARLIER[] = "amontons.earlier",
 static const char *const ENDINGS[] = {"", ".part", ".part.part"};
 enum { ENDING_COUNT = sizeof ENDINGS / sizeof *ENDINGS };
 
-// Moves the file `name` from one folder into another, or for good where `to` is negative. What is
-// not there is no failure, and a folder is no file that a list could name.
-static bool move_file(int from, const char *name, int to, const char *folder, Error *err)
+// Moves `name` of the folder `from` to `to_name` of `to` (AT_FDCWD: they are paths), or for good
+// where that is empty. What is not there is no failure.
+static bool move_entry(int from, const char *name, int to, const char *to_name, Error *err)
 {
-    struct stat status;
-    if (fstatat(from, name, &status, AT_SYMLINK_NOFOLLOW) == 0 && S_ISDIR(status.st_mode))
-        return true;
-    int failed = to >= 0 ? renameat(from, name, to, name) : unlinkat(from, name, 0);
+    int failed = *to_name ? renameat(from, name, to, to_name) : unlinkat(from, name, 0);
     if (failed && errno != ENOENT)
-        return FAULT(err, ERROR_FILE, "cannot remove the earlier result %s/%s: %s", folder, name,
+        return FAULT(err, ERROR_FILE, "cannot remove the earlier result %s: %s", name,
                      strerror(errno));
     return true;
 }
@@ -69,7 +66,12 @@ static bool move_listed(const char *list, const char *from, const char *to, Erro
 
         for (int k = 0; k < ENDING_COUNT; k++) {
             snprintf(file, sizeof file, "%s%s", last, ENDINGS[k]);
-            TRY(move_file(source, file, target, from, err));
+            struct stat status;   // a folder is no file that a list could name
+            bool is_folder = fstatat(source, file, &status, AT_SYMLINK_NOFOLLOW) == 0 &&
+                             S_ISDIR(status.st_mode);
+            if (is_folder || move_entry(source, file, target, *to ? file : "", err)) continue;
+            error_context(err, "%s", from);
+            goto cleanup;
         }
         close(source);
         if (target >= 0) close(target);
@@ -84,22 +86,12 @@ cleanup:
     return error_is_clean(err);
 }
 
-// `to` empty: it is removed. What is not there is no failure.
-static bool move_path(const char *from, const char *to, Error *err)
-{
-    int failed = *to ? rename(from, to) : unlink(from);
-    if (failed && errno != ENOENT)
-        return FAULT(err, ERROR_FILE, "cannot remove the earlier result %s: %s", from,
-                     strerror(errno));
-    return true;
-}
-
 static bool move_list(const char *from, const char *to, Error *err)
 {
     char path[PATH_SIZE], target[PATH_SIZE] = "";
     snprintf(path, sizeof path, "%s/" OWN_LIST_NAME, from);
     if (*to) snprintf(target, sizeof target, "%s/" OWN_LIST_NAME, to);
-    return move_path(path, target, err);
+    return move_entry(AT_FDCWD, path, AT_FDCWD, target, err);
 }
 
 static bool rename_aside(const char *folder, const char *from, const char *to, Error *err)
@@ -107,7 +99,7 @@ static bool rename_aside(const char *folder, const char *from, const char *to, E
     char path[PATH_SIZE], target[PATH_SIZE];
     snprintf(path, sizeof path, "%s/%s", folder, from);
     snprintf(target, sizeof target, "%s/%s", folder, to);
-    return move_path(path, target, err);
+    return move_entry(AT_FDCWD, path, AT_FDCWD, target, err);
 }
 
 // Empties folder/name into `to`, or for good, and removes it. Its list is there, or still, or
