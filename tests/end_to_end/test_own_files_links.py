@@ -55,19 +55,19 @@ class Links(unittest.TestCase):
         self.folder = Path(tempfile.mkdtemp(prefix="amontons_links_"))
         self.addCleanup(shutil.rmtree, self.folder)
         shutil.copytree(self.stock, self.folder, dirs_exist_ok=True, ignore=shutil.ignore_patterns("cache"))
-        self.home = self.folder / "home"
-        cases.put(self.home, {"keys": "mine", "netrc": SECRET + "\n", "run.json": '{"name": "mine"}', "force.png": "mine",
+        self.elsewhere = self.folder / "elsewhere"
+        cases.put(self.elsewhere, {"keys": "mine", "netrc": SECRET + "\n", "run.json": '{"name": "mine"}', "force.png": "mine",
                               "force.csv": "mine", "share-0.points": "mine", LIST: "# a list\nrun.json\nforce.png\nforce.csv\nkeys\n"})
-        self.before = self.at_home()
+        self.before = self.all_elsewhere()
 
-    def at_home(self):
-        return {path.relative_to(self.home): path.read_bytes() for path in self.home.rglob("*") if path.is_file()}
+    def all_elsewhere(self):
+        return {path.relative_to(self.elsewhere): path.read_bytes() for path in self.elsewhere.rglob("*") if path.is_file()}
 
     def refused(self, *words, says=IS_LINK):
         """The command ends with status 2 and says why; the user's folder is as it was."""
         done = subprocess.run([PROGRAM, *words], cwd=self.folder, env=os.environ | self.cache, stdin=subprocess.DEVNULL,
                               capture_output=True, text=True, timeout=120)
-        self.assertEqual(self.at_home(), self.before, words)
+        self.assertEqual(self.all_elsewhere(), self.before, words)
         self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
         self.assertIn(says, done.stderr)
 
@@ -77,7 +77,7 @@ class Links(unittest.TestCase):
         if path.is_dir() and not path.is_symlink():
             shutil.rmtree(path)
         path.unlink(missing_ok=True)
-        path.symlink_to(target or self.home)
+        path.symlink_to(target or self.elsewhere)
 
     def test_files_set_aside_are_put_back_inside(self):
         """The first command of whoever was sent a scene with its result beside it."""
@@ -95,8 +95,8 @@ class Links(unittest.TestCase):
                 if words[0] == "compare":
                     (self.folder / "seen.csv").write_text("U,F_T/F_N\n4e-4,0.1\n")
                 self.refused(*words)
-        shutil.copy(self.folder / "many/figures/plot.json", self.home)   # of a sweep each is drawn beside itself
-        self.before = self.at_home()
+        shutil.copy(self.folder / "many/figures/plot.json", self.elsewhere)   # of a sweep each is drawn beside itself
+        self.before = self.all_elsewhere()
         self.linked("many/figures")
         self.refused("render", "many")
 
@@ -110,8 +110,8 @@ class Links(unittest.TestCase):
                     shutil.copytree(self.stock / "many", self.folder / "many")
                     self.linked(f"many/{name}")
                     if name == "points":
-                        shutil.copytree(self.stock / f"many/points/{point}", self.home / point, dirs_exist_ok=True)
-                        self.before = self.at_home()
+                        shutil.copytree(self.stock / f"many/points/{point}", self.elsewhere / point, dirs_exist_ok=True)
+                        self.before = self.all_elsewhere()
                     self.refused(*SWEEP, *more)
         self.linked("many/slurm")
         self.refused("sweep", "table.yaml", "-o", "many", "-q")   # which looks for shares, and removes them
@@ -134,16 +134,16 @@ class Links(unittest.TestCase):
                 shutil.copytree(self.stock / "many", self.folder / "many")
                 if name == "figures/best.png":
                     (self.folder / "many/answer.txt").write_text("best")
-                self.linked(f"many/{name}", None if name == "figures" else self.home / "netrc")
+                self.linked(f"many/{name}", None if name == "figures" else self.elsewhere / "netrc")
                 self.refused("report", "many")
                 self.assertFalse((self.folder / "many/report.html").exists())
         for name in ("run.json", "history.h5", "fields", "fields.pvd"):
-            self.linked(f"out/{name}", self.home if name == "fields" else self.home / "netrc")
+            self.linked(f"out/{name}", self.elsewhere if name == "fields" else self.elsewhere / "netrc")
             self.refused("report", "out")
             (self.folder / "out" / name).unlink()
 
     def test_a_figure_of_a_page_lies_inside(self):
-        self.linked("many/figures/a.json", self.home / "netrc")
+        self.linked("many/figures/a.json", self.elsewhere / "netrc")
         self.words(self.folder, "report", "many")
         page = (self.folder / "many/report.html").read_text()
         self.assertNotIn("hunter2", page)
@@ -151,10 +151,10 @@ class Links(unittest.TestCase):
 
     def test_tables_of_a_figure_lie_inside(self):
         """Absolute, above the folder, and through a link; that of the sweep is drawn."""
-        shutil.copy(self.folder / "many/sweep.h5", self.home / "own.h5")
-        self.linked("many/near.h5", self.home / "own.h5")
+        shutil.copy(self.folder / "many/sweep.h5", self.elsewhere / "own.h5")
+        self.linked("many/near.h5", self.elsewhere / "own.h5")
         column = "result/results.mu_max"
-        for table, good in (("../sweep.h5", True), (str(self.home / "own.h5"), False), ("../../home/own.h5", False), ("../near.h5", False)):
+        for table, good in (("../sweep.h5", True), (str(self.elsewhere / "own.h5"), False), ("../../elsewhere/own.h5", False), ("../near.h5", False)):
             with self.subTest(table):
                 data = f"{table}:{column}"
                 (self.folder / "many/figures/plot.json").write_text(json.dumps({"x": {"label": "a"}, "y": {"label": "b"}, "series": [{"x": data, "y": data}]}))
@@ -162,7 +162,7 @@ class Links(unittest.TestCase):
                 page = (self.folder / "many/report.html").read_text()
                 self.assertEqual("leads out of" in page or "is a symbolic link" in page, not good)
                 self.assertEqual("The points of the sweep." in page, good)
-        (self.folder / "plot.yaml").write_text(f"x: {{label: a}}\ny: {{label: b}}\nseries: [{{x: 'home/own.h5:{column}', y: 'home/own.h5:{column}'}}]\n")
+        (self.folder / "plot.yaml").write_text(f"x: {{label: a}}\ny: {{label: b}}\nseries: [{{x: 'elsewhere/own.h5:{column}', y: 'elsewhere/own.h5:{column}'}}]\n")
         self.words(self.folder, "render", "plot.yaml")   # a file that the user names may name any
 
     def test_measurements_of_a_sweep_stay_in_its_page(self):
@@ -188,12 +188,12 @@ class Links(unittest.TestCase):
             self.refused("report", "many", says="leads out of")
 
     def test_what_else_reads_a_result(self):
-        self.linked("out/run.json", self.home / "netrc")
+        self.linked("out/run.json", self.elsewhere / "netrc")
         self.refused("info", "out")
-        self.linked("out/history.h5", self.home / "netrc")
+        self.linked("out/history.h5", self.elsewhere / "netrc")
         for words in (["render", "out"], ["film", "out", "--seconds", "0.1"]):
             self.refused(*words)
-        self.linked("many/sweep.h5", self.home / "netrc")
+        self.linked("many/sweep.h5", self.elsewhere / "netrc")
         self.refused("render", "many", "--plot", "{x: load.pressure, y: results.mu_max, name: two}")
 
     def test_a_folder_that_is_a_link_serves_as_before(self):
@@ -221,18 +221,18 @@ class Links(unittest.TestCase):
 
         show = "print(result._repr_html_().count('<img'), result._repr_png_())"
         self.assertTrue(python(show).stdout.startswith("1 b'"), python(show).stderr)
-        self.linked("out/figures/force.png", self.home / "netrc")
+        self.linked("out/figures/force.png", self.elsewhere / "netrc")
         self.assertEqual(python(show).stdout, "0 None\n")
-        shutil.copytree(self.stock / "out/figures", self.home / "figures")
+        shutil.copytree(self.stock / "out/figures", self.elsewhere / "figures")
         shutil.rmtree(pictures)
-        pictures.symlink_to(self.home / "figures")
+        pictures.symlink_to(self.elsewhere / "figures")
         self.assertEqual(python(show).stdout, "0 None\n")
         self.assertIn("bulk_000000.vtu", python("print(result.fields[0].bulk)").stdout)
-        for name in ("../home/bulk.vtu", str(self.home / "bulk.vtu")):
+        for name in ("../elsewhere/bulk.vtu", str(self.elsewhere / "bulk.vtu")):
             (self.folder / "out/fields.pvd").write_text(f'<VTKFile><DataSet timestep="0" file="{name}"/></VTKFile>')
             self.assertIn("leads out of out", python("result.fields").stderr)
         for name, line in (("run.json", "result.report"), ("history.h5", "result.history"), ("fields.pvd", "result.fields")):
-            self.linked(f"out/{name}", self.home / "netrc")
+            self.linked(f"out/{name}", self.elsewhere / "netrc")
             self.assertIn(IS_LINK, python(line).stderr)
 
 

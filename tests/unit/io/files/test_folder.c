@@ -132,10 +132,10 @@ TEST_BETWEEN(test_folders_are_made_inside, begin, end)
     Error err = {0};
     char elsewhere[PLACE_SIZE], root[PLACE_SIZE + 32];
     place_make(elsewhere);
-    snprintf(root, sizeof root, "%s/new/root", place);
+    snprintf(root, sizeof root, "%s/new/outer", place);
     assert_true(folder_make_inside(root, "points/0", &err));
     assert_true(folder_make_inside(root, "points/0", &err));   // it is there
-    assert_true(place_has(place, "new/root/points/0"));
+    assert_true(place_has(place, "new/outer/points/0"));
     assert_int_equal(symlink(elsewhere, place_path(place, "figures")), 0);
     place_write(place, "file", "x");
     static const char *const wrong[] = {"figures", "figures/below", "../out", "file", "file/below"};

@@ -163,7 +163,7 @@ TEST(test_refused)
     assert_refused("many", "{x: load.pressure, y: mu_M, series: mesh.set.length}", "too many");
 }
 
-// What would become an index is looked at, as the table may be anybody's.
+// All that would become an index is looked at, as the table may be anybody's.
 TEST(test_indices)
 {
     static const char *const names[] = {"beyond", "behind", "before", "between"};
